@@ -1,7 +1,7 @@
 # What accuracy costs in time: runs, tables, figures and pages. An interrupted bench goes on where it stopped
 
-# The parts in their order; BENCH_PARTS="run.py" makes one again. The front page finds the references of the others, and lists
-# them at the end
+# The parts in their order; BENCH_PARTS="run.py" makes one again. The front page finds the references of the others, and
+# lists them at the end
 BENCH_PARTS ?= front.py elements/choice.py elements/sharp.py run.py calculix.py effects.py front.py
 BENCH_FOLDER ?= build/bench
 
@@ -10,7 +10,8 @@ BENCH_FOLDER ?= build/bench
 # A part that fails does not keep the others from being made
 define make_bench
 @failed=; for part in $(1); do echo "== share/bench/$$part $(2)"; date +%T; \
-  $(PYTHON) -B share/bench/$$part --folder $(BENCH_FOLDER) $$([ $$part != run.py ] || echo $(2)) || failed="$$failed $$part"; done; date +%T; \
+  $(PYTHON) -B share/bench/$$part --folder $(BENCH_FOLDER) $$([ $$part != run.py ] || echo $(2)) || \
+    failed="$$failed $$part"; done; date +%T; \
   [ -z "$$failed" ] || { echo "bench: these parts failed:$$failed"; exit 1; }
 endef
 

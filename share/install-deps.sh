@@ -3,7 +3,8 @@
 # Silent and quick where nothing is missing. What apt says goes to a file, whose end is shown when it fails.
 set -u
 
-# PETSc through PETSC_DIR is the user's own: then only the harness and the other libraries are asked for, and petsc4py is not
+# PETSc through PETSC_DIR is the user's own: then only the harness and the other libraries are asked for, and petsc4py
+# is not
 if [ -n "${PETSC_DIR:-}" ]; then
   PKG_CONFIG_PATH=$PETSC_DIR/${PETSC_ARCH:-}/lib/pkgconfig:${PKG_CONFIG_PATH:-}
   export PKG_CONFIG_PATH
@@ -35,10 +36,12 @@ have_module() { $python -c "import importlib.util as u, sys; sys.exit(u.find_spe
 missing() {
   have pkg-config || echo "pkg-config"
   have mpicc && have mpiexec || echo "an MPI with its compiler wrapper"
-  pkg-config --exists PETSc 2>/dev/null || echo "PETSc >= 3.18 with hypre, MUMPS and HDF5 (set PETSC_DIR and PETSC_ARCH)"
+  pkg-config --exists PETSc 2>/dev/null ||
+    echo "PETSc >= 3.18 with hypre, MUMPS and HDF5 (set PETSC_DIR and PETSC_ARCH)"
   have_harness || echo "PETSc's examples with config/gmakegentest.py"
   for header in metis.h yaml.h hdf5.h; do
-    cflags=$(pkg-config --cflags PETSc hdf5-openmpi 2>/dev/null || pkg-config --cflags PETSc hdf5 2>/dev/null || pkg-config --cflags PETSc 2>/dev/null)
+    cflags=$(pkg-config --cflags PETSc hdf5-openmpi 2>/dev/null || pkg-config --cflags PETSc hdf5 2>/dev/null \
+      || pkg-config --cflags PETSc 2>/dev/null)
     # shellcheck disable=SC2086
     echo "#include <$header>" | "${CC:-mpicc}" $cflags -E - >/dev/null 2>&1 || echo "$header"
   done
@@ -83,7 +86,8 @@ fi
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 apt() {
-  $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@" >"$log" 2>&1 || { tail -n 5 "$log" >&2; return 1; }
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@" >"$log" 2>&1 ||
+    { tail -n 5 "$log" >&2; return 1; }
 }
 
 echo "Installing: $(echo "$lacking" | paste -sd, | sed 's/,/, /g')"

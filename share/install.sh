@@ -1,6 +1,7 @@
 #!/bin/sh
 # Usage: install.sh ROOT < lines "MODE FILE TARGET", TARGET relative to ROOT; MODE link: a symbolic link of that content
-# Takes away what an earlier install left, then installs. ROOT/share/amgf/installed lists what it made, folders too, for uninstall.sh.
+# Takes away what an earlier install left, then installs. ROOT/share/amgf/installed lists what it made, folders too, for
+# uninstall.sh.
 set -eu
 root=$1
 list=share/amgf/installed

@@ -21,12 +21,16 @@ petsc_libdir := $(call pkg_config,--variable=libdir PETSc)
 PETSC_LIBS   := $(call pkg_config,--libs PETSc) $(if $(petsc_libdir),-Wl$(comma)-rpath$(comma)$(petsc_libdir))
 
 # Not empty where PETSc's scalars are complex
-PETSC_COMPLEX := $(shell grep -ls 'define PETSC_USE_COMPLEX' $(addsuffix /petscconf.h,$(patsubst -I%,%,$(filter -I%,$(PETSC_CFLAGS))) $(call pkg_config,--variable=includedir PETSc)) /dev/null)
+PETSC_COMPLEX := $(shell grep -ls 'define PETSC_USE_COMPLEX' \
+                 $(addsuffix /petscconf.h,$(patsubst -I%,%,$(filter -I%,$(PETSC_CFLAGS))) \
+                 $(call pkg_config,--variable=includedir PETSc)) /dev/null)
 
-# petscviewerhdf5.h includes hdf5.h, which must be the one of PETSc's MPI; a library beside PETSc's own is the one that it uses
+# petscviewerhdf5.h includes hdf5.h, which must be the one of PETSc's MPI; a library beside PETSc's own is the one that
+# it uses
 mpi_name     := $(if $(findstring Open MPI,$(shell mpiexec --version 2>/dev/null)),openmpi,mpich)
 HDF5_CFLAGS  := $(or $(call pkg_config,--cflags hdf5-$(mpi_name)),$(call pkg_config,--cflags hdf5))
-HDF5_LIBS    := $(if $(wildcard $(petsc_libdir)/libhdf5.*),-lhdf5,$(or $(call pkg_config,--libs hdf5-$(mpi_name)),$(call pkg_config,--libs hdf5),-lhdf5))
+HDF5_LIBS    := $(if $(wildcard $(petsc_libdir)/libhdf5.*),-lhdf5, \
+                $(or $(call pkg_config,--libs hdf5-$(mpi_name)),$(call pkg_config,--libs hdf5),-lhdf5))
 # What a program of the mechanics library links beside PETSc
 CONTACT_LIBS := $(HDF5_LIBS) -lmetis -lyaml -lm
 

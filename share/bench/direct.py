@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Prints a table: scenes solved with AMG and with one factorization of the stiffness by MUMPS, user CPU time and memory on one rank.
+"""Prints a table: scenes solved with AMG and with one factorization of the stiffness by MUMPS, user CPU time and memory
+on one rank.
 
     share/bench/direct.py [SCENE=REFINE ...]      by default three sizes of hertz_sphere and of two_block
 
-CPU time is the child's own, so other work on the machine shifts it by some tens of per cent; ratios of a pair shift less.
+CPU time is the child's own, so other work on the machine shifts it by some tens of per cent; ratios of a pair shift
+less.
 """
 import json
 import os
@@ -38,7 +40,10 @@ def main():
             scene, refine = case.split("=")
             dofs, amg, amg_memory = run(scene, refine, "false", folder)
             _, mumps, mumps_memory = run(scene, refine, "true", folder)
-            row = [f"{scene} {refine}", f"{dofs:,}", f"{amg:.1f}", f"{mumps:.1f}", f"{amg_memory:,.0f}", f"{mumps_memory:,.0f}"]
+            row = [
+                f"{scene} {refine}", f"{dofs:,}", f"{amg:.1f}", f"{mumps:.1f}", f"{amg_memory:,.0f}",
+                f"{mumps_memory:,.0f}"
+            ]
             print("| " + " | ".join(row) + " |", flush=True)
 
 

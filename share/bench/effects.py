@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Cost of effects that a scene does not use: effects.md. Compares a scene that contains the keys of an effect, with values that switch it
-off, with a scene without these keys, by the number of instructions that valgrind counts, and by peak memory.
+"""Cost of effects that a scene does not use: effects.md. Compares a scene that contains the keys of an effect, with
+values that switch it off, with a scene without these keys, by the number of instructions that valgrind counts, and by
+peak memory.
 
     share/bench/effects.py [--refine 1] [--only EFFECT] [--folder build/bench]
 
-Counts of instructions are reproducible to 0.1 %, whatever else the machine does. Therefore one run each is sufficient, and runs go on all
-cores at once.
+Counts of instructions are reproducible to 0.1 %, whatever else the machine does. Therefore one run each is sufficient,
+and runs go on all cores at once.
 """
 import argparse
 import concurrent.futures
@@ -22,8 +23,10 @@ from runner import execute, last_words, read_summary
 from store import CONTACT, source_version
 
 PLAIN = """bodies:
-  - lower: {shape: box, lower: [0, 0, 0], upper: [4, 4, 2], cells: [8, 8, 4], young: 1, poisson: 0.3, element: full%(body)s}
-  - upper: {shape: box, lower: [1, 1, 2], upper: [3, 3, 4], cells: [4, 4, 4], young: 1, poisson: 0.3, element: full%(body)s}
+  - lower: {shape: box, lower: [0, 0, 0], upper: [4, 4, 2], cells: [8, 8, 4], young: 1, poisson: 0.3,
+            element: full%(body)s}
+  - upper: {shape: box, lower: [1, 1, 2], upper: [3, 3, 4], cells: [4, 4, 4], young: 1, poisson: 0.3,
+            element: full%(body)s}
 displacements:
   - bottom: {face: lower.zmin, value: [0, 0, 0]}
   - foot: {face: upper.zmin, value: [0, 0, 0]}
@@ -32,7 +35,8 @@ displacements:
 
 # effect: (what remains in a body, what remains in the file) when it is switched off
 EFFECTS = {
-    "contact": ("", "faces:\n  - patch: {of: lower.zmax, lower: [1, 1, -inf], upper: [3, 3, inf]}\ncontact_updates: 5\n"),
+    "contact": ("",
+                "faces:\n  - patch: {of: lower.zmax, lower: [1, 1, -inf], upper: [3, 3, inf]}\ncontact_updates: 5\n"),
     "finite strain": (", material: linear", "model: energy\n"),
     "pressure": ("", "ramps:\n  - blow: {factors: [1]}\nload: {steps: 1}\n"),
     "body force": ("", "ramps:\n  - weight: {factors: [1]}\nload: {steps: 1}\n"),
@@ -52,18 +56,18 @@ EFFECTS = {
     "AMG filter": ("", "solver: {tao_ipfilter_filter_switch: 10}\n"),
     "inertia": (", density: 1", ""),
     "plasticity": ("", "materials:\n  - metal: {law: j2, young: 1, poisson: 0.3, yield: 0.01, hardening: 0.1}\n"
-                       "  - deformed: {law: j2_finite, young: 1, poisson: 0.3, yield: 0.01}\n"),
+                   "  - deformed: {law: j2_finite, young: 1, poisson: 0.3, yield: 0.01}\n"),
 }
 # effect: options, without which it is off too
 OPTIONS = {"checkpoints": ["-checkpoint_every", "0"]}
-
 
 NEVER = "no effect"
 LIMIT = 600  # seconds of a run
 
 
 def count(name, text, options, args):
-    """Instructions [1e6], peak memory [MB], unknowns; in their place why there are none. Kept until scene or sources change"""
+    """Instructions [1e6], peak memory [MB], unknowns; in their place why there are none. Kept until scene or sources
+    change"""
     base = os.path.join(args.kept, re.sub(r"\W+", "_", name))
     key = hashlib.sha256("\0".join((source_version(), text, str(args.refine), *options)).encode()).hexdigest()[:16]
     if os.path.exists(base + ".kept"):
@@ -73,10 +77,13 @@ def count(name, text, options, args):
             return record["result"]
     with open(base + ".yaml", "w") as file:
         file.write(text)
-    result = measure(base, [CONTACT, base + ".yaml", "-quiet", "-refine", str(args.refine), "-summary", base + ".json", *options])
+    result = measure(
+        base, [CONTACT, base + ".yaml", "-quiet", "-refine",
+               str(args.refine), "-summary", base + ".json", *options])
     with open(base + ".kept", "w") as file:
         json.dump({"key": key, "result": result}, file)
-    print(f"{name}: {result if isinstance(result, str) else format(result[0], ',.0f') + ' million instructions'}", flush=True)
+    print(f"{name}: {result if isinstance(result, str) else format(result[0], ',.0f') + ' million instructions'}",
+          flush=True)
     return result
 
 
@@ -91,7 +98,8 @@ def measure(base, command):
         return "effects must be off, but these are on: " + ", ".join(on)
     _, said, _ = execute(["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null", *command], LIMIT)
     found = re.search(r"Collected : (\d+)", said)
-    return [int(found.group(1)) / 1e6, report["peak_memory_bytes"] / 1e6, report["dofs"]] if found else f"no count in {LIMIT} s"
+    return [int(found.group(1)) / 1e6, report["peak_memory_bytes"] /
+            1e6, report["dofs"]] if found else f"no count in {LIMIT} s"
 
 
 def counts(args):
@@ -123,12 +131,15 @@ def page(found):
     yield f"| unknowns | {never[2]:,} |"
     yield f"| scene without effects | {never[0]:,.1f} million instructions, {never[1]:.1f} MB |"
     yield f"| effects | {len(found)} |"
-    yield f"| largest difference in instructions | {100 * abs(good[worst][0] / never[0] - 1):.2f} %, {worst} |\n" if worst else ""
+    yield (f"| largest difference in instructions | "
+           f"{100 * abs(good[worst][0] / never[0] - 1):.2f} %, {worst} "
+           f"|\n") if worst else ""
     yield "![instructions relative to the scene without the keys](effects.png)\n"
     yield "| effect, switched off | million instructions | relative to the scene without its keys | memory, relative |"
     yield "| --- | --- | --- | --- |"
     for name, result in found.items():
-        yield f"| {name} | {result} | | |" if isinstance(result, str) else f"| {name} | {result[0]:,.1f} | {result[0] / never[0]:.4f} | {result[1] / never[1]:.3f} |"
+        yield f"| {name} | {result} | | |" if isinstance(
+            result, str) else f"| {name} | {result[0]:,.1f} | {result[0] / never[0]:.4f} | {result[1] / never[1]:.3f} |"
     yield "\nThe scene of `contact` also defines a part of a face, which the other scene does not have."
 
 

@@ -13,8 +13,8 @@ def exponent(unknowns, values):
 
 
 def crossover(ours, theirs):
-    """Unknowns from which on `ours` costs less, by interpolation of logarithms on common meshes: a number, or 0 where it is
-    always the cheaper, infinity where it never is. Arguments: {unknowns: cost}"""
+    """Unknowns from which on `ours` costs less, by interpolation of logarithms on common meshes: a number, or 0 where
+    it is always the cheaper, infinity where it never is. Arguments: {unknowns: cost}"""
     common = sorted(set(ours) & set(theirs))
     excess = [math.log(ours[n] / theirs[n]) for n in common]
     if not common or excess[-1] > 0:

@@ -12,7 +12,10 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: 
 from problems import PROBLEMS  # noqa: E402
 from results import converged, of_panel, select  # noqa: E402
 
-COSTS = {"time": ("seconds", "user time [s]", 1), "wall": ("wall", "elapsed time [s]", 1), "applications": ("applications", "AMG applications", 1), "memory": ("memory", "peak memory [MB]", 1e-6)}
+COSTS = {
+    "time": ("seconds", "user time [s]", 1), "wall": ("wall", "elapsed time [s]", 1),
+    "applications": ("applications", "AMG applications", 1), "memory": ("memory", "peak memory [MB]", 1e-6)
+}
 STYLES = ("-", "--", ":", "-.", (0, (4, 1, 1, 1, 1, 1)), (0, (6, 3)))
 MARKERS = "osD^vP*X<>hd"
 COLORS = plt.get_cmap("tab10").colors
@@ -27,18 +30,21 @@ def save(figure, folder, name):
 
 
 def measures(problem, rows):
-    """Columns of errors to draw, and how to name them: against the reference, and energy against the careful run on the same mesh"""
+    """Columns of errors to draw, and how to name them: against the reference, and energy against the careful run on the
+    same mesh"""
     columns = [(f"error {quantity}", quantity) for quantity in PROBLEMS[problem].quantities]
     if any(SAME + "energy" in row for row in rows):
         columns.append((SAME + "energy", "energy, against the same mesh solved to the end"))
-    return [(column, name) for column, name in columns if any(row.get(column, math.nan) == row.get(column, math.nan) for row in rows if column in row)]
+    return [(column, name) for column, name in columns if any(
+        row.get(column, math.nan) == row.get(column, math.nan) for row in rows if column in row)]
 
 
 class Look:
     """Marker by value of the knob; color by series, or by value where there is one series; line style by quantity"""
 
     def __init__(self, study):
-        self.values = list(dict.fromkeys(value for panel in study.panels for series in panel.series for value, _ in series.points))
+        self.values = list(
+            dict.fromkeys(value for panel in study.panels for series in panel.series for value, _ in series.points))
         self.series = list(dict.fromkeys(series.label for panel in study.panels for series in panel.series))
         self.quantities = []
 
@@ -60,23 +66,29 @@ class Look:
     def legend(self, knob):
         """Handles: quantities, series, values, each under its heading"""
         heading = lambda text: Line2D([], [], linestyle="none", label=text)  # noqa: E731
-        handles = [heading("error in")] + [Line2D([], [], color="0.3", linestyle=self.style(q), label=q) for q in list(self.quantities)]
+        handles = [heading("error in")
+                   ] + [Line2D([], [], color="0.3", linestyle=self.style(q), label=q) for q in list(self.quantities)]
         if len(self.series) > 1:
             handles += [heading("")] + [Line2D([], [], color=self.line(s), label=s) for s in self.series]
         color = (lambda v: self.color(v, "")) if len(self.series) == 1 else (lambda v: "0.3")
-        return handles + [heading(""), heading(knob)] + [Line2D([], [], linestyle="none", marker=self.marker(v), color=color(v), label=v) for v in self.values]
+        return handles + [heading(""), heading(knob)] + [
+            Line2D([], [], linestyle="none", marker=self.marker(v), color=color(v), label=v) for v in self.values
+        ]
 
 
 def draw_line(axes, rows, column, cost, look, quantity):
     """One series, one quantity"""
     key, _, unit = COSTS[cost]
-    points = [(row[key] * unit, max(row[column], FLOOR), row) for row in rows if row.get(column) is not None and math.isfinite(row[column])]
+    points = [(row[key] * unit, max(row[column], FLOOR), row)
+              for row in rows
+              if row.get(column) is not None and math.isfinite(row[column])]
     if not points:
         return
     x, y, _ = zip(*points)
     axes.plot(x, y, color=look.line(rows[0]["series"]), linestyle=look.style(quantity), linewidth=1, zorder=1)
     for a, b, row in points:
-        axes.plot(a, b, linestyle="none", marker=look.marker(row["value"]), color=look.color(row["value"], row["series"]), markersize=5.5, zorder=2)
+        axes.plot(a, b, linestyle="none", marker=look.marker(row["value"]),
+                  color=look.color(row["value"], row["series"]), markersize=5.5, zorder=2)
 
 
 def log_axes(axes, x, y):
@@ -100,11 +112,14 @@ def log_axes(axes, x, y):
 
 def knob_figure(study, rows, folder):
     """Rows of axes: problems; columns: costs"""
-    panels = [(panel, runs) for panel in study.panels if (runs := converged(of_panel(rows, study, panel))) and measures(panel.problem, runs)]
+    panels = [(panel, runs)
+              for panel in study.panels
+              if (runs := converged(of_panel(rows, study, panel))) and measures(panel.problem, runs)]
     if not panels:
         return False
     look = Look(study)
-    figure, grid = plt.subplots(len(panels), len(study.costs), figsize=(3.4 * len(study.costs) + 0.4, 2.9 * len(panels)), squeeze=False, sharey="row")
+    figure, grid = plt.subplots(len(panels), len(study.costs),
+                                figsize=(3.4 * len(study.costs) + 0.4, 2.9 * len(panels)), squeeze=False, sharey="row")
     for (panel, runs), line in zip(panels, grid):
         for axes, cost in zip(line, study.costs):
             for series in panel.series:
@@ -139,7 +154,8 @@ def baseline_figure(study, rows, folder):
         runs = [row for row in runs if row["status"] in ("converged", "time limit")]
         for row in runs:
             good = row["status"] == "converged"
-            axes.barh(row["series"], row["seconds"], color=COLORS[0] if good else "white", edgecolor=COLORS[0], hatch=None if good else "////")
+            axes.barh(row["series"], row["seconds"], color=COLORS[0] if good else "white", edgecolor=COLORS[0],
+                      hatch=None if good else "////")
         axes.set_xscale("log")
         axes.set_xlim(left=0.3 * min(row["seconds"] for row in runs))
         axes.set_xlabel("user time [s]")
@@ -157,7 +173,9 @@ def growth_figure(study, rows, table, folder):
     runs = converged(select(rows, study=study.name))
     if not runs:
         return False
-    kinds = (("seconds", "user time [s]", lambda row: row["seconds"]), ("applications", "AMG applications", lambda row: row["applications"]), ("memory", "peak memory an unknown [kB]", lambda row: row["memory_an_unknown"] / 1e3))
+    kinds = (("seconds", "user time [s]", lambda row: row["seconds"]), ("applications", "AMG applications",
+                                                                        lambda row: row["applications"]),
+             ("memory", "peak memory an unknown [kB]", lambda row: row["memory_an_unknown"] / 1e3))
     figure, grid = plt.subplots(1, 3, figsize=(12, 3.6))
     for axes, (cost, label, value) in zip(grid, kinds):
         for index, entry in enumerate(table):
@@ -167,7 +185,8 @@ def growth_figure(study, rows, table, folder):
                 continue
             slope = entry[cost]
             text = entry["series"] + (f", n^{slope:.2f}" if math.isfinite(slope) and cost != "memory" else "")
-            axes.plot(*zip(*points), marker=MARKERS[index], color=COLORS[index], label=text, markersize=4.5, linewidth=1)
+            axes.plot(*zip(*points), marker=MARKERS[index], color=COLORS[index], label=text, markersize=4.5,
+                      linewidth=1)
         log_axes(axes, "unknowns", label)
         axes.legend(frameon=True, fontsize=7)
     figure.suptitle("Two-block: " + study.title.lower(), x=0.02, ha="left", fontsize=11)
@@ -178,5 +197,9 @@ def growth_figure(study, rows, table, folder):
 
 def draw(studies, rows, growths, folder):
     """All figures; names of those that there was something to draw for"""
-    kinds = {"knob": lambda study: knob_figure(study, rows, folder), "baselines": lambda study: baseline_figure(study, rows, folder), "growth": lambda study: growth_figure(study, rows, growths, folder)}
+    kinds = {
+        "knob": lambda study: knob_figure(study, rows, folder),
+        "baselines": lambda study: baseline_figure(study, rows, folder),
+        "growth": lambda study: growth_figure(study, rows, growths, folder)
+    }
     return [study.name for study in studies if kinds[study.kind](study)]

@@ -28,12 +28,15 @@ def run(scene, refine, folder, *options):
         result = json.load(file)
     steps = result["steps"]
     updates = [step["contact_updates"] for step in steps]
-    return result["dofs"], sum(step["step_time"] for step in steps) / len(steps), result["contact_free"]["solve_time"], updates
+    return result["dofs"], sum(step["step_time"]
+                               for step in steps) / len(steps), result["contact_free"]["solve_time"], updates
 
 
 def main():
     os.environ.setdefault("OMP_NUM_THREADS", "1")
-    print("| scene, refinement | unknowns | as chosen over CG by hypre | by AMG over CG | updates, mean | updates, most |")
+    print(
+        "| scene, refinement | unknowns | as chosen over CG by hypre | by AMG over CG | updates, mean | updates, most |"
+    )
     print("| --- | --- | --- | --- | --- | --- |", flush=True)
     with tempfile.TemporaryDirectory() as folder:
         for case in sys.argv[1:] or CASES:
@@ -41,7 +44,11 @@ def main():
             dofs, chosen, _, updates = run(scene, refine, folder)
             _, _, hypre, _ = run(scene, refine, folder, *HYPRE)
             _, amg, cg, _ = run(scene, refine, folder, "-tao_ipfilter_pc_amgf_factor", "false")
-            row = [f"{scene} {refine}", f"{dofs:,}", f"{chosen / hypre:.2f}", f"{amg / cg:.2f}", f"{sum(updates) / len(updates):.1f}", max(updates)]
+            row = [
+                f"{scene} {refine}", f"{dofs:,}", f"{chosen / hypre:.2f}", f"{amg / cg:.2f}",
+                f"{sum(updates) / len(updates):.1f}",
+                max(updates)
+            ]
             print("| " + " | ".join(map(str, row)) + " |", flush=True)
 
 

@@ -5,7 +5,8 @@ import sys
 from dataclasses import dataclass
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(TOP, "share", "scenes"))  # what the tests hold Hertz's contacts against is what the bench holds them against
+# what the tests hold Hertz's contacts against is what the bench holds them against
+sys.path.insert(0, os.path.join(TOP, "share", "scenes"))
 import hertz_solution  # noqa: E402
 from meshes import MESHES, edited  # noqa: E402
 
@@ -21,8 +22,9 @@ class Level:
 
 
 # As published, and as the runs of the other configurations are measured: the gap is not linearized again
-SINGLE = ((r"^load:", "contact_updates: 1\nload:"),)
-# The contact problem of small displacements: the gap is linearized once, about the state without load. The scene names no element
+SINGLE = ((r"^load:", "contact_updates: 1\nload:"), )
+# The contact problem of small displacements: the gap is linearized once, about the state without load. The scene names
+# no element
 SMALL = ((r"steps: 2", "steps: 1"), (r"^ *element: full\n", ""))
 
 
@@ -31,7 +33,7 @@ def last(summary):
 
 
 def force(summary):
-    return sum(f**2 for f in last(summary)["contact_force"]) ** 0.5
+    return sum(f**2 for f in last(summary)["contact_force"])**0.5
 
 
 class Problem:
@@ -46,7 +48,8 @@ class Problem:
         self.levels = {level.name: level for level in levels}
 
     def scene(self, level, body=()):
-        """The text of the scene on a mesh; body: keys and values that every body gets, or with friction every contact pair"""
+        """The text of the scene on a mesh; body: keys and values that every body gets, or with friction every contact
+        pair"""
         text = edited(self.name, self.levels[level].edits)
         for key, value in body:
             if key == "friction":
@@ -66,7 +69,7 @@ class Problem:
 
 
 class Cantilever(Problem):
-    quantities = ("energy",)
+    quantities = ("energy", )
 
     def measure(self, base, summary):
         return {"energy": last(summary)["energy"]}
@@ -84,20 +87,29 @@ class Hertz(Problem):
 
     def measure(self, base, summary):
         errors = hertz_solution.measure(self.solution, base)["errors"]
-        return {"peak pressure": 1 + errors["peak pressure"], "contact radius": 1 + errors["contact radius"], "contact force": force(summary), "energy": last(summary)["energy"]}
+        return {
+            "peak pressure": 1 + errors["peak pressure"], "contact radius": 1 + errors["contact radius"],
+            "contact force": force(summary), "energy": last(summary)["energy"]
+        }
 
     def exact(self, references):
         whole, energy = self.solution.loaded()
-        return {"peak pressure": 1.0, "contact radius": 1.0, "contact force": self.solution.share * whole, "energy": self.solution.share * energy}
+        return {
+            "peak pressure": 1.0, "contact radius": 1.0, "contact force": self.solution.share * whole,
+            "energy": self.solution.share * energy
+        }
 
 
 def two_block_level(factor):
-    """The two-block mesh, every box with `factor` times as many cells along each axis as the scene has: by refinement where that
-    makes so many, as the published meshes are made (the AMG coarsens by the numbering, and needs fewer applications on them)"""
-    unknowns = 3 * ((20 * factor + 1) * (6 * factor + 1) * (3 * factor + 1) + (4 * factor + 1) ** 3)
+    """The two-block mesh, every box with `factor` times as many cells along each axis as the scene has: by refinement
+    where that makes so many, as the published meshes are made (the AMG coarsens by the numbering, and needs fewer
+    applications on them)"""
+    unknowns = 3 * ((20 * factor + 1) * (6 * factor + 1) * (3 * factor + 1) + (4 * factor + 1)**3)
     if factor & (factor - 1) == 0:
         return Level(str(factor), factor.bit_length() - 1, unknowns, SMALL)
-    cells = ((r"cells: \[%d, %d, %d\]" % count, "cells: [%d, %d, %d]" % tuple(factor * n for n in count)) for count in ((20, 6, 3), (4, 4, 4)))
+    cells = ((r"cells: \[%d, %d, %d\]" % count, "cells: [%d, %d, %d]" % tuple(factor * n
+                                                                              for n in count))
+             for count in ((20, 6, 3), (4, 4, 4)))
     return Level(str(factor), 0, unknowns, (*cells, *SMALL))
 
 
@@ -106,14 +118,19 @@ FOOT = (-3.5, -2.5, -0.5, 0.5, -1.5)
 
 
 def two_block_zones(levels, wide=1, width=0.15):
-    """Local refinement of two_block: `wide` levels about the block's foot, and `levels` more at the edges of the foot, each within half the
-    distance of the one before"""
+    """Local refinement of two_block: `wide` levels about the block's foot, and `levels` more at the edges of the foot,
+    each within half the distance of the one before"""
     zones = [f"  - foot: {{lower: [-4.2, -1.2, -2.4], upper: [-1.8, 1.2, -1.2], levels: {wide}}}"]
     x0, x1, y0, y1, z = FOOT
     for level in range(1, levels + 1):
-        w = width / 2 ** (level - 1)
-        for name, (a, b, c, d) in {"left": (x0, x0, y0, y1), "right": (x1, x1, y0, y1), "front": (x0, x1, y0, y0), "back": (x0, x1, y1, y1)}.items():
-            zones.append(f"  - {name}_{level}: {{lower: [{a - w:g}, {c - w:g}, {z - w:g}], upper: [{b + w:g}, {d + w:g}, {z + w:g}], levels: {level + wide}}}")
+        w = width / 2**(level - 1)
+        for name, (a, b, c, d) in {
+                "left": (x0, x0, y0, y1), "right": (x1, x1, y0, y1), "front": (x0, x1, y0, y0), "back": (x0, x1, y1, y1)
+        }.items():
+            zones.append(
+                f"  - {name}_{level}: "
+                f"{{lower: [{a - w:g}, {c - w:g}, {z - w:g}], upper: [{b + w:g}, {d + w:g}, {z + w:g}], levels: {level + wide}}}"
+            )
     return "refinements:\n" + "\n".join(zones) + "\n"
 
 
@@ -143,10 +160,19 @@ PROBLEMS = {
             hertz_solution.Cylinder(),
             title="Hertz cylinder",
         ),
-        Problem("two_block", [two_block_level(factor) for factor in (1, 2, 3, 4, 8)], title="two-block, one linearization"),
-        Problem("beam_sphere_linear", [Level("0", 0, 7902, SINGLE), Level("1", 1, 53547, SINGLE), Level("2", 2, 392661, SINGLE)], title="beam-sphere"),
-        Problem("beam_sphere_neo_hookean", [Level("0", 0, 7902, SINGLE), Level("1", 1, 53547, SINGLE)], title="beam-sphere, neo-Hookean"),
+        Problem("two_block", [two_block_level(factor)
+                              for factor in (1, 2, 3, 4, 8)], title="two-block, one linearization"),
+        Problem("beam_sphere_linear",
+                [Level("0", 0, 7902, SINGLE),
+                 Level("1", 1, 53547, SINGLE),
+                 Level("2", 2, 392661, SINGLE)], title="beam-sphere"),
+        Problem("beam_sphere_neo_hookean",
+                [Level("0", 0, 7902, SINGLE), Level("1", 1, 53547, SINGLE)], title="beam-sphere, neo-Hookean"),
         Problem("ironing", [Level("1", 1, 12876, SINGLE), Level("2", 2, 89370, SINGLE)]),
-        Cantilever("cantilever", [Level("0", 0, 3075), Level("1", 1, 19683), Level("2", 2, 140000), Level("3", 3, 1050000)]),
+        Cantilever("cantilever",
+                   [Level("0", 0, 3075),
+                    Level("1", 1, 19683),
+                    Level("2", 2, 140000),
+                    Level("3", 3, 1050000)]),
     )
 }

@@ -1,12 +1,14 @@
-"""Answers of the problems without an exact one: extrapolation, and the values that the front page found, which the other pages use."""
+"""Answers of the problems without an exact one: extrapolation, and the values that the front page found, which the
+other pages use."""
 import json
 import math
 import os
 
 
 def richardson(sizes, values):
-    """Limit and order of values that differ from it by a constant times size^order, from three; the last value and no order where
-    the differences are not those of a power. By bisection: the ratio of the differences grows with the order"""
+    """Limit and order of values that differ from it by a constant times size^order, from three; the last value and no
+    order where the differences are not those of a power. By bisection: the ratio of the differences grows with the
+    order"""
     (a, b, c), first, second = sizes, values[0] - values[1], values[1] - values[2]
     ratio = lambda order: (a**order - b**order) / (b**order - c**order)  # noqa: E731
     low, high = 0.05, 8.0

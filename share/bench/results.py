@@ -30,7 +30,8 @@ def costs(record):
 
 
 def errors(record, reference, careful):
-    """Of every quantity against the reference and against the careful run on the same mesh, which has the mesh's error too"""
+    """Of every quantity against the reference and against the careful run on the same mesh, which has the mesh's error
+    too"""
     row = {}
     for quantity, value in (record["measure"] or {}).items():
         if reference and reference.get(quantity):
@@ -49,21 +50,24 @@ def make_row(study, panel, series, value, case, store, references):
     record, careful = store.get(case), store.get(panel.careful) if panel.careful else None
     if record is None:
         return None
-    row = {"study": study.name, "problem": panel.problem, "mesh": case.level, "series": series.label, "value": value, "ranks": case.ranks, "status": record["status"]}
+    row = {
+        "study": study.name, "problem": panel.problem, "mesh": case.level, "series": series.label, "value": value,
+        "ranks": case.ranks, "status": record["status"]
+    }
     row |= costs(record)
     row |= errors(record, PROBLEMS[panel.problem].exact(references), careful)
-    row |= checks(record) | {"repeats": record["repeats"], "load": record["load"], "key": record["key"], "command": " ".join(record["command"]), "said": record["said"]}
+    row |= checks(record) | {
+        "repeats": record["repeats"], "load": record["load"], "key": record["key"], "command": " ".join(
+            record["command"]), "said": record["said"]
+    }
     return row
 
 
 def collect(studies, store, references):
     """All rows that have been run, in the order of the studies"""
     rows = [
-        make_row(study, panel, series, value, case, store, references)
-        for study in studies
-        for panel in study.panels
-        for series in panel.series
-        for value, case in series.points
+        make_row(study, panel, series, value, case, store, references) for study in studies for panel in study.panels
+        for series in panel.series for value, case in series.points
     ]
     return [row for row in rows if row]
 
@@ -89,9 +93,13 @@ def growth_table(rows):
         runs = converged(select(rows, study="growth", series=label))
         unknowns = [row["unknowns"] for row in runs]
         times[label] = {row["unknowns"]: row["seconds"] for row in runs}
-        table.append({"series": label, "largest": max(unknowns, default=0)} | {cost: growth.exponent(unknowns, [row[cost] for row in runs]) for cost in ("seconds", "applications", "memory")})
+        table.append({"series": label, "largest": max(unknowns, default=0)} | {
+            cost: growth.exponent(unknowns, [row[cost] for row in runs])
+            for cost in ("seconds", "applications", "memory")
+        })
     for entry in table:
-        entry["crossover"] = growth.crossover(times.get("defaults", {}), times[entry["series"]]) if entry["series"] != "defaults" else None
+        entry["crossover"] = growth.crossover(times.get("defaults", {}),
+                                              times[entry["series"]]) if entry["series"] != "defaults" else None
     return table
 
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The pages about settings: runs what has not been run with these sources, then writes a page with tables and figures for each group of settings.
+"""The pages about settings: runs what has not been run with these sources, then writes a page with tables and figures
+for each group of settings.
 
     share/bench/run.py [--size tiny|quick|full] [--only PAGE ...] [--folder build/bench] [--no-run] [--plan]
 
@@ -42,7 +43,8 @@ def run_all(cases, store):
     """A line a run"""
     missing = missing_cases(cases, store)
     for index, case in enumerate(missing, 1):
-        print(f"[{index}/{len(missing)}] {case.problem}, mesh {case.level} {' '.join((*map(' '.join, case.body), *case.options))[:90]} ...", end=" ", flush=True)
+        print((f"[{index}/{len(missing)}] {case.problem}, mesh {case.level} "
+               f"{' '.join((*map(' '.join, case.body), *case.options))[:90]} ..."), end=" ", flush=True)
         record = store.run(case)
         print(f"{record['status']}, {record['seconds']:.2f} s", flush=True)
 

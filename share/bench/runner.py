@@ -8,7 +8,8 @@ import subprocess
 
 def environment():
     """Root may start ranks; a rank that waits leaves its core to others; no rank makes threads"""
-    return dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_mpi_yield_when_idle="1", OMP_NUM_THREADS="1")
+    return dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                OMPI_MCA_mpi_yield_when_idle="1", OMP_NUM_THREADS="1")
 
 
 def end(process):
@@ -23,7 +24,8 @@ def end(process):
 
 def execute(command, limit):
     """Exit code, what was said, whether the limit ended it; a run that is asked to end still writes its summary"""
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment(), errors="replace") as process:
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment(),
+                          errors="replace") as process:
         try:
             said, _ = process.communicate(timeout=limit)
             return process.returncode, said, False

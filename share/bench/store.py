@@ -1,5 +1,6 @@
-"""One run of bin/contact on a problem of the bench, and what is kept of it. A run is known by its scene, options, ranks and the version
-of the sources, so that what was interrupted goes on where it stopped, and what has changed is run again."""
+"""One run of bin/contact on a problem of the bench, and what is kept of it. A run is known by its scene, options, ranks
+and the version of the sources, so that what was interrupted goes on where it stopped, and what has changed is run
+again."""
 import functools
 import hashlib
 import json
@@ -101,7 +102,8 @@ class Store:
         while record["status"] == "converged" and record["seconds"] < self.short and record["repeats"] < REPEATS:
             again = self.run_once(case, base)
             again["repeats"] = record["repeats"] + 1
-            record = min(record, again, key=lambda r: r["seconds"] if r["summary"] else float("inf")) | {"repeats": again["repeats"]}
+            record = min(record, again, key=lambda r: r["seconds"]
+                         if r["summary"] else float("inf")) | {"repeats": again["repeats"]}
         self.remove_fields(case)
         with open(self.path(case) + ".part", "w") as file:
             json.dump(record, file, indent=1)
@@ -114,9 +116,19 @@ class Store:
         command = self.command(case, base)
         begin, used = time.time(), user_seconds()
         code, said, limited = execute(command, case.limit)
-        record = {"problem": case.problem, "level": case.level, "options": list(case.options), "body": [list(b) for b in case.body], "ranks": case.ranks}
-        record |= {"command": [os.path.relpath(c, TOP) if c.startswith(TOP) else c for c in command], "version": self.version, "key": case.key, "repeats": 1}
-        record |= {"limit": case.limit, "wall": time.time() - begin, "seconds": user_seconds() - used, "load": os.getloadavg()[0], "code": code, "said": last_words(said), "summary": read_summary(base), "measure": None}
+        record = {
+            "problem": case.problem, "level": case.level, "options": list(case.options),
+            "body": [list(b) for b in case.body], "ranks": case.ranks
+        }
+        record |= {
+            "command": [os.path.relpath(c, TOP) if c.startswith(TOP) else c for c in command], "version": self.version,
+            "key": case.key, "repeats": 1
+        }
+        record |= {
+            "limit": case.limit, "wall": time.time() - begin, "seconds": user_seconds() - used,
+            "load": os.getloadavg()[0], "code": code, "said": last_words(said), "summary": read_summary(base),
+            "measure": None
+        }
         record["status"] = self.status(record, limited)
         if record["status"] == "converged":
             record["measure"] = PROBLEMS[case.problem].measure(base, record["summary"])

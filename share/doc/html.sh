@@ -8,7 +8,8 @@ for page; do
   html=$folder/${page%.md}.html
   mkdir -p "$(dirname "$html")"
   up=$(dirname "$page" | sed -e 's|^\.$||' -e 's|[^/][^/]*/*|../|g')
-  sed 's|\(]([^):]*\)\.md\([)#]\)|\1.html\2|g' "$page" | pandoc --from gfm --to html5 --standalone --css "${up}style.css" --metadata "pagetitle=$page" -o "$html"
+  sed 's|\(]([^):]*\)\.md\([)#]\)|\1.html\2|g' "$page" |
+    pandoc --from gfm --to html5 --standalone --css "${up}style.css" --metadata "pagetitle=$page" -o "$html"
   for picture in $(grep -o '!\[[^]]*]([^)]*)' "$page" | sed 's/.*(\(.*\))/\1/'); do
     install -D -m 644 "$(dirname "$page")/$picture" "$(dirname "$html")/$picture"
   done

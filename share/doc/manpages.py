@@ -1,4 +1,5 @@
-"""Manual pages for man(1), made of those in the sources and of the help text of contact: python3 manpages.py TOP FOLDER VERSION"""
+"""Manual pages for man(1), made of those in the sources and of the help text of contact: python3 manpages.py TOP FOLDER
+VERSION"""
 import glob
 import os
 import re
@@ -51,7 +52,10 @@ def from_source(comment, synopsis):
     page(name, 3, description, "\n".join(body) + "\n")
 
 
-sources = [path for folder in ("pc_amgf", "src/plugin", "tao_ipfilter") for path in glob.glob(os.path.join(TOP, folder, "**", "*.c"), recursive=True)]
+sources = [
+    path for folder in ("pc_amgf", "src/plugin", "tao_ipfilter")
+    for path in glob.glob(os.path.join(TOP, folder, "**", "*.c"), recursive=True)
+]
 for path in sorted(sources + [os.path.join(TOP, "include", "petscamgf.h")]):
     with open(path) as file:
         text = file.read()
@@ -59,11 +63,15 @@ for path in sorted(sources + [os.path.join(TOP, "include", "petscamgf.h")]):
         from_source(match[2], match[3] if match[1].startswith("@") else "")
 
 with open(os.path.join(TOP, "apps", "help.c")) as file:
-    help_text = re.search(r'AppHelp\[\] = "(.*?)\\n\\n";', file.read(), flags=re.S)[1].replace("\\n\\\n", "\n").replace('\\"', '"')
+    help_text = re.search(r'AppHelp\[\] = "(.*?)\\n\\n";', file.read(),
+                          flags=re.S)[1].replace("\\n\\\n", "\n").replace('\\"', '"')
 help_text = re.sub(r"\n {5,}(?=\S)", " ", help_text)  # what goes on in a line of its own
 summary, rest = help_text.split("\n", 1)
 options, codes = rest.split("Exit code\n")
-body = [".SH SYNOPSIS\n.B contact\nSCENE.yaml [options]\n.br\nmpiexec \\-n N\n.B contact\nSCENE.yaml [options]\n.SH DESCRIPTION\nThe scene is a YAML file. The folder share/amgf/scenes has examples; its README.md lists all keys.\n.SH OPTIONS"]
+body = [(".SH SYNOPSIS\n.B contact\nSCENE.yaml [options]\n.br\nmpiexec \\-n N\n.B contact\nSCENE.yaml [options]\n"
+         ".SH DESCRIPTION\n"
+         "The scene is a YAML file. The folder share/amgf/scenes has examples; its README.md lists all keys.\n"
+         ".SH OPTIONS")]
 for line in options.splitlines():
     if not line.startswith(" "):
         body.append(".SS " + escape(line))

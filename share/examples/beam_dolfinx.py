@@ -2,7 +2,8 @@
 
     python3 beam_dolfinx.py -dll_append PREFIX/lib/libpetscamgf.so -pc_type amgf
 
-Here BoomerAMG by itself takes 161 iterations in place of 22 (-pc_type hypre), and GAMG is not even definite (-pc_type gamg).
+Here BoomerAMG by itself takes 161 iterations in place of 22 (-pc_type hypre), and GAMG is not even definite (-pc_type
+gamg).
 
 Output:
     converged: True
@@ -21,7 +22,8 @@ from petsc4py import PETSc
 
 PENALTY = 1e8
 LENGTH, SIDE, CELLS = 4.0, 1.0, 8  # cells across
-beam = mesh.create_box(MPI.COMM_WORLD, [[0, 0, 0], [LENGTH, SIDE, SIDE]], [4 * CELLS, CELLS, CELLS], mesh.CellType.hexahedron)
+beam = mesh.create_box(MPI.COMM_WORLD, [[0, 0, 0], [LENGTH, SIDE, SIDE]], [4 * CELLS, CELLS, CELLS],
+                       mesh.CellType.hexahedron)
 V = fem.VectorFunctionSpace(beam, ("Lagrange", 1))
 u, v = ufl.TrialFunction(V), ufl.TestFunction(V)
 
@@ -56,7 +58,8 @@ def face(x0):
 left, right = face(0.0), face(LENGTH)
 ties = PETSc.Mat().createAIJ(A.getSizes(), nnz=32)
 ties.setOption(PETSc.Mat.Option.NEW_NONZERO_ALLOCATION_ERR, False)
-weights = numpy.array([1, -0.25, -0.25, -0.25, -0.25])  # as where meshes do not match: a vertex, and the middle of a facet
+# as where meshes do not match: a vertex, and the middle of a facet
+weights = numpy.array([1, -0.25, -0.25, -0.25, -0.25])
 if beam.comm.rank == 0:
     for y, z in numpy.ndindex(CELLS, CELLS):
         k = y * (CELLS + 1) + z
@@ -68,7 +71,8 @@ A = A + ties
 A.setBlockSize(3)
 
 tied = [3 * n + d for n in (*left, *right) for d in range(3)]
-A.compose("amgf_filter", PETSc.IS().createGeneral(tied, comm=PETSc.COMM_SELF))  # the first line; -pc_type amgf is the second
+# the first line; -pc_type amgf is the second
+A.compose("amgf_filter", PETSc.IS().createGeneral(tied, comm=PETSc.COMM_SELF))
 ksp = PETSc.KSP().create(beam.comm)
 ksp.setType("cg")
 ksp.setTolerances(rtol=1e-8, max_it=5000)

@@ -1,4 +1,5 @@
-"""The lowest vibrations of a membrane with a penalty of 1e8 between two of its edges: SLEPc, shift and invert by CG with PCAMGF.
+"""The lowest vibrations of a membrane with a penalty of 1e8 between two of its edges: SLEPc, shift and invert by CG
+with PCAMGF.
 
     python3 modes_slepc4py.py -dll_append PREFIX/lib/libpetscamgf.so -st_pc_type amgf
 
@@ -50,4 +51,4 @@ scatter, everywhere = PETSc.Scatter.toAll(mode)
 scatter.scatter(mode, everywhere)
 u = everywhere.getArray()
 PETSc.Sys.Print("modes found:", found >= 3)
-PETSc.Sys.Print("the first one's edges move together:", abs(u[:N] - u[N * (N - 1) :]).max() < 1e-5 * abs(u).max())
+PETSc.Sys.Print("the first one's edges move together:", abs(u[:N] - u[N * (N - 1):]).max() < 1e-5 * abs(u).max())

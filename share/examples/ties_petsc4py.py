@@ -1,4 +1,5 @@
-"""A membrane whose lower edge is tied to its upper one by a penalty of 1e8: PCAMGF from petsc4py, with nothing of ours imported.
+"""A membrane whose lower edge is tied to its upper one by a penalty of 1e8: PCAMGF from petsc4py, with nothing of ours
+imported.
 
     python3 ties_petsc4py.py -dll_append PREFIX/lib/libpetscamgf.so -pc_type amgf
 
@@ -35,7 +36,8 @@ def create_matrix():
 
 A = create_matrix()
 edges = list(range(N)) + list(range(N * (N - 1), N * N))
-A.compose("amgf_filter", PETSc.IS().createGeneral(edges, comm=PETSc.COMM_SELF))  # this line and -pc_type amgf: no more is needed
+# this line and -pc_type amgf: no more is needed
+A.compose("amgf_filter", PETSc.IS().createGeneral(edges, comm=PETSc.COMM_SELF))
 x, b = A.createVecs()
 b.set(1e-3)
 ksp = PETSc.KSP().create()

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Draws columns of a table that contact -output BASE wrote: the history BASE.csv, or the points of a line, BASE_<line>.csv.
+"""Draws columns of a table that contact -output BASE wrote: the history BASE.csv, or the points of a line,
+BASE_<line>.csv.
 
     share/plot/curves.py BASE.csv PICTURE.png [COLUMN ...] [-x COLUMN] [--steps all|N,...]
     share/plot/curves.py BASE.csv                            # says which columns there are
 
-A column may hold wildcards: '*.normal_force', 'slab.zmin.reaction_?'; each has axes of its own. Of a history, by default energy and work and each pair's normal force over time; of a
-line the displacement and von Mises stress along it, a curve each load step.
+A column may hold wildcards: '*.normal_force', 'slab.zmin.reaction_?'; each has axes of its own. Of a history, by
+default energy and work and each pair's normal force over time; of a line the displacement and von Mises stress along
+it, a curve each load step.
 """
 import argparse
 import csv
@@ -50,7 +52,11 @@ def chosen(table, steps):
 def panels(table, args):
     if args.columns:
         return [matching(table, [pattern], args.table) for pattern in args.columns]
-    groups = [[column for pattern in group for column in table if fnmatch.fnmatchcase(column, pattern)] for group in (LINE if "arc" in table else HISTORY)]
+    groups = [[column
+               for pattern in group
+               for column in table
+               if fnmatch.fnmatchcase(column, pattern)]
+              for group in (LINE if "arc" in table else HISTORY)]
     return [group for group in groups if group]
 
 
@@ -61,7 +67,8 @@ def draw(axis, table, along, group, curves):
             style = ".-" if len(table[along][rows]) <= 60 else "-"
             named = not label or (len(curves) - 1 - k) % (1 + (len(curves) - 1) // 10) == 0
             color = plt.cm.viridis(0.9 * k / max(1, len(curves) - 1)) if len(group) == 1 and len(curves) > 1 else None
-            axis.plot(table[along][rows], table[column][rows], style, color=color, label=(column + " " + label).strip() if named else None)
+            axis.plot(table[along][rows], table[column][rows], style, color=color,
+                      label=(column + " " + label).strip() if named else None)
     axis.legend(fontsize="small")
     axis.grid(alpha=0.3)
 

@@ -36,14 +36,16 @@ def main():
     args, options = parser.parse_known_args()
     if args.every < 1 or args.rate <= 0:
         sys.exit("film.py: --every and --rate must be above 0")
-    numbers = steps(args.base)[:: args.every]
+    numbers = steps(args.base)[::args.every]
     if not numbers:
-        sys.exit("film.py: there are no files %s_0001.h5 and so on: run contact with -output %s" % (args.base, args.base))
+        sys.exit("film.py: there are no files %s_0001.h5 and so on: run contact with -output %s" %
+                 (args.base, args.base))
     with tempfile.TemporaryDirectory() as folder:
         pictures = []
         for number in numbers:
             picture = os.path.join(folder, "%06d.png" % number)
-            if subprocess.run([sys.executable, "-B", DRAW, args.base, picture, "--step", str(number)] + options).returncode:
+            if subprocess.run([sys.executable, "-B", DRAW, args.base, picture, "--step",
+                               str(number)] + options).returncode:
                 sys.exit("film.py: load step %d could not be drawn" % number)
             pictures.append(Image.open(picture).convert("P", palette=Image.Palette.ADAPTIVE))
         pictures[0].save(args.film, save_all=True, append_images=pictures[1:], duration=1000 / args.rate, loop=0)

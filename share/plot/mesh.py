@@ -30,11 +30,13 @@ NAMED = 12  # volumes that have a line with their name
 
 def draw_mesh(points, volumes, picture, caption, view=(25, -60)):
     """points: (n, 3); volumes: {name: list of the corners of its cells, 4 or 8}; writes a PNG file"""
-    run = SimpleNamespace(vertices=np.asarray(points, float), cells=[cell for cells in volumes.values() for cell in cells])
+    run = SimpleNamespace(vertices=np.asarray(points, float),
+                          cells=[cell for cells in volumes.values() for cell in cells])
     grid = body_grid(run, range(len(run.cells)))
-    add(grid.GetCellData(), "colour", np.repeat(np.arange(len(volumes)), [len(cells) for cells in volumes.values()]) % len(BODY_COLOURS))
+    add(grid.GetCellData(), "colour",
+        np.repeat(np.arange(len(volumes)), [len(cells) for cells in volumes.values()]) % len(BODY_COLOURS))
     skin = surface(grid)
-    names = list(volumes)[: min(NAMED, len(BODY_COLOURS))]
+    names = list(volumes)[:min(NAMED, len(BODY_COLOURS))]
     colours = discrete_table(names + [""] * (len(BODY_COLOURS) - len(names)), BODY_COLOURS)
     args = SimpleNamespace(no_edges=False, view=view, up="z")
     bodies, page = vtkRenderer(), vtkRenderer()
@@ -46,7 +48,7 @@ def draw_mesh(points, volumes, picture, caption, view=(25, -60)):
     camera, right, up = place_camera(args, bodies, used.mean(axis=0), max(np.ptp(used, axis=0).max(), 1e-300))
     pixels, part = fit(camera, right, up, used, 0)
     bodies.SetViewport(*part)
-    for actor in colour_names("volumes", discrete_table(names, BODY_COLOURS[: len(names)]), pixels):
+    for actor in colour_names("volumes", discrete_table(names, BODY_COLOURS[:len(names)]), pixels):
         page.AddActor2D(actor)
     if len(volumes) > len(names):
         page.AddActor2D(text_at(f"and {len(volumes) - len(names)} more", BODIES * WIDTH + 20, 14, 14))

@@ -30,7 +30,8 @@ assembly() { # name of the script, its options, options of draw.py
   options=$2
   shift 2
   here=$PWD
-  (cd "$work" && $python "$here/share/scenes/$scene.py" $options > "$scene.log" && "$here/bin/contact" "$scene.yaml" -quiet -output "$scene")
+  (cd "$work" && $python "$here/share/scenes/$scene.py" $options > "$scene.log" \
+    && "$here/bin/contact" "$scene.yaml" -quiet -output "$scene")
   $python -B share/plot/draw.py "$work/$scene" "$folder/$scene.png" "$@"
   echo "$folder/$scene.png"
 }

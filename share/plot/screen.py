@@ -26,7 +26,8 @@ def open_screen():
             stop("VTK needs an X server: install Xvfb (Debian: xvfb), or set DISPLAY")
         return
     for _ in range(TRIES):
-        # Random, since the lowest free number may be that of a server that is about to end, and takes the socket with it
+        # Random, since the lowest free number may be that of a server that is about to end, and takes the socket with
+        # it
         number = random.randrange(100, 30000)
         arguments = ["Xvfb", f":{number}", "-displayfd", "1", "-screen", "0", "1600x1200x24", "-nolisten", "tcp"]
         server = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)

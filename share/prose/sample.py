@@ -67,9 +67,10 @@ def comments():
             if match[1].startswith("@"):
                 continue  # manual pages have their own form
             prose = re.sub(r"^\s*\*? ?", "", match[1], flags=re.M)
-            code = content[content.rfind("\n", 0, match.start()) + 1 : match.start()].strip()
+            code = content[content.rfind("\n", 0, match.start()) + 1:match.start()].strip()
             if len(prose.split()) >= WORDS:
-                yield place(path, content, match.start()), " ".join(prose.split()) + (f"\n      (beside: {code})" if code else "")
+                yield place(path, content,
+                            match.start()), " ".join(prose.split()) + (f"\n      (beside: {code})" if code else "")
 
 
 def messages():
@@ -82,7 +83,8 @@ def messages():
             call = re.sub(r'"\s*"', "", re.sub(r'"\s*PetscInt(?:64)?_FMT\s*"?', "d", match[1]))
             for piece in re.findall(r'"((?:[^"\\]|\\.)*)"', call):
                 # neither XML nor the headings of columns
-                if len(re.findall(r"[a-z]{2,}", piece)) >= WORDS and piece[:1] not in "-<" and not re.search(r"<\w+ |  .*  .*  ", piece):
+                if len(re.findall(r"[a-z]{2,}", piece)) >= WORDS and piece[:1] not in "-<" and not re.search(
+                        r"<\w+ |  .*  .*  ", piece):
                     yield place(path, content, match.start()), piece
 
 

@@ -1,7 +1,10 @@
-"""Reproduces the tables and figures of arXiv:2505.18576 and writes them beside the published values: python3 published.py [--quick] [--only NAME]
+"""Reproduces the tables and figures of arXiv:2505.18576 and writes them beside the published values: python3
+published.py [--quick] [--only NAME]
 
-The record of a run is written when it ends, and the run is not repeated: build/published has those of now, runs beside this file those of earlier sessions.
-A run that its limit or SIGUSR1 ends counts with the load steps and systems that it has done. README.md in build/published is the page, with its figures."""
+The record of a run is written when it ends, and the run is not repeated: build/published has those of now, runs beside
+this file those of earlier sessions.
+A run that its limit or SIGUSR1 ends counts with the load steps and systems that it has done. README.md in
+build/published is the page, with its figures."""
 import argparse
 import csv
 import datetime
@@ -20,7 +23,8 @@ import runner
 
 FOLDER = os.path.join(TOP, "build", "published")
 KEPT = os.path.join(HERE, "runs")
-STEP_KEYS = ("converged", "ip_iterations", "ksp_iterations", "filter_dofs", "constraints", "amg_applications", "solve_time", "energy")
+STEP_KEYS = ("converged", "ip_iterations", "ksp_iterations", "filter_dofs", "constraints", "amg_applications",
+             "solve_time", "energy")
 PUBLISHED_FILE = os.path.join(HERE, "published.csv")
 # problem: scene, refinement of mesh 1, further options of the published configuration
 PROBLEMS = {
@@ -30,15 +34,26 @@ PROBLEMS = {
     "beam_sphere_nonlinear": ("beam_sphere_neo_hookean", 0, ("-displacement_bounds", "4")),
 }
 LOAD_STEPS = {"two_block": 2, "ironing": 10, "beam_sphere_linear": 6, "beam_sphere_nonlinear": 6}
-TITLES = {"two_block": "Two blocks", "ironing": "Ironing", "beam_sphere_linear": "Beam and sphere, linear", "beam_sphere_nonlinear": "Beam and sphere, neo-Hookean"}
+TITLES = {
+    "two_block": "Two blocks", "ironing": "Ironing", "beam_sphere_linear": "Beam and sphere, linear",
+    "beam_sphere_nonlinear": "Beam and sphere, neo-Hookean"
+}
 AMG_LIMIT = "5000"  # PCG iterations of AMG alone, as published
 IP = "-tao_ipfilter_"
-BOOMERAMG = {"coarsen_type": "HMIS", "interp_type": "ext+i", "P_max": "4", "strong_threshold": "0.5", "agg_nl": "0", "relax_type_down": "l1scaled-SOR/Jacobi", "relax_type_up": "l1scaled-SOR/Jacobi"}
-AMG_ALONE = (IP + "ksp_max_it", AMG_LIMIT, *(word for key, value in BOOMERAMG.items() for word in (f"{IP}pc_hypre_boomeramg_{key}", value)))
+BOOMERAMG = {
+    "coarsen_type": "HMIS", "interp_type": "ext+i", "P_max": "4", "strong_threshold": "0.5", "agg_nl": "0",
+    "relax_type_down": "l1scaled-SOR/Jacobi", "relax_type_up": "l1scaled-SOR/Jacobi"
+}
+AMG_ALONE = (IP + "ksp_max_it", AMG_LIMIT, *(word for key, value in BOOMERAMG.items()
+                                             for word in (f"{IP}pc_hypre_boomeramg_{key}", value)))
 OPTIONS = ("-options_file", "share/options/published.opts")
 AMGF = OPTIONS + ("-contact_free", "-info", ":tao")
 # configuration: options; the limit of a run [s] on mesh 1, quick and full
-WAYS = {"AMGF": (AMGF, 300), "own": (AMGF + (IP + "amgf_amg_pc_type", "blockamg"), 60), "defaults": ((), 120), "AMG-own": (OPTIONS + AMG_ALONE + (IP + "pc_type", "blockamg"), 60), "AMG": (OPTIONS + AMG_ALONE + (IP + "pc_type", "hypre"), 100)}
+WAYS = {
+    "AMGF": (AMGF, 300), "own": (AMGF + (IP + "amgf_amg_pc_type", "blockamg"), 60), "defaults": ((), 120),
+    "AMG-own": (OPTIONS + AMG_ALONE + (IP + "pc_type", "blockamg"), 60),
+    "AMG": (OPTIONS + AMG_ALONE + (IP + "pc_type", "hypre"), 100)
+}
 CYCLES = {"AMGF": "BoomerAMG's", "own": "own"}
 ALONE = {"AMGF": "AMG", "own": "AMG-own"}  # AMG without filter, by the same V-cycle
 LIMITS = {1: 1, 2: 10, 3: 40, 4: 60}  # times that of mesh 1
@@ -74,7 +89,8 @@ def reduced(record):
 
 
 def run(problem, mesh, way, quick=False, limit=None):
-    """The summary of a run, with the weights' ratios, how it was cut short and its command; kept on disk. Its clock is processor time"""
+    """The summary of a run, with the weights' ratios, how it was cut short and its command; kept on disk. Its clock is
+    processor time"""
     base = os.path.join(FOLDER, f"{problem}_{mesh}_{way}")
     if not kept(problem, mesh, way):
         limit = limit or WAYS[way][1] * LIMITS[mesh] * (1 if quick else 5)
@@ -83,7 +99,9 @@ def run(problem, mesh, way, quick=False, limit=None):
         os.environ["LD_PRELOAD"] = os.path.join(FOLDER, "cpuclock.so")
         code, said, cut = runner.execute([*command(problem, mesh, way), "-summary", base + ".json"], limit)
         record = runner.read_summary(base) or {"steps": []}
-        record.update(commit=commit(), code=code, cut=cut, limit=limit, ratios=[float(ratio) for ratio in re.findall(r"D_max/D_min (\S+)", said)], words=runner.last_words(said))
+        record.update(commit=commit(), code=code, cut=cut, limit=limit,
+                      ratios=[float(ratio) for ratio in re.findall(r"D_max/D_min (\S+)", said)],
+                      words=runner.last_words(said))
         del os.environ["LD_PRELOAD"]
         with open(base + ".run.json", "w") as file:
             json.dump(reduced(record), file)
@@ -150,7 +168,8 @@ def done_of(record):
 
 def iteration_tables(records, reference, explanations):
     columns = ("n", "n_c_max", "m_max", "ip_iterations_avg", "amgf_pcg_iterations_avg", "amgf_bound")
-    heads = ("unknowns n", "filtered n_c, most", "constraints m, most", "interior point iterations a load step", "PCG iterations a system", "bound")
+    heads = ("unknowns n", "filtered n_c, most", "constraints m, most", "interior point iterations a load step",
+             "PCG iterations a system", "bound")
     for problem, title in TITLES.items():
         runs = sorted(key[1:] for key in records if key[0] == problem and key[2] in CYCLES)
         if not runs:
@@ -173,11 +192,13 @@ def iteration_tables(records, reference, explanations):
 def cost(record, count):
     """Applications of AMG, seconds, and seconds an interior point iteration of the first load steps"""
     done = steps(record)[:count]
-    return sum(step["amg_applications"] for step in done), sum(step["solve_time"] for step in done), sum(step["ip_iterations"] for step in done)
+    return sum(step["amg_applications"]
+               for step in done), sum(step["solve_time"] for step in done), sum(step["ip_iterations"] for step in done)
 
 
 def speed_table(records):
-    yield "| problem | mesh | V-cycle | load steps compared | AMGF-PCG [s] | AMG-PCG [s] | speed-up | PCG iterations, AMGF | PCG iterations, AMG | ratio of iterations |"
+    yield ("| problem | mesh | V-cycle | load steps compared | AMGF-PCG [s] | AMG-PCG [s] | speed-up | PCG "
+           "iterations, AMGF | PCG iterations, AMG | ratio of iterations |")
     yield "| --- |" + " --- |" * 9
     for problem, mesh, way in ordered(records):
         amgf, amg = records[problem, mesh, way], records.get((problem, mesh, ALONE.get(way)))
@@ -186,11 +207,13 @@ def speed_table(records):
         count = min(len(steps(amgf)), len(steps(amg)))
         if not count:
             its = unfinished(amg)
-            yield f"| {TITLES[problem]} | {mesh} | {CYCLES[way]} | 0 | - | above {amg['limit']} | - | - | {sum(its[-10:]) or '-'} | - |"
+            yield (f"| {TITLES[problem]} | {mesh} | {CYCLES[way]} | 0 | - | above {amg['limit']} | - | - | "
+                   f"{sum(its[-10:]) or '-'} | - |")
             continue
         (_, ours, _), (_, theirs, _) = cost(amgf, count), cost(amg, count)
         last = [sum(sum(pcg_of_newton(step)[-10:]) for step in steps(record)[:count]) for record in (amgf, amg)]
-        yield f"| {TITLES[problem]} | {mesh} | {CYCLES[way]} | {count} | {ours:.1f} | {theirs:.1f} | {theirs / ours:.1f} | {last[0]:,} | {last[1]:,} | {last[1] / last[0]:.1f} |"
+        yield (f"| {TITLES[problem]} | {mesh} | {CYCLES[way]} | {count} | {ours:.1f} | {theirs:.1f} | "
+               f"{theirs / ours:.1f} | {last[0]:,} | {last[1]:,} | {last[1] / last[0]:.1f} |")
 
 
 def share_table(cases, records):
@@ -202,21 +225,25 @@ def share_table(cases, records):
         if not time:
             continue
         parts = [time[phase] / time["total"] for phase in phases]
-        yield f"| {TITLES[problem]} | {mesh} | " + " | ".join(f"{100 * part:.1f} %" for part in (*parts, 1 - sum(parts))) + " |"
+        yield f"| {TITLES[problem]} | {mesh} | " + " | ".join(f"{100 * part:.1f} %"
+                                                              for part in (*parts, 1 - sum(parts))) + " |"
 
 
 def same_systems(coarse, fine):
     """What both runs have done: its name, and the PCG iterations of each"""
     count = min(len(steps(coarse)), len(steps(fine)))
     if count:
-        return f"load steps 1 to {count}" if count > 1 else "load step 1", *([its for step in steps(record)[:count] for its in pcg_of_newton(step)] for record in (coarse, fine))
+        return f"load steps 1 to {count}" if count > 1 else "load step 1", *([
+            its for step in steps(record)[:count] for its in pcg_of_newton(step)
+        ] for record in (coarse, fine))
     first = [pcg_of_newton(record["steps"][0]) if record["steps"] else [] for record in (coarse, fine)]
     count = min(map(len, first))
     return f"first {count} systems", first[0][:count], first[1][:count]
 
 
 def growth_table(records, reference):
-    yield "| problem | mesh | V-cycle | compared | PCG iterations over mesh 1, ours | published, all load steps | bound over mesh 1, ours | published |"
+    yield ("| problem | mesh | V-cycle | compared | PCG iterations over mesh 1, ours | published, all load steps | "
+           "bound over mesh 1, ours | published |")
     yield "| --- |" + " --- |" * 7
     for problem, mesh, way in ordered(records):
         if mesh == 1 or way not in CYCLES or (problem, 1, way) not in records:
@@ -229,11 +256,13 @@ def growth_table(records, reference):
         bounds = [reference[problem, which]["amgf_bound"] for which in (1, mesh)]
         ours = [record.get("contact_free", {}).get("bound") for record in pair]
         bound = [f"{float(b) / float(a):.2f}" if a and b else "-" for a, b in (ours, bounds)]
-        yield f"| {TITLES[problem]} | {mesh} | {CYCLES[way]} | {what} | {mean(fine) / mean(coarse):.2f} | {theirs[1] / theirs[0]:.2f} | {bound[0]} | {bound[1]} |"
+        yield (f"| {TITLES[problem]} | {mesh} | {CYCLES[way]} | {what} | {mean(fine) / mean(coarse):.2f} | "
+               f"{theirs[1] / theirs[0]:.2f} | {bound[0]} | {bound[1]} |")
 
 
 def own_table(records):
-    yield "| problem | mesh | load steps compared | PCG iterations a system, BoomerAMG's V-cycle | own | time, BoomerAMG's over own | energy of the last step, relative difference |"
+    yield ("| problem | mesh | load steps compared | PCG iterations a system, BoomerAMG's V-cycle | own | time, "
+           "BoomerAMG's over own | energy of the last step, relative difference |")
     yield "| --- |" + " --- |" * 6
     for problem, mesh, way in ordered(records):
         theirs = records.get((problem, mesh, "AMGF"))
@@ -246,11 +275,14 @@ def own_table(records):
         its = [mean(its for step in steps(record)[:count] for its in pcg_of_newton(step)) for record in (theirs, ours)]
         times = [cost(record, count)[1] for record in (theirs, ours)]
         energies = [steps(record)[count - 1]["energy"] for record in (theirs, ours)]
-        yield f"| {TITLES[problem]} | {mesh} | {count} | {its[0]:.1f} | {its[1]:.1f} | {times[0] / times[1]:.1f} | {abs(energies[1] / energies[0] - 1):.1e} |"
+        yield (f"| {TITLES[problem]} | {mesh} | {count} | {its[0]:.1f} | {its[1]:.1f} | {times[0] / times[1]:.1f} | "
+               f"{abs(energies[1] / energies[0] - 1):.1e} |")
 
 
 def defaults_table(cases, records):
-    yield "| problem | mesh | load steps | AMG applications, or solves with factors, published configuration | defaults | time, published configuration [s] | defaults [s] | ratio | energy of the last step, relative difference |"
+    yield ("| problem | mesh | load steps | AMG applications, or solves with factors, published configuration | "
+           "defaults | time, published configuration [s] | defaults [s] | ratio | energy of the last step, relative "
+           "difference |")
     yield "| --- |" + " --- |" * 8
     for problem, mesh in cases:
         theirs, ours = (records.get((problem, mesh, way)) for way in ("AMGF", "defaults"))
@@ -259,7 +291,8 @@ def defaults_table(cases, records):
             continue
         (a, t, _), (b, u, _) = cost(theirs, count), cost(ours, count)
         energies = [steps(record)[count - 1]["energy"] for record in (theirs, ours)]
-        yield f"| {TITLES[problem]} | {mesh} | {count} | {a:,} | {b:,} | {t:.1f} | {u:.1f} | {t / u:.0f} | {abs(energies[1] / energies[0] - 1):.1e} |"
+        yield (f"| {TITLES[problem]} | {mesh} | {count} | {a:,} | {b:,} | {t:.1f} | {u:.1f} | {t / u:.0f} | "
+               f"{abs(energies[1] / energies[0] - 1):.1e} |")
 
 
 def curves(cases, records):
@@ -287,7 +320,8 @@ def curves(cases, records):
 
 
 def commit():
-    found = subprocess.run(["git", "-C", TOP, "log", "-1", "--format=%h"], capture_output=True, text=True).stdout.strip()
+    found = subprocess.run(["git", "-C", TOP, "log", "-1", "--format=%h"], capture_output=True,
+                           text=True).stdout.strip()
     return found or "no repository"
 
 
@@ -295,7 +329,8 @@ def cut_runs(records):
     for problem, mesh, way in ordered(records):
         record = records[problem, mesh, way]
         begun = len(unfinished(record))
-        what = f"- {TITLES[problem]}, mesh {mesh}, {way}: {len(steps(record))} of {LOAD_STEPS[problem]} load steps" + (f" and {begun} systems of the next one" if begun else "") + " were solved. "
+        what = f"- {TITLES[problem]}, mesh {mesh}, {way}: {len(steps(record))} of {LOAD_STEPS[problem]} load steps" + (
+            f" and {begun} systems of the next one" if begun else "") + " were solved. "
         if record["cut"]:
             yield what + f"The limit of {record['limit']:.0f} s of elapsed time ended the run."
         elif record["code"] == 5:
@@ -305,7 +340,8 @@ def cut_runs(records):
 
 
 def estimate(problem, mesh, way, records, reference):
-    """Hours of processor time of all load steps, from the time of a PCG iteration on the finest mesh that was run; None where none was run"""
+    """Hours of processor time of all load steps, from the time of a PCG iteration on the finest mesh that was run; None
+    where none was run"""
     known = max((which for other, which, another in records if (other, another) == (problem, way)), default=None)
     its = known and sum(sum(pcg_of_newton(step)) for step in records[problem, known, way]["steps"])
     if not its:
@@ -313,18 +349,23 @@ def estimate(problem, mesh, way, records, reference):
     each = records[problem, known, way]["time"]["total"] / its
     n, coarse = (float(reference[problem, which]["n"]) for which in (mesh, known))
     systems = LOAD_STEPS[problem] * float(reference[problem, mesh]["ip_iterations_avg"])
-    return each * (n / coarse) ** GROWTH * systems * float(reference[problem, mesh]["amgf_pcg_iterations_avg"]) / 3600
+    return each * (n / coarse)**GROWTH * systems * float(reference[problem, mesh]["amgf_pcg_iterations_avg"]) / 3600
 
 
 def not_run(records, reference):
     """Meshes 1 to 3 of the published tables that were not run to the end"""
     for problem in TITLES:
         for mesh in (1, 2, 3):
-            missing = [way for way in CYCLES if len(steps(records.get((problem, mesh, way), {"steps": []}))) < LOAD_STEPS[problem]]
+            missing = [
+                way for way in CYCLES
+                if len(steps(records.get((problem, mesh, way), {"steps": []}))) < LOAD_STEPS[problem]
+            ]
             hours = {CYCLES[way]: estimate(problem, mesh, way, records, reference) for way in missing}
-            said = ", ".join(f"{cycle} V-cycle " + (f"{time:.2g} h" if time else "not estimated") for cycle, time in hours.items())
+            said = ", ".join(f"{cycle} V-cycle " + (f"{time:.2g} h" if time else "not estimated")
+                             for cycle, time in hours.items())
             if missing:
-                yield f"- {TITLES[problem]}, mesh {mesh}: not all load steps were run; estimated processor time of all of them: {said}."
+                yield (f"- {TITLES[problem]}, mesh {mesh}: not all load steps were run; estimated processor time of "
+                       f"all of them: {said}.")
 
 
 def commits(records):
@@ -333,8 +374,11 @@ def commits(records):
     for name in ordered(records):
         by_commit.setdefault(records[name]["commit"], []).append(name)
     (most, _), *others = sorted(by_commit.items(), key=lambda item: -len(item[1]))
-    named = lambda names: "; ".join(f"{TITLES[problem]}, mesh {mesh}, {CYCLES[way] + ' V-cycle' if way in CYCLES else way}" for problem, mesh, way in names)  # noqa: E731
-    return f"All runs are of commit {most}" + "".join(f", except those of commit {commit}: {named(names)}" for commit, names in others) + "."
+    named = lambda names: "; ".join(
+        f"{TITLES[problem]}, mesh {mesh}, {CYCLES[way] + ' V-cycle' if way in CYCLES else way}"
+        for problem, mesh, way in names)  # noqa: E731
+    return f"All runs are of commit {most}" + "".join(f", except those of commit {commit}: {named(names)}"
+                                                      for commit, names in others) + "."
 
 
 def page(cases, records):
@@ -343,15 +387,23 @@ def page(cases, records):
         explanations = json.load(file)
     where = machine.describe()
     yield "# The published results, reproduced\n"
-    yield "S. Petrides et al., AMG with filtering, arXiv:2505.18576, 2025. Every cell shows our value / the published value. A star marks a deviation of more than 10 %."
+    yield ("S. Petrides et al., AMG with filtering, arXiv:2505.18576, 2025. Every cell shows our value / the "
+           "published value. A star marks a deviation of more than 10 %.")
     yield "`make published` creates this page, `make published-quick` a page for mesh 1 alone.\n"
-    yield f"Machine: {where['processor']}, {where['cores']} cores, one used. " + ", ".join(f"{name} {version}" for name, version in where["versions"].items()) + f". {datetime.date.today()}. {commits(records)}\n"
-    yield "Times: processor seconds of one core (`cpuclock.c`). Other programs were running on the machine, which slows memory down. Ratios are those of runs under similar load.\n"
+    yield f"Machine: {where['processor']}, {where['cores']} cores, one used. " + ", ".join(
+        f"{name} {version}"
+        for name, version in where["versions"].items()) + f". {datetime.date.today()}. {commits(records)}\n"
+    yield ("Times: processor seconds of one core (`cpuclock.c`). Other programs were running on the machine, which "
+           "slows memory down. Ratios are those of runs under similar load.\n")
     yield "## Iterations and sizes\n"
-    yield "Configuration `published.opts`. Interior point iterations are the mean over load steps, PCG iterations the mean over Newton systems."
-    yield "\"Bound\" is the bound of the PCG iterations that follows from the condition number beta of the problem without contact: sqrt(2 (beta + 3) / beta) times the PCG iterations with AMG for K."
-    yield "The V-cycle \"BoomerAMG's\" is that of the publication. The V-cycle \"own\" is that of this program, `-tao_ipfilter_amgf_amg_pc_type blockamg`, see [below](#the-programs-own-v-cycle)."
-    yield "If no load step was finished, the figures are those of the systems that were solved. Each mesh has `-refine` increased by one compared with the previous mesh.\n"
+    yield ("Configuration `published.opts`. Interior point iterations are the mean over load steps, PCG iterations "
+           "the mean over Newton systems.")
+    yield ("\"Bound\" is the bound of the PCG iterations that follows from the condition number beta of the problem "
+           "without contact: sqrt(2 (beta + 3) / beta) times the PCG iterations with AMG for K.")
+    yield ("The V-cycle \"BoomerAMG's\" is that of the publication. The V-cycle \"own\" is that of this program, "
+           "`-tao_ipfilter_amgf_amg_pc_type blockamg`, see [below](#the-programs-own-v-cycle).")
+    yield ("If no load step was finished, the figures are those of the systems that were solved. Each mesh has "
+           "`-refine` increased by one compared with the previous mesh.\n")
     yield from iteration_tables(records, reference, explanations)
     if any(way == "own" for _, _, way in records):
         yield "## The program's own V-cycle\n"
@@ -359,10 +411,12 @@ def page(cases, records):
         yield from own_table(records)
         yield ""
     yield "## PCG iterations and the barrier\n"
-    yield f"AMG alone is stopped at {AMG_LIMIT} iterations a system, as published, and uses the program's own V-cycle if the table below has no other. Its curve ends where the time limit ended the run.\n"
+    yield (f"AMG alone is stopped at {AMG_LIMIT} iterations a system, as published, and uses the program's own "
+           f"V-cycle if the table below has no other. Its curve ends where the time limit ended the run.\n")
     yield "![PCG iterations and ratio of the weights against the Newton system](curves.png)\n"
     yield "## Speed-up of AMGF over AMG\n"
-    yield "The paper reports speed-ups of 4 to more than 10. The PCG iterations are summed over the last ten systems of each load step.\n"
+    yield ("The paper reports speed-ups of 4 to more than 10. The PCG iterations are summed over the last ten "
+           "systems of each load step.\n")
     yield from speed_table(records)
     if "speed" in explanations:
         yield "\n" + explanations["speed"]
@@ -375,8 +429,11 @@ def page(cases, records):
         if "growth" in explanations:
             yield "\n" + explanations["growth"]
     yield "\n## What the defaults take\n"
-    yield "With the default settings the linearization of the gap is updated until the gap is consistent, unless the scene requests one linearization. The energy of neo-Hookean bodies is minimized without a quadratic model."
-    yield "The energies therefore differ where the published configuration has an error, as explained below the table.\n"
+    yield ("With the default settings the linearization of the gap is updated until the gap is consistent, unless "
+           "the scene requests one linearization. The energy of neo-Hookean bodies is minimized without a quadratic "
+           "model.")
+    yield ("The energies therefore differ where the published configuration has an error, as explained below the "
+           "table.\n")
     yield from defaults_table(cases, records)
     if "defaults" in explanations:
         yield "\n" + explanations["defaults"]
@@ -394,7 +451,9 @@ def wrapped(text):
     if not free:
         return text
     lines = text.split("\n")
-    return "\n".join(line if line.startswith("|") else textwrap.fill(line, 100, break_long_words=False, break_on_hyphens=False) for line in lines)
+    return "\n".join(
+        line if line.startswith("|") else textwrap.fill(line, 100, break_long_words=False, break_on_hyphens=False)
+        for line in lines)
 
 
 def default_runs(quick, meshes, only):
@@ -419,14 +478,20 @@ def main():
     parser.add_argument("--quick", action="store_true", help="mesh 1 alone, ten minutes")
     parser.add_argument("--meshes", type=int, default=3, help="meshes of every problem")
     parser.add_argument("--only", default="", help="problems whose name has this")
-    parser.add_argument("--runs", nargs="*", help="these alone, in this order: PROBLEM/MESH/WAY:SECONDS, with a limit in elapsed seconds; the ways are " + ", ".join(WAYS))
-    parser.add_argument("--kept", action="store_true", help="makes the page of the runs that are there, and starts none")
+    parser.add_argument(
+        "--runs", nargs="*",
+        help="these alone, in this order: PROBLEM/MESH/WAY:SECONDS, with a limit in elapsed seconds; the ways are " +
+        ", ".join(WAYS))
+    parser.add_argument("--kept", action="store_true",
+                        help="makes the page of the runs that are there, and starts none")
     parsed = parser.parse_args()
     os.makedirs(FOLDER, exist_ok=True)
     if not parsed.kept:
-        for problem, mesh, way, limit in named_runs(parsed.runs) if parsed.runs else default_runs(parsed.quick, parsed.meshes, parsed.only):
+        for problem, mesh, way, limit in named_runs(parsed.runs) if parsed.runs else default_runs(
+                parsed.quick, parsed.meshes, parsed.only):
             run(problem, mesh, way, parsed.quick, limit)
-    names = [(problem, mesh, way) for problem in PROBLEMS for mesh in sorted(LIMITS) for way in WAYS if parsed.only in problem and kept(problem, mesh, way)]
+    names = [(problem, mesh, way) for problem in PROBLEMS
+             for mesh in sorted(LIMITS) for way in WAYS if parsed.only in problem and kept(problem, mesh, way)]
     records = {name: run(*name) for name in names}
     cases = list(dict.fromkeys((problem, mesh) for problem, mesh, _ in names))
     curves(cases, records)

@@ -158,7 +158,8 @@ def forces(step):
     yield table(["face", "reaction (x, y, z)", "moment"], [[face[key] for key in keys] for face in step["faces"]])
     if step["rigid_bodies"]:
         keys = ["name", "position", "rotation"]
-        yield table(["rigid body", "position (x, y, z)", "rotation since the start, degrees"], [[body[key] for key in keys] for body in step["rigid_bodies"]])
+        yield table(["rigid body", "position (x, y, z)", "rotation since the start, degrees"],
+                    [[body[key] for key in keys] for body in step["rigid_bodies"]])
     yield "<p>Forces on each body. Their resultant should be 0.</p>\n"
     keys = ["name", "contact", "reaction", "load", "balance"]
     heading = ["body", "contact (x, y, z)", "reaction (x, y, z)", "load (x, y, z)"]
@@ -173,17 +174,22 @@ def percent(fraction):
 def accuracy(run, step):
     mesh = step["error_estimate"]
     solver = step["algebraic_error"]
-    rows = [["the mesh (from stress recovery)", None if mesh is None else percent(mesh**2)], ["the solver", percent(solver)]]
+    rows = [["the mesh (from stress recovery)", None if mesh is None else percent(mesh**2)],
+            ["the solver", percent(solver)]]
     yield table(["error caused by", "estimated error of the energy [%]"], rows)
     if mesh is not None:
-        yield "<p>Contribution of each body to the error of the mesh in the energy norm. Refine the body with the largest one.</p>\n"
-        yield table(["body", "error in the energy norm [%]"], [[body, percent(error)] for body, error in step["body_errors"].items()])
+        yield ("<p>Contribution of each body to the error of the mesh in the energy norm. Refine the body with the "
+               "largest one.</p>\n")
+        yield table(["body", "error in the energy norm [%]"],
+                    [[body, percent(error)] for body, error in step["body_errors"].items()])
     if run.get("accuracy"):
         asked = run["accuracy"]
         yield f"<p>Requested accuracy: {text(asked['target'])}. {html.escape(str(asked['end']))}</p>\n"
         keys = [key for key in asked["levels"][0] if not isinstance(asked["levels"][0][key], (list, dict))]
-        yield table([key.replace("_", " ") for key in keys], [[level[key] for key in keys] for level in asked["levels"]])
-        yield "<p>Errors of the meshes are relative to the energy, or to the force of a pair if that error is larger.</p>\n"
+        yield table([key.replace("_", " ") for key in keys],
+                    [[level[key] for key in keys] for level in asked["levels"]])
+        yield ("<p>Errors of the meshes are relative to the energy, or to the force of a pair if that error is "
+               "larger.</p>\n")
 
 
 def steps(run):

@@ -23,7 +23,8 @@ class Deck:
 
     def __init__(self, size):
         self.size = size
-        self.cells_across = max(3, round(4 / size))  # of a patch beside a hole; 12 or more around a circle stay one surface
+        # of a patch beside a hole; 12 or more around a circle stay one surface
+        self.cells_across = max(3, round(4 / size))
         self.lines = ["Mesh.RecombineAll = 1;", "Mesh.SaveGroupsOfElements = 1;", "General.Verbosity = 1;"]
         self.sweeps = []  # after all patches, since they number points and curves by themselves
         self.parts = []
@@ -81,8 +82,10 @@ class Deck:
         """A disc: its patches, and the points of its circle"""
         turn = math.atan2(y, x)
         outer = self.circle(x, y, z, radius, n, 4, turn)
-        core = [self.point(x + 0.55 * radius * math.cos(turn + k * math.pi / 2), y + 0.55 * radius * math.sin(turn + k * math.pi / 2), z)
-                for k in range(4)]
+        core = [
+            self.point(x + 0.55 * radius * math.cos(turn + k * math.pi / 2),
+                       y + 0.55 * radius * math.sin(turn + k * math.pi / 2), z) for k in range(4)
+        ]
         return self.between(core, outer, n, 1) + [self.patch(core, n, n)], outer
 
     def sweep(self, name, surfaces, height, layers):
@@ -90,7 +93,9 @@ class Deck:
         tops = []
         for surface in surfaces:
             out = f"e{self.number()}"
-            self.sweeps.append(f"{out}[] = Extrude {{0, 0, {height:.12g}}} {{ Surface{{{surface}}}; Layers{{{layers}}}; Recombine; }};")
+            self.sweeps.append(
+                f"{out}[] = Extrude {{0, 0, {height:.12g}}} {{ Surface{{{surface}}}; Layers{{{layers}}}; Recombine; }};"
+            )
             self.parts.append((name, f"{out}[1]"))
             tops.append(f"{out}[0]")
         return tops
@@ -117,7 +122,8 @@ class Deck:
             x, y = HOLES * math.cos(k * step), HOLES * math.sin(k * step)
             points = self.circle(x, y, z[0], hole, n, 4, k * step - math.pi / 4)
             corners = [outer[0], outer[1], inner[1], inner[0]]
-            around = self.between(points, corners, n, self.cells(6, 4))  # equal in all plates, since Gmsh joins their faces
+            # equal in all plates, since Gmsh joins their faces
+            around = self.between(points, corners, n, self.cells(6, 4))
             outside.append(around[0])
             surfaces += around[1:]
         layers = self.cells(z[1] - z[0], size)
@@ -128,7 +134,10 @@ class Deck:
         return list(dict.fromkeys(name for name, _ in self.parts))
 
     def text(self):
-        groups = [f"Physical Volume(\"{name}\") = {{{', '.join(v for n, v in self.parts if n == name)}}};" for name in self.names()]
+        groups = [
+            f"Physical Volume(\"{name}\") = {{{', '.join(v for n, v in self.parts if n == name)}}};"
+            for name in self.names()
+        ]
         groups += [f"Physical Surface(\"{name}\") = {{{', '.join(surfaces)}}};" for name, surfaces in self.faces]
         return "\n".join(self.lines + self.sweeps + groups) + "\n"
 
@@ -168,17 +177,27 @@ def assemble(nbolts, size):
 
 def scene(deck, holes, preload, order):
     n = len(holes)
-    lines = ["# made by share/scenes/gearbox.py", f"problem: gearbox of {len(deck.names())} parts", "units: mm, N, MPa", "bodies:"]
+    lines = [
+        "# made by share/scenes/gearbox.py", f"problem: gearbox of {len(deck.names())} parts", "units: mm, N, MPa",
+        "bodies:"
+    ]
     for name in deck.names():
         constants = "young: 110e3, poisson: 0.3" if "bush" in name else "young: 210e3, poisson: 0.3"
-        lines.append(f"  - {name}: {{mesh: gearbox.inp, volume: {name}, {constants}{', order: 2' if order == 2 else ''}}}")
+        lines.append(
+            f"  - {name}: {{mesh: gearbox.inp, volume: {name}, {constants}{', order: 2' if order == 2 else ''}}}")
     lines += ["displacements:", "  - foot: {face: base.rim, value: [0, 0, 0]}"]
     lines += ["contact:", "  - auto: {friction: 0.15}"]
     lines += [f"  - thread{k}: {{mortar: bolt{k}, nonmortar: nut{k}, tie: 0.01}}" for k in range(1, n + 1)]
-    lines += ["  - lower_seat: {mortar: base, nonmortar: lower_bush, tie: 0.01}", "  - upper_seat: {mortar: cover, nonmortar: upper_bush, tie: 0.01}"]
+    lines += [
+        "  - lower_seat: {mortar: base, nonmortar: lower_bush, tie: 0.01}",
+        "  - upper_seat: {mortar: cover, nonmortar: upper_bush, tie: 0.01}"
+    ]
     lines += ["bolts:"]
-    lines += [f"  - m8_{k}: {{body: bolt{k}, point: [{x:.6g}, {y:.6g}, 32], axis: [0, 0, 1], force: {preload}, lock: 1, ramp: tighten}}"
-              for k, (x, y) in enumerate(holes, 1)]
+    lines += [
+        (f"  - m8_{k}: "
+         f"{{body: bolt{k}, point: [{x:.6g}, {y:.6g}, 32], axis: [0, 0, 1], force: {preload}, lock: 1, ramp: tighten}}")
+        for k, (x, y) in enumerate(holes, 1)
+    ]
     lines += ["forces:", "  - teeth: {face: gear.teeth, value: [0, 400, 0], moment: [0, 0, 4000], ramp: drive}"]
     lines += ["ramps:", "  - tighten: {factors: [1, 0]}", "  - drive: {factors: [0, 1]}", "load: {steps: 2}"]
     return "\n".join(lines) + "\n"

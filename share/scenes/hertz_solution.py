@@ -1,9 +1,11 @@
-"""Hertz's solutions of the scenes hertz_sphere, hertz_cylinder and ssnv104, and a run's figures beside the one at its computed force.
+"""Hertz's solutions of the scenes hertz_sphere, hertz_cylinder and ssnv104, and a run's figures beside the one at its
+computed force.
 
-python hertz_solution.py sphere|cylinder|ssnv104 NAME   prints the figures of a run, written with -output NAME -summary NAME.json
+python hertz_solution.py sphere|cylinder|ssnv104 NAME   prints the figures of a run, written with -output NAME -summary
+NAME.json
 
-Hertz's places and areas are those of the undeformed bodies. His pressure is fitted to the nodal forces of the mortar method,
-contact_pressure times contact_area, over the nodal areas.
+Hertz's places and areas are those of the undeformed bodies. His pressure is fitted to the nodal forces of the mortar
+method, contact_pressure times contact_area, over the nodal areas.
 """
 import json
 import math
@@ -28,7 +30,7 @@ class Sphere:
 
     def at(self, force):
         """peak pressure, radius, approach"""
-        a = (3 * force * self.radius / (4 * self.modulus)) ** (1 / 3)
+        a = (3 * force * self.radius / (4 * self.modulus))**(1 / 3)
         return 3 * force / (2 * math.pi * a**2), a, a**2 / self.radius
 
     def loaded(self):
@@ -57,7 +59,8 @@ class Cylinder:
         return 2 * force / (math.pi * a), a, force / (math.pi * self.modulus) * (2 * math.log(4 * self.radius / a) - 1)
 
     def loaded(self):
-        """force and energy at the scene's approach, a length; the approach grows with the force, the energy is its work"""
+        """force and energy at the scene's approach, a length; the approach grows with the force, the energy is its
+        work"""
         low, high = 1e-12, 1e4
         for _ in range(200):
             middle = math.sqrt(low * high)
@@ -94,7 +97,7 @@ def measure(problem, name):
     area, r = areas(x, facets), problem.distance(x)
     average = np.divide(pressure * covered, area, out=np.zeros_like(area), where=area > 0)
     inner = average > average.max() / 2
-    slope, square = np.polyfit(r[inner] ** 2, average[inner] ** 2, 1)  # p^2 = p0^2 (1 - r^2/a^2)
+    slope, square = np.polyfit(r[inner]**2, average[inner]**2, 1)  # p^2 = p0^2 (1 - r^2/a^2)
     on = problem.on_surface(x) & ~np.isnan(gap)
     force = abs(summary["steps"][0]["contact_force"][2]) / problem.share
     p0, a, approach = problem.at(force)
@@ -107,13 +110,15 @@ def measure(problem, name):
         "contact radius": fit_a,
         "contact radius, deformed": np.interp(fit_a, *np.sort([r[on], problem.distance(x + u)[on]])),
         "largest nodal pressure": pressure.max(),
-        "errors": {"peak pressure": fit_p0 / p0 - 1, "contact radius": fit_a / a - 1, "approach": problem.approach / approach - 1},
+        "errors": {
+            "peak pressure": fit_p0 / p0 - 1, "contact radius": fit_a / a - 1,
+            "approach": problem.approach / approach - 1
+        },
         "nodal error": pressure.max() / p0 - 1,
     }
 
 
 SOLUTIONS = {"sphere": Sphere, "cylinder": Cylinder, "ssnv104": SSNV104}
-
 
 if __name__ == "__main__":
     print(json.dumps(measure(SOLUTIONS[sys.argv[1]](), sys.argv[2]), indent=2))

@@ -1,4 +1,5 @@
-"""The scenes on other meshes, as edits of their text: Hertz's two with coarser ones, whose cells at the contact are larger by sqrt(2) each.
+"""The scenes on other meshes, as edits of their text: Hertz's two with coarser ones, whose cells at the contact are
+larger by sqrt(2) each.
 
 python meshes.py hertz_sphere|hertz_cylinder coarse|medium   prints the scene
 """
@@ -28,7 +29,8 @@ def face_cells(patches, grading, even):
 
 def ball_cells(patch, grading, even, layers, layer_grading, layer_even):
     depth = {"layers": layers, "layer_grading": layer_grading, "layer_even": layer_even}
-    return face_cells((patch, patch, 1), (grading, grading, 1), (even, even, 1)) + tuple((f"{key}: .*", f"{key}: {value}") for key, value in depth.items())
+    return face_cells((patch, patch, 1), (grading, grading, 1), (even, even, 1)) + tuple(
+        (f"{key}: .*", f"{key}: {value}") for key, value in depth.items())
 
 
 def cylinder_cells(around, grading, even, ring, ring_grading, ring_even):
@@ -37,10 +39,13 @@ def cylinder_cells(around, grading, even, ring, ring_grading, ring_even):
 
 
 MESHES = {
-    "hertz_sphere": {"coarse": ball_cells(11, 312.5, 5, 9, 0.005304, 3), "medium": ball_cells(15, 334.5, 6, 12, 0.004552, 4)},
-    "hertz_cylinder": {"coarse": cylinder_cells(19, 361.2, 6, 14, 0.004865, 2), "medium": cylinder_cells(28, 432.9, 9, 20, 0.00386, 3)},
+    "hertz_sphere": {
+        "coarse": ball_cells(11, 312.5, 5, 9, 0.005304, 3), "medium": ball_cells(15, 334.5, 6, 12, 0.004552, 4)
+    },
+    "hertz_cylinder": {
+        "coarse": cylinder_cells(19, 361.2, 6, 14, 0.004865, 2), "medium": cylinder_cells(28, 432.9, 9, 20, 0.00386, 3)
+    },
 }
-
 
 if __name__ == "__main__":
     print(edited(sys.argv[1], MESHES[sys.argv[1]][sys.argv[2]]), end="")

@@ -1,4 +1,5 @@
-# A PETSc with complex scalars: make builds the plugin, in a tree of its own, and PCAMGF solves Hermitian positive definite systems on 1 and 2 ranks.
+# A PETSc with complex scalars: make builds the plugin, in a tree of its own, and PCAMGF solves Hermitian positive
+# definite systems on 1 and 2 ranks.
 set -u
 unset MAKEFLAGS
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
@@ -10,11 +11,14 @@ make PETSC_DIR="$COMPLEX_PETSC" PETSC_ARCH= CFLAGS='-g -O1 -Werror=incompatible-
 find lib bin ! -type d 2> /dev/null | sed 's/\.so\..*/.so/' | sort -u
 
 export PKG_CONFIG_PATH=$COMPLEX_PETSC/lib/pkgconfig
-mpicc -std=c11 -g -O1 -Iinclude $(pkg-config --cflags PETSc) "$AMGF_DIR/tests/pc_amgf/amgf_hermitian.c" -o hermitian -Llib -lpetscamgf -Wl,-rpath,"$work/lib" $(pkg-config --libs PETSc) -lm
+mpicc -std=c11 -g -O1 -Iinclude $(pkg-config --cflags PETSc) "$AMGF_DIR/tests/pc_amgf/amgf_hermitian.c" -o hermitian \
+  -Llib -lpetscamgf -Wl,-rpath,"$work/lib" $(pkg-config --libs PETSc) -lm
 for ranks in 1 2; do
   for kind in solves transposes; do
     arguments=
-    [ $kind = solves ] || arguments=$(sed -n '/suffix: transposes/,$s/^ *args: //p' "$AMGF_DIR/tests/pc_amgf/amgf_hermitian.c")
-    mpiexec --oversubscribe -n $ranks ./hermitian $arguments | diff "$AMGF_DIR/tests/pc_amgf/amgf_hermitian_$kind.out" - && echo "$kind, ranks $ranks: ok"
+    [ $kind = solves ] || arguments=$(sed \
+      -n '/suffix: transposes/,$s/^ *args: //p' "$AMGF_DIR/tests/pc_amgf/amgf_hermitian.c")
+    mpiexec --oversubscribe -n $ranks ./hermitian $arguments |
+      diff "$AMGF_DIR/tests/pc_amgf/amgf_hermitian_$kind.out" - && echo "$kind, ranks $ranks: ok"
   done
 done

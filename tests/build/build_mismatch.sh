@@ -1,5 +1,7 @@
-# A plugin that was built with another PETSc than the program's is refused in one sentence, on every rank, wherever integers, scalars or release differ.
-# The other PETSc is pretended to library.c, which asks; where Debian's with complex scalars or 64-bit integers are installed, they build a whole plugin.
+# A plugin that was built with another PETSc than the program's is refused in one sentence, on every rank, wherever
+# integers, scalars or release differ.
+# The other PETSc is pretended to library.c, which asks; where Debian's with complex scalars or 64-bit integers are
+# installed, they build a whole plugin.
 set -u
 unset MAKEFLAGS
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
@@ -22,7 +24,8 @@ int main(int argc, char **argv)
   return 0;
 }
 C
-mpicc $(pkg-config --cflags PETSc) program.c -o program $(pkg-config --libs PETSc) -Wl,-rpath,"$(pkg-config --variable=libdir PETSc)"
+mpicc $(pkg-config --cflags PETSc) program.c -o program $(pkg-config --libs PETSc) \
+  -Wl,-rpath,"$(pkg-config --variable=libdir PETSc)"
 
 # try WHAT PLUGIN: one sentence and an error, or what the program says
 try() {
@@ -35,14 +38,16 @@ try() {
   done
 }
 
-objects=$(cd "$AMGF_DIR" && ls pc_amgf/*.c pc_amgf/*/*.c src/plugin/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c | grep -v 'src/plugin/library.c' | sed "s|^\(.*\)c$|$AMGF_DIR/build/\1o|")
+objects=$(cd "$AMGF_DIR" && ls pc_amgf/*.c pc_amgf/*/*.c src/plugin/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c \
+  | grep -v 'src/plugin/library.c' | sed "s|^\(.*\)c$|$AMGF_DIR/build/\1o|")
 
 # pretend WHAT DEFINITIONS...: a plugin whose library.c was compiled after them
 pretend() {
   local what=$1
   shift
   printf '%s\n' "$@" > pretend.h
-  mpicc -std=c11 -fPIC -I"$AMGF_DIR/include" -I"$AMGF_DIR" $(pkg-config --cflags PETSc) -include pretend.h -c "$AMGF_DIR/src/plugin/library.c" -o library.o
+  mpicc -std=c11 -fPIC -I"$AMGF_DIR/include" \
+    -I"$AMGF_DIR" $(pkg-config --cflags PETSc) -include pretend.h -c "$AMGF_DIR/src/plugin/library.c" -o library.o
   mpicc -shared -Wl,-z,nodelete $objects library.o $(pkg-config --libs PETSc) -lm -o libpetscamgf.so
   try "$what" ./libpetscamgf.so
   rm -f library.o libpetscamgf.so

@@ -1,5 +1,5 @@
-# PETSC_DIR, given to make or in the environment, is the PETSc of every target, not the one that pkg-config finds first; one that has none is an error. Another
-# PETSc, compiler or flag compiles everything anew, and nothing else does.
+# PETSC_DIR, given to make or in the environment, is the PETSc of every target, not the one that pkg-config finds first;
+# one that has none is an error. Another PETSc, compiler or flag compiles everything anew, and nothing else does.
 set -u
 unset MAKEFLAGS
 work=$(mktemp -d)
@@ -51,7 +51,8 @@ again() {
   sleep 0.01
   make "$@" lib/libpetscamgf.so > log 2>&1 || cat log
   touch made
-  echo "${*//$work/DIR}: $(grep -c '\.o$' made | sed "s/^$objects$/everything/; s/^0$/nothing/") compiled, $(grep -c '\.so' made) linked"
+  echo "${*//$work/DIR}: $(grep -c '\.o$' made | sed "s/^$objects$/everything/;
+    s/^0$/nothing/") compiled, $(grep -c '\.so' made) linked"
 }
 first="PETSC_DIR=$work/another PETSC_ARCH="
 again $first CC=./cc1

@@ -1,6 +1,7 @@
-# All sources and tests compile where GCC 14 makes errors of what older compilers warn of: pointers of other types, integers as pointers, functions without
-# declaration, casts between kinds of functions. Formats of printed values count, too. Also with a PETSc of 64-bit integers, where a PetscInt is not an int, if its
-# headers are there: libpetsc64-real-dev, or PETSC64=its prefix.
+# All sources and tests compile where GCC 14 makes errors of what older compilers warn of: pointers of other types,
+# integers as pointers, functions without declaration, casts between kinds of functions. Formats of printed values
+# count, too. Also with a PETSc of 64-bit integers, where a PetscInt is not an int, if its headers are there:
+# libpetsc64-real-dev, or PETSC64=its prefix.
 set -u
 cd "$AMGF_DIR" || exit 1
 work=$(mktemp -d)
@@ -14,7 +15,8 @@ ours=$(pkg-config --cflags PETSc)
 compile() {
   local headers=$1
   shift
-  mpicc -std=c11 -fsyntax-only -Wall -Wextra "${refused[@]/#/-Werror=}" '-DCONTACT_PYTHON=""' -Iinclude -I. $headers $hdf5 "$@" 2>&1 | grep -E 'error|fatal'
+  mpicc -std=c11 -fsyntax-only -Wall -Wextra "${refused[@]/#/-Werror=}" '-DCONTACT_PYTHON=""' -Iinclude \
+    -I. $headers $hdf5 "$@" 2>&1 | grep -E 'error|fatal'
 }
 
 all="$(ls pc_amgf/*.c pc_amgf/*/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c src/*/*.c src/*/*/*.c apps/*.c) $(ls tests/*/*.c | grep -vE '^tests/(stress|fuzz)/')"

@@ -1,5 +1,6 @@
-# A feature folder of the optimizer can go: without tao_ipfilter/friction and its lines in register.c the sources compile, and the other objects
-# of the plugin ask for nothing that was there. The same without tao_ipfilter/subspace besides.
+# A feature folder of the optimizer can go: without tao_ipfilter/friction and its lines in register.c the sources
+# compile, and the other objects of the plugin ask for nothing that was there. The same without tao_ipfilter/subspace
+# besides.
 set -u
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -13,9 +14,12 @@ for folder in friction subspace; do
   rm -r "tao_ipfilter/$folder"
   case $folder in friction) line='ip->laws *=' ;; *) line='ip->method->ops *=' ;; esac
   sed -i -e "/$folder\//d" -e "/$line/d" tao_ipfilter/register.c
-  mpicc -std=c11 -Wall -Wextra -fsyntax-only -Iinclude -I. $headers tao_ipfilter/*.c tao_ipfilter/*/*.c 2>&1 | grep -E 'error|warning' | grep -v "unused parameter 'ip'\|unused parameter ‘ip’"
+  mpicc -std=c11 -Wall -Wextra -fsyntax-only -Iinclude -I. $headers tao_ipfilter/*.c tao_ipfilter/*/*.c 2>&1 |
+    grep -E 'error|warning' | grep -v "unused parameter 'ip'\|unused parameter ‘ip’"
   mpicc -std=c11 -fPIC -w -Iinclude -I. $headers -c tao_ipfilter/register.c -o register.o
-  objects=$(ls tao_ipfilter/*.c tao_ipfilter/*/*.c | sed -e '/tao_ipfilter.register/d' -e "s|^\(.*\)c$|$AMGF_DIR/build/\1o|")
+  objects=$(ls tao_ipfilter/*.c tao_ipfilter/*/*.c \
+    | sed -e '/tao_ipfilter.register/d' -e "s|^\(.*\)c$|$AMGF_DIR/build/\1o|")
   undefined=$(nm $objects register.o 2> /dev/null | awk '$1 == "U" { u[$2] } $2 ~ /^[TDBRCi]$/ { d[$3] } END { for (s in u) if (s ~ /^(IP|TaoIPFilter)/ && !(s in d)) print s }')
-  [ -z "$undefined" ] && echo "without ${folders[*]}: compiles and links" || echo "undefined without ${folders[*]}:" $undefined
+  [ -z "$undefined" ] && echo "without ${folders[*]}: compiles and links" ||
+    echo "undefined without ${folders[*]}:" $undefined
 done

@@ -1,5 +1,6 @@
-# The examples from an installed copy, on one rank and on two: each prints what its first comment says. Those for whose Python module this machine has no
-# counterpart are left out; AMGF_INSTALL=1 installs it, with apt. Of those, what fails is printed.
+# The examples from an installed copy, on one rank and on two: each prints what its first comment says. Those for whose
+# Python module this machine has no counterpart are left out; AMGF_INSTALL=1 installs it, with apt. Of those, what fails
+# is printed.
 set -u
 unset MAKEFLAGS
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
@@ -33,7 +34,8 @@ example() {
 has() {
   "$PYTHON" "$AMGF_DIR/tests/lib/petsc4py_of.py" "$(pkg-config --variable=libdir PETSc)" 2> /dev/null || return 1
   "$PYTHON" -c "import $1" 2> /dev/null && return
-  [ -n "${AMGF_INSTALL:-}" ] && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$2" > /dev/null 2>&1 && "$PYTHON" -c "import $1"
+  [ -n "${AMGF_INSTALL:-}" ] && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$2" \
+    > /dev/null 2>&1 && "$PYTHON" -c "import $1"
 }
 
 said=echo
@@ -43,7 +45,9 @@ example obstacle_tao.c ./obstacle_tao -dll_append "$plugin" -tao_type ipfilter
 example press_library.c ./press_library "$work/amgf/share/amgf/scenes/patch_test.yaml"
 said=: # whether they are run depends on the machine
 has petsc4py petsc4py && example ties_petsc4py.py "$PYTHON" ties_petsc4py.py -dll_append "$plugin" -pc_type amgf
-has slepc4py python3-slepc4py && example modes_slepc4py.py "$PYTHON" modes_slepc4py.py -dll_append "$plugin" -st_pc_type amgf
+has slepc4py python3-slepc4py && example modes_slepc4py.py "$PYTHON" modes_slepc4py.py -dll_append "$plugin" \
+  -st_pc_type amgf
 has dolfinx python3-dolfinx && example beam_dolfinx.py "$PYTHON" beam_dolfinx.py -dll_append "$plugin" -pc_type amgf
-ls ./*.c ./*.py | while read -r file; do grep -q "^example ${file#./} " "$AMGF_DIR/tests/build/examples.sh" || grep -q "&& example ${file#./} " "$AMGF_DIR/tests/build/examples.sh" || echo "$file is not run"; done
+ls ./*.c ./*.py | while read -r file; do grep -q "^example ${file#./} " "$AMGF_DIR/tests/build/examples.sh" ||
+  grep -q "&& example ${file#./} " "$AMGF_DIR/tests/build/examples.sh" || echo "$file is not run"; done
 exit 0

@@ -1,4 +1,5 @@
-"""Writes the matrices and vectors of PETSc's binary files as a PETSc with 64-bit integers reads them: python3 indices64.py FILE..."""
+"""Writes the matrices and vectors of PETSc's binary files as a PETSc with 64-bit integers reads them: python3
+indices64.py FILE..."""
 import sys
 
 import numpy
@@ -10,6 +11,7 @@ def objects(data):
     """(integers, values) of each object in a file of 32-bit integers"""
     at = 0
     while at < len(data):
+
         def integers(n):
             nonlocal at
             at += 4 * n

@@ -1,5 +1,6 @@
-# make install, as programs outside see it: with pkg-config alone, C and C++ compile, link and run against the plugin and against the mechanics library; every
-# header stands by itself; PETSc's version is in the pkg-config file, which refuses another; installing twice leaves one copy, make uninstall none.
+# make install, as programs outside see it: with pkg-config alone, C and C++ compile, link and run against the plugin
+# and against the mechanics library; every header stands by itself; PETSc's version is in the pkg-config file, which
+# refuses another; installing twice leaves one copy, make uninstall none.
 set -u
 unset MAKEFLAGS
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
@@ -22,7 +23,8 @@ done
 export PKG_CONFIG_PATH=$prefix/lib/pkgconfig:${PETSC_DIR:+$PETSC_DIR/${PETSC_ARCH:-}/lib/pkgconfig:}${PKG_CONFIG_PATH:-}
 rpath=-Wl,-rpath,$(pkg-config --variable=libdir PETSc)
 pkg-config --print-requires petscamgf | sed 's/[0-9.]*$/RELEASE/'
-[ "$(pkg-config --variable=petsc_version petscamgf)" = "$(pkg-config --modversion PETSc)" ] && echo "it says which PETSc"
+[ "$(pkg-config --variable=petsc_version petscamgf)" = "$(pkg-config --modversion PETSc)" ] &&
+  echo "it says which PETSc"
 
 cat > plugin.c << 'C'
 #include <petscamgf.h>
@@ -73,14 +75,18 @@ cp library.c library.cc
 for language in c cc; do
   compiler=mpicc
   [ $language = c ] || compiler=mpicxx
-  $compiler -Wall -Werror plugin.$language -o plugin_$language $(pkg-config --cflags --libs petscamgf) $rpath && ./plugin_$language
-  $compiler -Wall -Werror library.$language -o library_$language $(pkg-config --cflags --libs contact) $rpath && ./library_$language "$prefix/share/amgf/scenes/cantilever.yaml" -refine 0
+  $compiler -Wall -Werror plugin.$language -o plugin_$language $(pkg-config --cflags --libs petscamgf) $rpath \
+    && ./plugin_$language
+  $compiler -Wall -Werror library.$language -o library_$language $(pkg-config --cflags --libs contact) $rpath \
+    && ./library_$language "$prefix/share/amgf/scenes/cantilever.yaml" -refine 0
 done
 for header in $(cd "$prefix/include" && ls *.h contact/*.h); do
   echo "#include <$header>" > alone.cc
-  mpicxx -Wall -Werror -fsyntax-only alone.cc $(pkg-config --cflags contact) > err 2>&1 || { echo "$header alone:"; head -n 3 err; }
+  mpicxx -Wall -Werror -fsyntax-only alone.cc $(pkg-config --cflags contact) > err 2>&1 \
+    || { echo "$header alone:"; head -n 3 err; }
 done
-"$prefix/bin/contact" "$prefix/share/amgf/scenes/gmsh_blocks.yaml" -scene_check > out && echo "contact: a scene with its mesh"
+"$prefix/bin/contact" "$prefix/share/amgf/scenes/gmsh_blocks.yaml" -scene_check > out &&
+  echo "contact: a scene with its mesh"
 
 installs uninstall PREFIX="$prefix"
 [ ! -e "$work/opt" ] && echo "uninstalled: nothing left"

@@ -1,4 +1,5 @@
-"""Holds the load steps of a run that went on against those of one that was not stopped: TITLE TOLERANCE WHOLE PART [energy]."""
+"""Holds the load steps of a run that went on against those of one that was not stopped: TITLE TOLERANCE WHOLE PART
+[energy]."""
 import sys
 
 import numpy as np
@@ -19,7 +20,8 @@ def main(title, tolerance, whole, part, *rest):
     before, after = ({step["step"]: step for step in load(name)["steps"]} for name in (whole[:-5], part[:-5]))
     worst = max(difference(before[step], after[step], bool(rest)) for step in after)
     done = max(after) == max(before) and len(after) > 0
-    say("%s: energy%s as without a stop to %s" % (title, "" if rest else ", work and forces", tolerance), done and worst <= float(tolerance), worst)
+    say("%s: energy%s as without a stop to %s" % (title, "" if rest else ", work and forces", tolerance), done
+        and worst <= float(tolerance), worst)
 
 
 main(*sys.argv[1:])

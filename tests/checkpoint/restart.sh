@@ -1,5 +1,5 @@
-# A run goes on from a checkpoint: to the same answer on the same ranks, on others, on a refined mesh, with another load program; from what SIGKILL, SIGTERM and
-# a full disk leave. What it cannot go on from is said in one sentence.
+# A run goes on from a checkpoint: to the same answer on the same ranks, on others, on a refined mesh, with another load
+# program; from what SIGKILL, SIGTERM and a full disk leave. What it cannot go on from is said in one sentence.
 contact=$AMGF_DIR/bin/contact
 cat > press.yaml <<'YAML'
 problem: press
@@ -19,7 +19,8 @@ options="-quiet -tao_ipfilter_tol 1e-12 -contact_update_tol 1e-12"
 judge() { "$PYTHON" "$AMGF_DIR/tests/checkpoint/restart.py" "$@"; }
 
 for scene in press linear; do
-  "$contact" $scene.yaml $options -output whole -summary whole.json -checkpoint_every 3 -checkpoint $scene.h5 || echo "exit code $?"
+  "$contact" $scene.yaml $options -output whole -summary whole.json -checkpoint_every 3 -checkpoint $scene.h5 ||
+    echo "exit code $?"
   cp -r whole.csv part.csv
   "$contact" $scene.yaml $options -restart $scene.h5 -summary part.json -output part
   judge "$scene, one rank" 1e-12 whole.json part.json
@@ -27,7 +28,8 @@ for scene in press linear; do
   mpiexec --oversubscribe -n 3 "$contact" $scene.yaml $options -restart $scene.h5 -summary part.json
   judge "$scene, three ranks" 1e-9 whole.json part.json
 done
-mpiexec --oversubscribe -n 2 "$contact" press.yaml $options -checkpoint_every 2 -load_steps 3 -checkpoint two.h5 -summary whole.json
+mpiexec --oversubscribe -n 2 "$contact" press.yaml $options -checkpoint_every 2 -load_steps 3 -checkpoint two.h5 \
+  -summary whole.json
 mpiexec --oversubscribe -n 2 "$contact" press.yaml $options -load_steps 3 -restart two.h5 -summary part.json
 judge "from two ranks to two" 1e-12 whole.json part.json
 # Six cells in a row: ranks of one cell in the middle own no vertices
@@ -44,7 +46,8 @@ contact:
 load: {steps: 3}
 END
 "$contact" row.yaml $options -summary whole.json
-timeout 600 mpiexec --oversubscribe -n 4 "$contact" row.yaml $options -checkpoint_every 2 -checkpoint row.h5 || echo "a rank without vertices: exit code $?"
+timeout 600 mpiexec --oversubscribe -n 4 "$contact" row.yaml $options -checkpoint_every 2 -checkpoint row.h5 ||
+  echo "a rank without vertices: exit code $?"
 "$contact" row.yaml $options -restart row.h5 -summary part.json
 judge "from ranks without vertices" 1e-9 whole.json part.json
 mpiexec --oversubscribe -n 4 "$contact" row.yaml $options -restart row.h5 -summary part.json
@@ -71,7 +74,9 @@ for part in 2 4 6; do
   sleep 0.0$(((part * 37 + $$) % 89 + 10))
   kill -KILL $pid 2> /dev/null
   wait $pid 2> /dev/null
-  "$contact" press.yaml $options -restart killed.h5 -summary part.json 2> err && judge "killed" 1e-12 whole.json part.json || sed 's/.*: the analysis is already complete/killed: energy, work and forces as without a stop to 1e-12: yes/' err
+  "$contact" press.yaml $options -restart killed.h5 -summary part.json 2> err &&
+    judge "killed" 1e-12 whole.json part.json ||
+    sed 's/.*: the analysis is already complete/killed: energy, work and forces as without a stop to 1e-12: yes/' err
 done
 
 "$contact" press.yaml -load_steps 4000 -checkpoint term.h5 > log 2>&1 &
@@ -123,30 +128,40 @@ import shutil
 import h5py
 import numpy as np
 
+
 def damage(name, change):
     shutil.copy("press.h5", name + ".h5")
     with h5py.File(name + ".h5", "r+") as file:
         change(file)
 
+
 def number(key, value):
     damage("bad_" + key, lambda file: file.attrs.modify(key, np.array(value, file.attrs[key].dtype)))
 
+
 def data(name, field, values):
+
     def replace(file):
         old = file[field]
         new = values(old[...])
         del file[field]
         file.create_dataset(field, data=new, dtype=old.dtype)
+
     damage(name, replace)
 
+
 def put(index, value):
+
     def change(a):
         a[index] = value
         return a
+
     return change
 
+
 damage("bad_earlier", lambda file: file.attrs.__delitem__("largest_speed"))
-number("step", 7), number("time", np.nan), number("previous_time", 100.0), number("increment", -1.0), number("work", np.inf)
+number("step", 7), number("time", np.nan), number("previous_time", 100.0), number("increment",
+                                                                                  -1.0), number("work", np.inf)
 data("bad_cells", "cells", lambda a: a[:-1])
 data("bad_body", "body", lambda a: np.concatenate((a, a)))
 data("bad_vertex", "cells", put((0, 3), 100000))
@@ -156,11 +171,12 @@ data("bad_place", "vertices", put((3, 1), np.nan))
 with open("press.h5", "rb") as file:
     whole = bytearray(file.read())
 root = int.from_bytes(whole[64:72], "little")  # where the file's own group begins
-whole[root : root + 8] = bytes(8 * [255])
+whole[root:root + 8] = bytes(8 * [255])
 with open("bad_root.h5", "wb") as file:
     file.write(whole)
 PY
-for name in root earlier step time previous_time increment work field value; do try press.yaml -restart bad_$name.h5; done
+for name in root earlier step time previous_time increment work field value; do
+  try press.yaml -restart bad_$name.h5; done
 for name in cells body vertex field value place; do
   try press.yaml -restart bad_$name.h5 -refine 1
   timeout 600 mpiexec --oversubscribe -n 2 "$contact" press.yaml -restart bad_$name.h5 -refine 1 -quiet > err 2>&1
@@ -187,5 +203,6 @@ refuse press.yaml -load_steps 1 -load_max_cuts 0 -tao_max_it 1 -tao_ipfilter_sub
 # Files that another run has under way
 parts="busy.h5.part busy.json.part busy_state.h5.part"
 for part in $parts; do echo "of another run" > $part; done
-"$contact" linear.yaml -quiet -load_steps 1 -output busy -checkpoint_every 1 -checkpoint busy_state.h5 -summary busy.json
+"$contact" linear.yaml -quiet -load_steps 1 -output busy -checkpoint_every 1 -checkpoint busy_state.h5 \
+  -summary busy.json
 cat $parts

@@ -6,12 +6,16 @@ import numpy as np
 
 from summaries import load, say
 
-ARC = "{shape: tube_arc, axis: %s, radii: [1, 2], angles: [%g, %g], extent: [%g, %g], cells: [%d, 4, 2], %syoung: 10, poisson: 0.3, element: full}"
-PRESSURES = "pressures:\n" + "".join("  - %s_%s: {face: %s.%s, value: 0.5}\n" % (b, f, b, f) for b in ("BODY",) for f in ("inner", "outer"))
+ARC = ("{shape: tube_arc, axis: %s, radii: [1, 2], angles: [%g, %g], extent: [%g, %g], cells: [%d, 4, 2], "
+       "%syoung: 10, poisson: 0.3, element: full}")
+PRESSURES = "pressures:\n" + "".join("  - %s_%s: {face: %s.%s, value: 0.5}\n" % (b, f, b, f)
+                                     for b in ("BODY", )
+                                     for f in ("inner", "outer"))
 
 
 def wedge(axis, angles, material="", symmetry="[arc.amin, arc.amax, arc.lmin, arc.lmax]"):
-    return "bodies:\n  - arc: " + ARC % (axis, *angles, 0, 1, 3, material) + "\nsymmetry: " + symmetry + "\n" + PRESSURES.replace("BODY", "arc")
+    return "bodies:\n  - arc: " + ARC % (
+        axis, *angles, 0, 1, 3, material) + "\nsymmetry: " + symmetry + "\n" + PRESSURES.replace("BODY", "arc")
 
 
 def place(axis, radius, angle, along):
@@ -27,14 +31,22 @@ def probe(x):
 
 
 NORMAL = "[%.17g, %.17g, 0]" % (-math.sin(math.radians(50)), math.cos(math.radians(50)))
-PROBE = {name: place(*at) for name, at in {"one": ("z", 2, 50, 1), "two": ("y", 2, 70, 1), "named": ("z", 2, 50, 1), "finite": ("z", 2, 50, 1), "tied": ("z", 2, 50, 2)}.items()}
+PROBE = {
+    name: place(*at)
+    for name, at in {
+        "one": ("z", 2, 50, 1), "two": ("y", 2, 70, 1), "named": ("z", 2, 50, 1), "finite": ("z", 2, 50,
+                                                                                             1), "tied": ("z", 2, 50, 2)
+    }.items()
+}
 SCENES = {
     "one": wedge("z", (0, 50)),
     "two": wedge("y", (25, 70)),
     "named": wedge("z", (0, 50), symmetry="[arc.amin, cut: {face: arc.amax, normal: %s}, arc.lmin, arc.lmax]" % NORMAL),
     "finite": wedge("z", (0, 50), "material: neohookean, "),
-    "tied": "bodies:\n  - arc: " + ARC % ("z", 0, 50, 0, 1, 3, "") + "\n  - top: " + ARC % ("z", 0, 50, 1, 2, 5, "")
-    + "\nsymmetry: [arc.amin, arc.amax, arc.lmin, top.amin, top.amax, top.lmax]\nties:\n  - glue: {mortar: arc.lmax, nonmortar: top.lmin}\n" + PRESSURES.replace("BODY", "arc") + PRESSURES.replace("BODY", "top").replace("pressures:\n", ""),
+    "tied": "bodies:\n  - arc: " + ARC % ("z", 0, 50, 0, 1, 3, "") + "\n  - top: " + ARC % ("z", 0, 50, 1, 2, 5, "") +
+    ("\nsymmetry: [arc.amin, arc.amax, arc.lmin, top.amin, top.amax, top.lmax]\nties:\n"
+     "  - glue: {mortar: arc.lmax, nonmortar: top.lmin}\n") + PRESSURES.replace("BODY", "arc") +
+    PRESSURES.replace("BODY", "top").replace("pressures:\n", ""),
 }
 HALF, QUARTER = wedge("z", (0, 45)).replace("    - arc_outer", "#"), wedge("z", (0, 90))
 ONE_SIDED = "pressures:\n  - arc_inner: {face: arc.inner, value: 0.5}\n"
@@ -55,14 +67,22 @@ def judge(title, end):
         u[axis] = 0
         point = steps[name]["probes"][0]
         across = [point["stress_" + 2 * c] for i, c in enumerate("xyz") if i != axis]
-        say(title + name + ": displacement and stress to 1e-11", near(point["displacement"], u, 0.05, 1e-11) and near(across, [-0.5, -0.5], 0.5, 1e-10), point)
+        say(title + name + ": displacement and stress to 1e-11",
+            near(point["displacement"], u, 0.05, 1e-11) and near(across, [-0.5, -0.5], 0.5, 1e-10), point)
         say(title + name + ": in balance", steps[name]["balance"] < 1e-11, steps[name]["balance"])
     plane = {face["name"]: face["reaction"] for face in steps["one"]["faces"]}["arc.amax"]
-    say(title + "one: the plane's force is the pressure's", near(plane, 0.5 * np.array([math.sin(math.radians(50)), -math.cos(math.radians(50)), 0]), 0.5), plane)
+    say(title + "one: the plane's force is the pressure's",
+        near(plane, 0.5 * np.array([math.sin(math.radians(50)), -math.cos(math.radians(50)), 0]), 0.5), plane)
     finite = steps["finite"]["probes"][0]
     x = PROBE["finite"]
-    say(title + "finite: a uniform state, along the radius", near(np.cross(finite["displacement"], [x[0], x[1], 0])[2], 0, 0.05) and near([finite["stress_xx"] - finite["stress_yy"], finite["stress_xy"]], 0, 0.5) and abs(finite["stress_xx"] / -0.5 - 1) < 0.1, finite)
-    say(title + "half of a quarter under pressure from inside: half of its energy", near(2 * steps["half"]["energy"], steps["quarter"]["energy"], steps["quarter"]["energy"], 1e-10), (steps["half"]["energy"], steps["quarter"]["energy"]))
+    say(
+        title + "finite: a uniform state, along the radius",
+        near(np.cross(finite["displacement"], [x[0], x[1], 0])[2], 0, 0.05)
+        and near([finite["stress_xx"] - finite["stress_yy"], finite["stress_xy"]], 0, 0.5)
+        and abs(finite["stress_xx"] / -0.5 - 1) < 0.1, finite)
+    say(title + "half of a quarter under pressure from inside: half of its energy",
+        near(2 * steps["half"]["energy"], steps["quarter"]["energy"], steps["quarter"]["energy"], 1e-10),
+        (steps["half"]["energy"], steps["quarter"]["energy"]))
 
 
 if sys.argv[1] == "write":

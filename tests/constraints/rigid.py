@@ -40,8 +40,10 @@ displacements:
   - head: {face: bar.zmax, value: [0, 0, 0], rotation: [0, 0, 0.01], center: [0, 0, 4]}
 """
 ROLLER = """bodies:
-  - block: {lower: [0, 0, -1], upper: [1, 0.01, 0], cells: [30, 1, 24], grading: [60, 1, 0.02], even: [14, 1, 8], young: 1000, poisson: 0.3}
-  - roller: {shape: half_ellipse, axis: y, depth: -z, half: x, center: [0, 0, 1], semi_axes: [1, 1], extent: [0, 0.01], patches: [4, 12, 4], layers: 1, material: rigid}
+  - block: {lower: [0, 0, -1], upper: [1, 0.01, 0], cells: [30, 1, 24], grading: [60, 1, 0.02], even: [14, 1, 8],
+            young: 1000, poisson: 0.3}
+  - roller: {shape: half_ellipse, axis: y, depth: -z, half: x, center: [0, 0, 1], semi_axes: [1, 1], extent: [0, 0.01],
+             patches: [4, 12, 4], layers: 1, material: rigid}
 faces:
   - crown: {of: roller.arc, upper: [0.6, inf, 0.5]}
   - spot: {of: block.zmax, upper: [0.3, inf, inf]}
@@ -57,13 +59,17 @@ contact:
 def hertz():
     """The cylinder that is pressed on a plane of held faces; the same where a rigid plane is pressed on the cylinder"""
     with open(os.path.join(os.environ["AMGF_DIR"], "share", "scenes", "hertz_cylinder.yaml")) as file:
-        held = re.sub(r"(patches|even): \[[^]]*\]", lambda m: "patches: [4, 16, 10]" if m[1] == "patches" else "even: [1, 5, 2]", file.read(), count=2)
-    plane = re.sub(r"(cells: \[1, 1, 1\]\n) *young: 1000\n *poisson: 0.3\n(?: *element: .*\n)?", r"\1      material: rigid\n", held)
-    plane = re.sub(r"  - rigid: .*\n  - bottom: .*\n", "  - rise: {body: plane, value: [0, 0, 7.7308e-5]}\n", plane).replace("free, free, -7.7308e-5", "free, free, 0")
+        held = re.sub(r"(patches|even): \[[^]]*\]", lambda m: "patches: [4, 16, 10]"
+                      if m[1] == "patches" else "even: [1, 5, 2]", file.read(), count=2)
+    plane = re.sub(r"(cells: \[1, 1, 1\]\n) *young: 1000\n *poisson: 0.3\n(?: *element: .*\n)?",
+                   r"\1      material: rigid\n", held)
+    plane = re.sub(r"  - rigid: .*\n  - bottom: .*\n", "  - rise: {body: plane, value: [0, 0, 7.7308e-5]}\n",
+                   plane).replace("free, free, -7.7308e-5", "free, free, 0")
     return held, plane
 
 
-SCENES = dict(punch=PUNCH, turn=TURN, twist=TWIST, roller=ROLLER.replace("ROLLED", ""), rolled=ROLLER.replace("ROLLED", ", rotation: [0, 2, 0], center: [0, 0, 1]"))
+SCENES = dict(punch=PUNCH, turn=TURN, twist=TWIST, roller=ROLLER.replace("ROLLED", ""),
+              rolled=ROLLER.replace("ROLLED", ", rotation: [0, 2, 0], center: [0, 0, 1]"))
 SCENES["held"], SCENES["plane"] = hertz()
 
 
@@ -74,21 +80,37 @@ def near(a, b, size, within=1e-6):
 def judge(title, end):
     steps = {name: load(name + end)["steps"] for name in SCENES}
     corner = [step["probes"][0] for step in steps["punch"]]
-    say(title + "punch: stress and displacement of either step", all(near(p["stress_zz"], -10 * d / 3, 0.3) and near(p["displacement"], [0.1 * d, 0.2 * d, -d], d) for p, d in zip(corner, (0.015, 0.09))), corner)
+    say(
+        title + "punch: stress and displacement of either step",
+        all(
+            near(p["stress_zz"], -10 * d / 3, 0.3) and near(p["displacement"], [0.1 * d, 0.2 * d, -d], d)
+            for p, d in zip(corner, (0.015, 0.09))), corner)
     face = steps["punch"][1]["faces"][0]
-    say(title + "punch: what holds it is the pressure's resultant", face["name"] == "punch.*" and near(face["reaction"], [0, 0, -0.6], 0.6), face)
+    say(title + "punch: what holds it is the pressure's resultant", face["name"] == "punch.*"
+        and near(face["reaction"], [0, 0, -0.6], 0.6), face)
     turn = steps["turn"][-1]
-    say(title + "turned by 90 degrees: no energy, no forces, places", turn["energy"] < 1e-15 and all(near(f["reaction"], 0, 1e-3) for f in turn["faces"]) and near(turn["probes"][0]["displacement"], [-0.4, 0, 2.9], 1), turn)
+    say(
+        title + "turned by 90 degrees: no energy, no forces, places", turn["energy"] < 1e-15
+        and all(near(f["reaction"], 0, 1e-3) for f in turn["faces"])
+        and near(turn["probes"][0]["displacement"], [-0.4, 0, 2.9], 1), turn)
     twist = steps["twist"][0]
     foot, head = (f["moment"][2] for f in twist["faces"])
-    say(title + "twisted: moments in balance, their work the energy", near(foot, -head, head) and near(head * math.radians(0.01) / 2, twist["energy"], twist["energy"]), (foot, head, twist["energy"]))
+    say(title + "twisted: moments in balance, their work the energy",
+        near(foot, -head, head) and near(head * math.radians(0.01) / 2, twist["energy"], twist["energy"]),
+        (foot, head, twist["energy"]))
     for name in ("roller", "rolled"):
         pair = steps[name][0]["pairs"][0]
         force, modulus = 2 * pair["normal_force"] / 0.01, 1000 / 0.91
         peak, half_width = math.sqrt(force * modulus / math.pi), math.sqrt(4 * force / (math.pi * modulus))
-        say(title + name + ": Hertz's pressure and width to 2 %", near(pair["pressure"], peak, peak, 0.02) and near(pair["area"] / 0.01, half_width, half_width, 0.02), (pair, peak, half_width))
+        say(title + name + ": Hertz's pressure and width to 2 %",
+            near(pair["pressure"], peak, peak, 0.02) and near(pair["area"] / 0.01, half_width, half_width, 0.02),
+            (pair, peak, half_width))
     held, plane = (steps[name][0] for name in ("held", "plane"))
-    say(title + "a rigid plane that rises against a held one: energy and force", near(held["energy"], plane["energy"], held["energy"]) and near(held["pairs"][0]["force"], plane["pairs"][0]["force"], held["pairs"][0]["normal_force"]), (held["energy"], plane["energy"]))
+    say(
+        title + "a rigid plane that rises against a held one: energy and force",
+        near(held["energy"], plane["energy"], held["energy"])
+        and near(held["pairs"][0]["force"], plane["pairs"][0]["force"], held["pairs"][0]["normal_force"]),
+        (held["energy"], plane["energy"]))
 
 
 if sys.argv[1] == "write":

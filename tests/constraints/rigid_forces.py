@@ -15,10 +15,14 @@ displacements:
 contact:
   - touch: {mortar: punch.zmin, nonmortar: block.zmax}
 """
-RUBBER = PUNCH.replace("young", "material: neohookean, young").replace("symmetry", "load: {steps: 2}\nsymmetry").replace("-0.03", "-0.6")
+RUBBER = PUNCH.replace("young",
+                       "material: neohookean, young").replace("symmetry",
+                                                              "load: {steps: 2}\nsymmetry").replace("-0.03", "-0.6")
 ROLLER = """bodies:
-  - block: {lower: [0, 0, -1], upper: [1, 0.01, 0], cells: [24, 1, 16], grading: [30, 1, 0.03], even: [12, 1, 6], young: 1000, poisson: 0.3}
-  - roller: {shape: half_ellipse, axis: y, depth: -z, half: x, center: [0, 0, 1], semi_axes: [1, 1], extent: [0, 0.01], patches: [4, 12, 4], layers: 1, material: rigid}
+  - block: {lower: [0, 0, -1], upper: [1, 0.01, 0], cells: [24, 1, 16], grading: [30, 1, 0.03], even: [12, 1, 6],
+            young: 1000, poisson: 0.3}
+  - roller: {shape: half_ellipse, axis: y, depth: -z, half: x, center: [0, 0, 1], semi_axes: [1, 1], extent: [0, 0.01],
+             patches: [4, 12, 4], layers: 1, material: rigid}
 faces:
   - crown: {of: roller.arc, upper: [0.6, inf, 0.5]}
   - spot: {of: block.zmax, upper: [0.3, inf, inf]}
@@ -56,7 +60,9 @@ contact:
   - touch: {mortar: plate.zmin, nonmortar: block.zmax}
 """
 # All six motions are free, and friction holds what the pressure does not
-RUBS = TILT.replace("block.zmax}", "block.zmax, friction: 0.3}").replace("value: [0, 0, free]", "value: [free, free, free]").replace("free, free, 0]", "free, free, free]")
+RUBS = TILT.replace("block.zmax}", "block.zmax, friction: 0.3}").replace("value: [0, 0, free]",
+                                                                         "value: [free, free, free]").replace(
+                                                                             "free, free, 0]", "free, free, free]")
 # On springs at its face of 1 by 2: it sinks by F / k A
 SPRUNG = """bodies:
   - plate: {lower: [0, 0, 0], upper: [1, 2, 0.5], cells: [2, 2, 1], material: rigid}
@@ -90,7 +96,8 @@ def now(step, point, center):
     rotation = np.radians(body["rotation"])
     angle, arm = np.linalg.norm(rotation), np.subtract(point, center)
     axis = rotation / angle
-    return body["position"] + arm + np.sin(angle) * np.cross(axis, arm) + (1 - np.cos(angle)) * np.cross(axis, np.cross(axis, arm))
+    return body["position"] + arm + np.sin(angle) * np.cross(axis, arm) + (1 - np.cos(angle)) * np.cross(
+        axis, np.cross(axis, arm))
 
 
 def forced(name):
@@ -111,8 +118,12 @@ def judge_driven(title, name, step):
     one = load("driven_" + name)["steps"][-1]
     pair, same = one["pairs"][0], step["pairs"][0]
     size = pair["normal_force"]
-    ends = near(one["energy"], step["energy"], one["energy"]) and near(pair["force"], same["force"], size) and (name == "rubber" or near(pair["pressure"], same["pressure"], pair["pressure"]))  # its area is that of the bulge where the gap was linearized
-    say(title + name + ": energy and force of the run that a displacement drives", ends and abs(body_face(step)["reaction"][2]) < 1e-12 * size, (one["energy"], step["energy"], pair, same))
+    # its area is that of the bulge where the gap was linearized
+    ends = near(one["energy"], step["energy"], one["energy"]) and near(
+        pair["force"], same["force"], size) and (name == "rubber"
+                                                 or near(pair["pressure"], same["pressure"], pair["pressure"]))
+    say(title + name + ": energy and force of the run that a displacement drives", ends
+        and abs(body_face(step)["reaction"][2]) < 1e-12 * size, (one["energy"], step["energy"], pair, same))
 
 
 def judge_punch(title, step):
@@ -121,7 +132,8 @@ def judge_punch(title, step):
 
 def judge_beam(title, step):
     beam = 0.02**2 * 4 / (2 * 10 * 2) + 0.01**2 * 4 / (2 * 10 * 8 / 12) + 0.006**2 * 4 / (2 * 10 * 2 / 12)
-    say(title + "beam: energy of a bar that is stretched and bent both ways", near(step["energy"], beam, beam) and near(step["work"], beam, beam), step["energy"])
+    say(title + "beam: energy of a bar that is stretched and bent both ways",
+        near(step["energy"], beam, beam) and near(step["work"], beam, beam), step["energy"])
 
 
 def judge_tilt(title, step):
@@ -129,26 +141,38 @@ def judge_tilt(title, step):
     force = np.array([0.00003, 0, -0.002])
     moment = np.add(held["moment"], np.add([0.0001, 0, 0], np.cross(now(step, [0.1, -0.2, 7], [0, 0, 1]), force)))
     force = force + held["reaction"]
-    say(title + "tilt: contact and what holds the plate balance the load, force and moment", near(pair["force"], force, 0.002) and near(pair["moment"], moment, 0.002), (pair["moment"], moment))
+    say(title + "tilt: contact and what holds the plate balance the load, force and moment",
+        near(pair["force"], force, 0.002) and near(pair["moment"], moment, 0.002), (pair["moment"], moment))
 
 
 def judge_rubs(title, step):
-    say(title + "rubs: friction carries what pushes", near(step["pairs"][0]["force"], [0.00003, 0, -0.002], 0.002) and near(body_face(step)["reaction"], 0, 0.002), step["pairs"])
+    say(title + "rubs: friction carries what pushes",
+        near(step["pairs"][0]["force"], [0.00003, 0, -0.002], 0.002) and near(body_face(step)["reaction"], 0, 0.002),
+        step["pairs"])
 
 
 def judge_sprung(title, step):
     sinks = (0.02 + 0.05 * 2) / (3 * 2)
     plate = next(body for body in step["bodies"] if body["name"] == "plate")
-    say(title + "sprung: sinks by force over stiffness", near(plate["springs"], [0, 0, 0.12], 0.12) and near(step["probes"][0]["displacement"], [0, 0, -sinks - 0.05 * 0.5 / 10], sinks), (plate, step["probes"]))
+    say(
+        title + "sprung: sinks by force over stiffness",
+        near(plate["springs"], [0, 0, 0.12], 0.12)
+        and near(step["probes"][0]["displacement"], [0, 0, -sinks - 0.05 * 0.5 / 10], sinks), (plate, step["probes"]))
 
 
 def judge(title, end):
     """All scenes that ran; the expected output says which must have"""
-    steps = {name: load(name + end)["steps"] for name in (*DRIVEN, "beam", "tilt", "rubs", "sprung") if os.path.exists(name + end + ".json")}
+    steps = {
+        name: load(name + end)["steps"]
+        for name in (*DRIVEN, "beam", "tilt", "rubs", "sprung")
+        if os.path.exists(name + end + ".json")
+    }
     for name in DRIVEN:
         if name in steps:
             judge_driven(title, name, steps[name][-1])
-    for name, check in ("punch", judge_punch), ("beam", judge_beam), ("tilt", judge_tilt), ("rubs", judge_rubs), ("sprung", judge_sprung):
+    for name, check in ("punch", judge_punch), ("beam", judge_beam), ("tilt", judge_tilt), ("rubs",
+                                                                                            judge_rubs), ("sprung",
+                                                                                                          judge_sprung):
         if name in steps:
             check(title, steps[name][0])
 

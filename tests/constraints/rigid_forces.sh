@@ -1,15 +1,18 @@
-# Rigid bodies that forces drive, against runs that displacements drive, statics and beams, on one rank and, some, on three (rigid_forces_long: all); what is refused.
+# Rigid bodies that forces drive, against runs that displacements drive, statics and beams, on one rank and, some, on
+# three (rigid_forces_long: all); what is refused.
 long=${1-}
 contact=$AMGF_DIR/bin/contact
 options="-quiet -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-10 -contact_update_tol 1e-10"
 "$PYTHON" "$AMGF_DIR/tests/constraints/rigid_forces.py" drive
-for scene in punch rubber roller rolled; do "$contact" driven_$scene.yaml $options -summary driven_$scene.json || echo "$scene: exit code $?"; done
+for scene in punch rubber roller rolled; do "$contact" driven_$scene.yaml $options -summary driven_$scene.json ||
+  echo "$scene: exit code $?"; done
 "$PYTHON" "$AMGF_DIR/tests/constraints/rigid_forces.py" write
 for scene in punch rubber roller rolled beam tilt rubs sprung; do
   "$contact" $scene.yaml $options -summary $scene.json || echo "$scene: exit code $?"
 done
 for scene in roller tilt ${long:+punch rubber rolled beam rubs sprung}; do
-  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml $options -summary ${scene}_3.json || echo "$scene, three ranks: exit code $?"
+  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml $options -summary ${scene}_3.json ||
+    echo "$scene, three ranks: exit code $?"
 done
 "$PYTHON" "$AMGF_DIR/tests/constraints/rigid_forces.py" judge
 "$contact" tilt.yaml -scene_check | grep '^  \(displacement guide\|force load\)'

@@ -2,16 +2,20 @@
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/constraints/supports.py" write
 for scene in pull twist bed float pins edges stack soft pad pads plug; do
-  "$contact" $scene.yaml -quiet -summary $scene.json -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-10 || echo "$scene: exit code $?"
-  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-10 || echo "$scene, three ranks: exit code $?"
+  "$contact" $scene.yaml -quiet -summary $scene.json -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-10 ||
+    echo "$scene: exit code $?"
+  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json -elasticity_ksp_rtol 1e-13 \
+    -tao_ipfilter_tol 1e-10 || echo "$scene, three ranks: exit code $?"
 done
 "$PYTHON" "$AMGF_DIR/tests/constraints/supports.py" judge
 for scene in float stack; do
   sed '/weak_springs/d' $scene.yaml > loose.yaml
   "$contact" loose.yaml -quiet 2>&1
 done
-# Loads that nothing but weak springs carries; a stack so soft that a linearized gap lets it slide apart, though it stands
-{ sed '/pressures:/,/probes:/d; /point/d' float.yaml && printf 'body_forces:\n  - weight: {value: [0, 0, -1]}\n'; } > drop.yaml
+# Loads that nothing but weak springs carries; a stack so soft that a linearized gap lets it slide apart, though it
+# stands
+{ sed '/pressures:/,/probes:/d; /point/d' float.yaml \
+  && printf 'body_forces:\n  - weight: {value: [0, 0, -1]}\n'; } > drop.yaml
 sed 's/young: 100/young: 5/' soft.yaml > slide.yaml
 for scene in drop slide; do
   "$contact" $scene.yaml -quiet 2>&1 | grep -v warning | sed 's/springs carry .*;/springs carry ...;/'
@@ -20,7 +24,8 @@ done
 # Squeezed out between larger blocks, which a little friction prevents
 sed 's/nonmortar: .*zm[a-z]*/&, friction: 0.1/' squeezed.yaml > rubbed.yaml
 for scene in squeezed rubbed; do
-  "$contact" $scene.yaml -quiet 2>&1 | grep -v warning | sed 's/by [0-9.e+-]*, more than its size of [0-9.e+-]*/by ..., more than its size of .../'
+  "$contact" $scene.yaml -quiet 2>&1 | grep -v warning |
+    sed 's/by [0-9.e+-]*, more than its size of [0-9.e+-]*/by ..., more than its size of .../'
   echo "exit code ${PIPESTATUS[0]}"
 done
 sed 's/point: \[1, 0, 0\]/point: [0.9, 0.1, 0]/' pins.yaml > beside.yaml
@@ -64,7 +69,8 @@ echo "many: exit code $?, $(grep -o 'more[0-9]*' said | sort -u | wc -l) support
 wheel() {
   cat <<'END'
 bodies:
-  - ring: {shape: tube_arc, axis: z, radii: [8, 10], angles: [-180, 0], extent: [0, 4], cells: [1, 8, 1], young: 2000, poisson: 0.3}
+  - ring: {shape: tube_arc, axis: z, radii: [8, 10], angles: [-180, 0], extent: [0, 4], cells: [1, 8, 1], young: 2000,
+           poisson: 0.3}
   - floor: {FLOOR, material: rigid}
 symmetry: [ring.lmin, ring.lmax, ring.amin, ring.amax]
 displacements:

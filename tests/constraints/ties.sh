@@ -1,20 +1,25 @@
-# Faces whose meshes do not match are tied: patch tests to rounding, finite strain as of one body, with contact beside it, on one rank and on three; what
-# cannot be tied is said in one sentence.
+# Faces whose meshes do not match are tied: patch tests to rounding, finite strain as of one body, with contact beside
+# it, on one rank and on three; what cannot be tied is said in one sentence.
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/constraints/ties.py" write
 for scene in pull uniform finite whole touch tied_touch; do
-  "$contact" $scene.yaml -quiet -summary $scene.json -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-11 || echo "$scene: exit code $?"
-  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-11 || echo "$scene, three ranks: exit code $?"
+  "$contact" $scene.yaml -quiet -summary $scene.json -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-11 ||
+    echo "$scene: exit code $?"
+  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json -elasticity_ksp_rtol 1e-13 \
+    -tao_ipfilter_tol 1e-11 || echo "$scene, three ranks: exit code $?"
 done
 # Another unit of force: moduli and loads by a factor
 for unit in e-15 e-11 e14; do
   for scene in pull tied_touch; do
-    sed "s/young: 10,/young: 10$unit,/; s/0, 0, 0.1\]/0, 0, 0.1$unit]/; s/0, 0, -0.3\]/0, 0, -0.3$unit]/" $scene.yaml > ${scene}_$unit.yaml
-    "$contact" ${scene}_$unit.yaml -quiet -summary ${scene}_$unit.json -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-11 || echo "$scene, unit $unit: exit code $?"
+    sed "s/young: 10,/young: 10$unit,/; s/0, 0, 0.1\]/0, 0, 0.1$unit]/; s/0, 0, -0.3\]/0, 0, -0.3$unit]/" $scene.yaml \
+      > ${scene}_$unit.yaml
+    "$contact" ${scene}_$unit.yaml -quiet -summary ${scene}_$unit.json -elasticity_ksp_rtol 1e-13 \
+      -tao_ipfilter_tol 1e-11 || echo "$scene, unit $unit: exit code $?"
   done
 done
 "$PYTHON" "$AMGF_DIR/tests/constraints/ties.py" judge
-for scene in pull whole; do "$contact" $scene.yaml -quiet -effects_view | grep '^ties' | cut -c1-24 | sed 's/ *$//'; done
+for scene in pull whole; do "$contact" $scene.yaml -quiet -effects_view | grep '^ties' | cut -c1-24 |
+  sed 's/ *$//'; done
 # try NAME FROM TO: the sentence where a scene has something else
 try() {
   sed "s/$2/$3/" pull.yaml > other.yaml

@@ -37,8 +37,12 @@ pressures:
 contact:
   - pair: {{{sides}, stick: true}}
 """
-PADS = {"mean": "mortar: pad.zmin, nonmortar: floor.zmax", "vertices": "mortar: floor.zmax, nonmortar: pad.zmin", "points": "mortar: floor.zmax, nonmortar: pad.zmin, gap: node"}
-MEAN = {"stiff": 2.5, "finer": 2.5, "halves": 2, "alike": 2, "node": 3, "rubs": 3}  # largest pressure over the mean: that of a punch on such cells
+PADS = {
+    "mean": "mortar: pad.zmin, nonmortar: floor.zmax", "vertices": "mortar: floor.zmax, nonmortar: pad.zmin",
+    "points": "mortar: floor.zmax, nonmortar: pad.zmin, gap: node"
+}
+# largest pressure over the mean: that of a punch on such cells
+MEAN = {"stiff": 2.5, "finer": 2.5, "halves": 2, "alike": 2, "node": 3, "rubs": 3}
 
 
 def write():
@@ -52,19 +56,26 @@ def write():
 
 def judge_die(name, run):
     pair, fields = load(run)["steps"][-1]["pairs"][0], Fields(run)
-    pressure, area, status = (np.nan_to_num(fields.values["contact_" + what]) for what in ("pressure", "area", "status"))
+    pressure, area, status = (np.nan_to_num(fields.values["contact_" + what])
+                              for what in ("pressure", "area", "status"))
     force = np.nan_to_num(fields.values["contact_force"])
     say("%s: the area is the die's to 1 %%" % run, abs(pair["area"] / 3 - 1) <= 0.01, pair["area"])
-    say("%s: all vertices with pressure are closed, on both sides" % run, bool((status[pressure > 0] > 0).all()), status[(pressure > 0) & (status == 0)].size)
-    say("%s: the largest pressure is at most %g times the mean" % (run, MEAN[name]), pair["pressure"] <= MEAN[name] * pair["normal_force"] / 3, pair["pressure"] / pair["normal_force"] * 3)
+    say("%s: all vertices with pressure are closed, on both sides" % run, bool((status[pressure > 0] > 0).all()),
+        status[(pressure > 0) & (status == 0)].size)
+    say("%s: the largest pressure is at most %g times the mean" % (run, MEAN[name]),
+        pair["pressure"] <= MEAN[name] * pair["normal_force"] / 3, pair["pressure"] / pair["normal_force"] * 3)
     die = fields.body == 1
-    say("%s: the area is that of the die's closed vertices" % run, near(area[die & (status > 0)].sum(), pair["area"], 1e-12), area[die & (status > 0)].sum())
-    say("%s: pressure times area is the force on each side" % run, all(near((pressure * area)[fields.body == b].sum(), pair["normal_force"], 1e-10) for b in (0, 1)), pair)
+    say("%s: the area is that of the die's closed vertices" % run,
+        near(area[die & (status > 0)].sum(), pair["area"], 1e-12), area[die & (status > 0)].sum())
+    say("%s: pressure times area is the force on each side" % run,
+        all(near((pressure * area)[fields.body == b].sum(), pair["normal_force"], 1e-10) for b in (0, 1)), pair)
     say("%s: the vertices' forces sum to the pair's" % run, near(force[die].sum(axis=0), pair["force"], 1e-10), pair)
     if name == "rubs":
         shear = np.linalg.norm(np.nan_to_num(fields.values["contact_shear"]), axis=1)
-        say("%s: what sticks and what slips is what is closed" % run, near(pair["stick_area"] + pair["slip_area"], pair["area"], 1e-12), pair)
-        say("%s: no shear is beyond friction times pressure" % run, bool((shear <= 0.3 * pressure + 1e-9 * pressure.max()).all()), (shear - 0.3 * pressure).max())
+        say("%s: what sticks and what slips is what is closed" % run,
+            near(pair["stick_area"] + pair["slip_area"], pair["area"], 1e-12), pair)
+        say("%s: no shear is beyond friction times pressure" % run,
+            bool((shear <= 0.3 * pressure + 1e-9 * pressure.max()).all()), (shear - 0.3 * pressure).max())
 
 
 def judge_pad(name, run):
@@ -72,10 +83,14 @@ def judge_pad(name, run):
     step, pad = summary["steps"][-1], fields.body == 1
     lowest = -min(0, (fields.x + fields.values["displacement"])[pad, 2].min())
     pair = step["pairs"][0]
-    say("%s: the penetration is that of the lowest vertex" % run, abs(pair["penetration"] - lowest) <= 1e-12, (pair["penetration"], lowest))
+    say("%s: the penetration is that of the lowest vertex" % run,
+        abs(pair["penetration"] - lowest) <= 1e-12, (pair["penetration"], lowest))
     say("%s: the mean gap is closed" % run, abs(step["gap_true"]) <= 1e-6, step["gap_true"])
     warned = [warning for warning in summary["warnings"] if "penetrates the other body" in warning]
-    say("%s: a vertex %s" % (run, "goes through the floor, and is warned of" if name == "mean" else "stays above the floor"), (lowest > 0.04 and len(warned) == 1) if name == "mean" else lowest <= 1e-12 and not warned, (lowest, warned))
+    say(
+        "%s: a vertex %s" %
+        (run, "goes through the floor, and is warned of" if name == "mean" else "stays above the floor"),
+        (lowest > 0.04 and len(warned) == 1) if name == "mean" else lowest <= 1e-12 and not warned, (lowest, warned))
 
 
 def judge():

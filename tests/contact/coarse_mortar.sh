@@ -1,5 +1,5 @@
-# What is shown of a contact whose nonmortar side is finer and stiffer than the facets of the mortar side under it, and how
-# deep vertices are in the other body where the nonmortar side is the coarser one, on one rank and on three.
+# What is shown of a contact whose nonmortar side is finer and stiffer than the facets of the mortar side under it, and
+# how deep vertices are in the other body where the nonmortar side is the coarser one, on one rank and on three.
 # coarse_mortar.py has the scenes, and holds their summaries and fields against each other.
 contact=$AMGF_DIR/bin/contact
 rm -f ball.yaml pin.yaml # of an earlier run in this folder
@@ -9,14 +9,16 @@ for scene in *.yaml; do
   "$contact" "$scene" -quiet -output "$name" -summary "$name.json" 2> "$name.log" || echo "$name: exit code $?"
 done
 for name in stiff rubs mean; do
-  mpiexec --oversubscribe -n 3 "$contact" $name.yaml -quiet -output ${name}_3 -summary ${name}_3.json 2> "${name}_3.log" || echo "$name, three ranks: exit code $?"
+  mpiexec --oversubscribe -n 3 "$contact" $name.yaml -quiet -output ${name}_3 \
+    -summary ${name}_3.json 2> "${name}_3.log" || echo "$name, three ranks: exit code $?"
 done
 "$PYTHON" "$AMGF_DIR/tests/contact/coarse_mortar.py" judge
 # A ball pressed into facets larger than its contact, which carry no force
 cat > ball.yaml <<'END'
 bodies:
   - base: {lower: [0, 0, 0], upper: [10, 10, 8], cells: [4, 4, 3], young: 210000, poisson: 0.3}
-  - ball: {shape: ball, center: [10, 10, 18], octant: [-1, -1, -1], radius: 10, patches: [3, 3, 3], layers: 3, young: 210000, poisson: 0.3}
+  - ball: {shape: ball, center: [10, 10, 18], octant: [-1, -1, -1], radius: 10, patches: [3, 3, 3], layers: 3,
+           young: 210000, poisson: 0.3}
 symmetry: [ball.x0, ball.y0, base.xmax, base.ymax, base.zmin]
 displacements:
   - push: {face: ball.z0, value: [free, free, -0.05]}
@@ -26,8 +28,10 @@ END
 # A pin of eight facets, whose edges are too sharp for a smooth surface, pushed into the wall of its hole
 cat > pin.yaml <<'END'
 bodies:
-  - hub: {shape: tube_arc, axis: z, radii: [1, 2], angles: [0, 180], extent: [0, 0.2], cells: [3, 24, 1], young: 1000, poisson: 0.3}
-  - pin: {shape: tube_arc, axis: z, radii: [0.5, 1], angles: [0, 180], extent: [0, 0.2], cells: [2, 4, 1], young: 1000, poisson: 0.3}
+  - hub: {shape: tube_arc, axis: z, radii: [1, 2], angles: [0, 180], extent: [0, 0.2], cells: [3, 24, 1], young: 1000,
+          poisson: 0.3}
+  - pin: {shape: tube_arc, axis: z, radii: [0.5, 1], angles: [0, 180], extent: [0, 0.2], cells: [2, 4, 1], young: 1000,
+          poisson: 0.3}
 symmetry: [hub.lmin, hub.lmax, pin.lmin, pin.lmax]
 displacements:
   - outer: {face: hub.outer, value: [0, 0, 0]}

@@ -1,11 +1,16 @@
-# contact: auto finds the pairs that a scene would list, on any number of ranks: faces of shapes, surfaces without names, thin plates in
-# a stack, a block that slides onto the next body. Rules for pairs of bodies, exceptions, ties, and what is refused.
+# contact: auto finds the pairs that a scene would list, on any number of ranks: faces of shapes, surfaces without
+# names, thin plates in a stack, a block that slides onto the next body. Rules for pairs of bodies, exceptions, ties,
+# and what is refused.
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" -B "$AMGF_DIR/tests/contact/contact_auto.py" write
 for name in found bodies settled tied plates excepted slides tower tools bush loose_bush; do
   echo "$name"
-  "$contact" "$name.yaml" -scene_check 2>&1 | sed -n 's/, gap mortar.*//; /^Contact pairs/,/^Load steps/{/^ /p}; /^Ties/,/^Load steps/{/^ /p}; /rror/p' | grep -v "facets of mean" | uniq > one
-  mpiexec --oversubscribe -n 3 "$contact" "$name.yaml" -scene_check 2>&1 | sed -n 's/, gap mortar.*//; /^Contact pairs/,/^Load steps/{/^ /p}; /^Ties/,/^Load steps/{/^ /p}; /rror/p' | grep -v "facets of mean" | uniq > three
+  "$contact" "$name.yaml" -scene_check 2>&1 |
+    sed -n 's/, gap mortar.*//; /^Contact pairs/,/^Load steps/{/^ /p}; /^Ties/,/^Load steps/{/^ /p}; /rror/p' |
+    grep -v "facets of mean" | uniq > one
+  mpiexec --oversubscribe -n 3 "$contact" "$name.yaml" -scene_check 2>&1 |
+    sed -n 's/, gap mortar.*//; /^Contact pairs/,/^Load steps/{/^ /p}; /^Ties/,/^Load steps/{/^ /p}; /rror/p' |
+    grep -v "facets of mean" | uniq > three
   cat one
   cmp one three
 done

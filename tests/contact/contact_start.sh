@@ -1,5 +1,6 @@
-# What a scene should have said of its contact: overlaps at the start, a pair that never meets, a body that nothing stops. A warning stands once on stderr and in
-# the summary; -scene_check says it beforehand. Last, a reader that has seen enough, and the exit codes that the README and -help list.
+# What a scene should have said of its contact: overlaps at the start, a pair that never meets, a body that nothing
+# stops. A warning stands once on stderr and in the summary; -scene_check says it beforehand. Last, a reader that has
+# seen enough, and the exit codes that the README and -help list.
 contact=$AMGF_DIR/bin/contact
 
 # stone HEIGHT PULL KEYS: on a table at 1
@@ -51,13 +52,16 @@ stone 1 -1 ", interference: true" && try "declared, but none"
 stone 1 -1 "" && try "none"
 stone 1 -1 ", interference: -1" && "$contact" stone.yaml -scene_check 2>&1 | grep contact:
 stone 1 1 "" && try "nothing stops it"
-# Guided on its top alone, and pressed beside the table: it tips. One whose curved underside a table meets may tip, too: the optimizer crept along that motion to its limit of iterations
+# Guided on its top alone, and pressed beside the table: it tips. One whose curved underside a table meets may tip, too:
+# the optimizer crept along that motion to its limit of iterations
 stone 1 0 "" && sed -i -e '/^symmetry/d' -e '/pull/,/^contact/{/pull/d}' -e 's/^body_forces:/pressures:\n  - push: {face: stone.zmax, value: 1}/' -e 's/\[1, 1, 1\], upper: \[3/[3.4, 1, 1], upper: [9/' \
   -e 's/^displacements:/&\n  - guide: {face: stone.zmax, value: [0, 0, free]}/' stone.yaml && try "tips"
 cat > stone.yaml << 'YAML'
 bodies:
-  - table: {lower: [-1.5, -0.5, -1], upper: [1.5, 0.5, 0], cells: [6, 3, 2], young: 1000, poisson: 0.3, element: incompatible}
-  - stone: {shape: half_ellipse, axis: y, depth: -z, center: [0, 0, 0.995], semi_axes: [1, 1.2], extent: [-0.4, 0.4], patches: [2, 2, 2], layers: 2, young: 3000, poisson: 0}
+  - table: {lower: [-1.5, -0.5, -1], upper: [1.5, 0.5, 0], cells: [6, 3, 2], young: 1000, poisson: 0.3,
+            element: incompatible}
+  - stone: {shape: half_ellipse, axis: y, depth: -z, center: [0, 0, 0.995], semi_axes: [1, 1.2], extent: [-0.4, 0.4],
+            patches: [2, 2, 2], layers: 2, young: 3000, poisson: 0}
 displacements:
   - floor: {face: table.zmin, value: [0, 0, 0]}
   - guide: {face: stone.flat, value: [0, 0, free]}
@@ -79,4 +83,5 @@ echo "exit ${PIPESTATUS[0]}, $(wc -l < err) lines on stderr"
 help=$("$contact" -help 2> /dev/null | sed -n 's/^  \([0-7]\)  .*/\1/p' | tr '\n' ' ')
 readme=$(sed -n '/^| exit code/,/^$/s/^| \([0-7]\) | .*/\1/p' "$AMGF_DIR/README.md" | tr '\n' ' ')
 header=$(sed -n 's/^  RUN_[A-Z_]* *= \([0-9]*\),*.*/\1/p' "$AMGF_DIR/include/report.h" | tr '\n' ' ')
-[ "$help" = "$readme" ] && [ "$help" = "$header" ] && echo "exit codes: ${help}in README, -help and report.h" || echo "exit codes: $help; $readme; $header"
+[ "$help" = "$readme" ] && [ "$help" = "$header" ] && echo "exit codes: ${help}in README, -help and report.h" ||
+  echo "exit codes: $help; $readme; $header"

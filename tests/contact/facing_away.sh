@@ -1,9 +1,11 @@
-# A pair whose faces look away from each other is named before the run: the sides of a wedge between two rigid planes, swapped. Contact acted at the wedge's tip alone, without a word
+# A pair whose faces look away from each other is named before the run: the sides of a wedge between two rigid planes,
+# swapped. Contact acted at the wedge's tip alone, without a word
 contact=$AMGF_DIR/bin/contact
 wedge() {
   cat > wedge.yaml <<YAML
 bodies:
-  - wedge: {shape: wedge, axis: y, corners: [0, 0, 2, -1, 2, 1], extent: [0, 1], side_cells: 3, length_cells: 2, young: 1000, poisson: 0.3}
+  - wedge: {shape: wedge, axis: y, corners: [0, 0, 2, -1, 2, 1], extent: [0, 1], side_cells: 3, length_cells: 2,
+            young: 1000, poisson: 0.3}
   - left: {shape: rigid_plane, point: [0, 0, 0], normal: [2, 0, 1], size: 1}
   - right: {shape: rigid_plane, point: [0, 0, 0], normal: [-2, 0, 1], size: 1}
 displacements: [l: {body: left, value: [0, 0, 0]}, r: {body: right, value: [0, 0, 0]}]

@@ -1,9 +1,12 @@
-# A thick ring of few cells between two plates: the updates of the gap between its smooth faces end, and between its facets, but where a corner of the ring comes first:
-# there they go in a circle, however damped, where each is solved to the end, as the interior point method does; and what a run says and exits with whose gap is not true. gap_cycle.py writes the ring's mesh and scene, and judges.
+# A thick ring of few cells between two plates: the updates of the gap between its smooth faces end, and between its
+# facets, but where a corner of the ring comes first:
+# there they go in a circle, however damped, where each is solved to the end, as the interior point method does; and
+# what a run says and exits with whose gap is not true. gap_cycle.py writes the ring's mesh and scene, and judges.
 contact=$AMGF_DIR/bin/contact
 
 "$PYTHON" "$AMGF_DIR/tests/contact/gap_cycle.py" write 16
-coarse="penetrates the other body\|times as large as those of the mortar face" # true of so few facets, and beside the point here
+coarse="penetrates the other body\|times as large as those of the mortar face" \
+  # true of so few facets, and beside the point here
 run() {
   name=$1
   shift

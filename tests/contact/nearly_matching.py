@@ -8,8 +8,10 @@ SHIFTS = ["0", "1e-5", "1e-4", "1e-3"]
 PRESSED = {4: 0.2, 6: 0.15}  # cells along the edge of an octant, and approach
 
 BALLS = """bodies:
-  - low: {{shape: ball, octant: [1, 1, 1], radius: 1, patches: [{n}, {n}, {n}], layers: 3, young: 1000, poisson: 0.3, density: 1}}
-  - top: {{shape: ball, octant: [1, 1, -1], center: [{x}, {y}, {z}], radius: 1, patches: [{n}, {n}, {n}], layers: 3, young: 1000, poisson: 0.3, density: 1{more}}}
+  - low: {{shape: ball, octant: [1, 1, 1], radius: 1, patches: [{n}, {n}, {n}], layers: 3, young: 1000, poisson: 0.3,
+          density: 1}}
+  - top: {{shape: ball, octant: [1, 1, -1], center: [{x}, {y}, {z}], radius: 1, patches: [{n}, {n}, {n}], layers: 3,
+          young: 1000, poisson: 0.3, density: 1{more}}}
 symmetry: [low.x0, low.y0, top.x0, top.y0]
 contact: [touch: {{mortar: low.surface, nonmortar: top.surface}}]
 displacements:
@@ -22,7 +24,8 @@ def balls(n, shift, z, more=""):
 
 
 def pressed(n, shift):
-    return balls(n, shift, 2) + f"  - press: {{face: top.z0, value: [free, free, -{PRESSED[n]}]}}\nload: {{steps: 10}}\n"
+    return balls(n, shift,
+                 2) + f"  - press: {{face: top.z0, value: [free, free, -{PRESSED[n]}]}}\nload: {{steps: 10}}\n"
 
 
 def collision(shift):
@@ -44,11 +47,20 @@ def force(step):
 def check_runs(title, names, updates):
     """All runs converge in a few updates, and their forces agree"""
     runs = [load(name) for name in names]
-    say(f"{title}: all load steps converge", all(run["exit_code"] == 0 for run in runs), [run["reason"] for run in runs])
+    say(f"{title}: all load steps converge", all(run["exit_code"] == 0 for run in runs),
+        [run["reason"] for run in runs])
     counts = [[step["contact_updates"] for step in run["steps"]] for run in runs]
-    say(f"{title}: {updates} contact updates at most, none damped, no load step cut", all(max(count) <= updates for count in counts) and not any(step["cuts"] + step["gap_damped"] for run in runs for step in run["steps"]), counts)
+    say(
+        f"{title}: {updates} contact updates at most, none damped, no load step cut",
+        all(max(count) <= updates for count in counts)
+        and not any(step["cuts"] + step["gap_damped"] for run in runs for step in run["steps"]), counts)
     forces = [[force(step) for step in run["steps"]] for run in runs]
-    say(f"{title}: forces within 1 %", all(len(f) == len(forces[0]) and max(abs(a - b) for a, b in zip(f, forces[0])) < 0.01 * max(forces[0]) for f in forces), forces)
+    say(
+        f"{title}: forces within 1 %",
+        all(
+            len(f) == len(forces[0]) and max(abs(a - b)
+                                             for a, b in zip(f, forces[0])) < 0.01 * max(forces[0])
+            for f in forces), forces)
 
 
 def check():

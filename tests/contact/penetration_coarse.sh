@@ -1,4 +1,5 @@
-# Faces that touch at a point and are coarser than the motion: the run without force says so. First two saddles of coarse tetrahedra that cross, pressed by less than the error of their curved faces
+# Faces that touch at a point and are coarser than the motion: the run without force says so. First two saddles of
+# coarse tetrahedra that cross, pressed by less than the error of their curved faces
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" - <<'PY'
 from tetrahedra import BOX_FACES, Block
@@ -32,8 +33,10 @@ done
 for depth in 0.002 0.03; do
   cat > crossed.yaml <<YAML
 bodies:
-  - low: {shape: cylinder, axis: x, center: [0, 0, 0], radius: 1, extent: [-2, 2], cells: [2, 2, 3], young: 1000, poisson: 0.3}
-  - high: {shape: cylinder, axis: y, center: [0, 0, 2], radius: 1, extent: [-2, 2], cells: [2, 2, 3], young: 1000, poisson: 0.3}
+  - low: {shape: cylinder, axis: x, center: [0, 0, 0], radius: 1, extent: [-2, 2], cells: [2, 2, 3], young: 1000,
+          poisson: 0.3}
+  - high: {shape: cylinder, axis: y, center: [0, 0, 2], radius: 1, extent: [-2, 2], cells: [2, 2, 3], young: 1000,
+           poisson: 0.3}
 displacements:
   - hold: {face: low.lmin, value: [0, 0, 0]}
   - press: {face: high.lmin, value: [0, 0, -$depth]}

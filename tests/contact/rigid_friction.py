@@ -45,7 +45,8 @@ contact:
 # A quarter of a bush that a cone is driven into
 CONE = """problem: cone
 bodies:
-  - bush: {{shape: tube_arc, axis: z, radii: [1, 2], angles: [0, 90], extent: [-1, 0], cells: [4, 8, 4], young: 1000, poisson: 0.3}}
+  - bush: {{shape: tube_arc, axis: z, radii: [1, 2], angles: [0, 90], extent: [-1, 0], cells: [4, 8, 4], young: 1000,
+           poisson: 0.3}}
   - tool: {{shape: rigid_cone, tip: [0, 0, -{tip}], direction: [0, 0, 1], half_angle: 20}}
 load_steps: 3
 displacements:
@@ -58,7 +59,8 @@ contact:
 # Half a cylinder that is pressed on a plane and pushed along it: Cattaneo and Mindlin in the plane
 MINDLIN = """problem: mindlin
 bodies:
-  - wheel: {{shape: half_ellipse, axis: y, center: [0, 0, 1], depth: -z, semi_axes: [1, 1], extent: [0, 0.1], patches: [6, 24, 8], layers: 1, grading: [1, 1, 0.2], young: 1000, poisson: 0.45}}
+  - wheel: {{shape: half_ellipse, axis: y, center: [0, 0, 1], depth: -z, semi_axes: [1, 1], extent: [0, 0.1],
+            patches: [6, 24, 8], layers: 1, grading: [1, 1, 0.2], young: 1000, poisson: 0.45}}
   - {table}
 load_steps: 2
 ramps:
@@ -75,7 +77,8 @@ contact:
 # Half of a ball, pressed on a plane and pushed along it
 BALL = """problem: ball
 bodies:
-  - ball: {{shape: ball, center: [0, 0, 1], octant: [2, 1, -1], radius: 1, patches: [4, 4, 3], layers: 5, grading: [12, 12, 1], even: [2, 2, 1], layer_grading: 0.2, young: 1000, poisson: 0.45, order: 2}}
+  - ball: {{shape: ball, center: [0, 0, 1], octant: [2, 1, -1], radius: 1, patches: [4, 4, 3], layers: 5,
+           grading: [12, 12, 1], even: [2, 2, 1], layer_grading: 0.2, young: 1000, poisson: 0.45, order: 2}}
   - {table}
 load_steps: 2
 ramps:
@@ -135,26 +138,41 @@ def balanced(pair):
 def judge():
     for name in "drag", "moved":
         seen = pair(name)
-        say(f"{name}: all of it slides, friction is mu N, and the forces balance", seen["stick_area"] == 0 and within(seen["shear_force"], MU * seen["normal_force"], 1e-8) and within(abs(seen["mortar_force"][0]), MU * abs(seen["mortar_force"][2]), 1e-4) and balanced(seen), seen)
-    say("the same force whichever of the two moves", within(pair("drag")["mortar_force"][0], pair("moved")["mortar_force"][0], 1e-8), (pair("drag"), pair("moved")))
-    say("the same on three ranks", within(steps("drag_3")[-1]["energy"], steps("drag")[-1]["energy"], 1e-8), steps("drag_3")[-1])
-    say("stick is a tie", within(steps("stick")[-1]["energy"], steps("tied")[-1]["energy"], 1e-5), (steps("stick")[-1]["energy"], steps("tied")[-1]["energy"]))
+        say(
+            f"{name}: all of it slides, friction is mu N, and the forces balance", seen["stick_area"] == 0
+            and within(seen["shear_force"], MU * seen["normal_force"], 1e-8)
+            and within(abs(seen["mortar_force"][0]), MU * abs(seen["mortar_force"][2]), 1e-4) and balanced(seen), seen)
+    say("the same force whichever of the two moves",
+        within(pair("drag")["mortar_force"][0],
+               pair("moved")["mortar_force"][0], 1e-8), (pair("drag"), pair("moved")))
+    say("the same on three ranks", within(steps("drag_3")[-1]["energy"],
+                                          steps("drag")[-1]["energy"], 1e-8),
+        steps("drag_3")[-1])
+    say("stick is a tie", within(steps("stick")[-1]["energy"],
+                                 steps("tied")[-1]["energy"], 1e-5),
+        (steps("stick")[-1]["energy"], steps("tied")[-1]["energy"]))
     seen = pair("turned")
     torque, axis = MU * seen["normal_force"] * 0.5, (0, 0, 0.47)
     say("turned: torque is mu N R", within(-about(axis, seen), torque, 1e-5), (about(axis, seen), torque))
     work = sum(pair("turned", k)["dissipated"] * (1 if k == 3 else -1) for k in (2, 3))
-    say("turned: what a step dissipates is torque times angle", within(work, torque * math.radians(20), 1e-2), (work, torque))
+    say("turned: what a step dissipates is torque times angle", within(work, torque * math.radians(20), 1e-2),
+        (work, torque))
     seen = pair("moment")
     say("moment: the friction carries it", within(about(axis, seen), -0.2, 1e-3), (about(axis, seen), seen))
     seen = pair("cone")
     axial = seen["normal_force"] * (math.sin(ANGLE) + MU * math.cos(ANGLE))
-    say("cone: N (sin a + mu cos a) along the axis", within(seen["mortar_force"][2], axial, 1e-3), (seen["mortar_force"][2], axial))
+    say("cone: N (sin a + mu cos a) along the axis", within(seen["mortar_force"][2], axial, 1e-3),
+        (seen["mortar_force"][2], axial))
     seen, other = pair("mindlin"), pair("mindlin_mesh")
     one, two = steps("mindlin")[-1]["energy"], steps("mindlin_mesh")[-1]["energy"]
-    say("cylinder on a plane that sticks in part: force, stick area and energy as with facets", within(seen["stick_area"], other["stick_area"], 1e-6) and within(seen["force"][0], other["force"][0], 1e-3) and within(one, two, 1e-3), (seen, other, one, two))
+    say(
+        "cylinder on a plane that sticks in part: force, stick area and energy as with facets",
+        within(seen["stick_area"], other["stick_area"], 1e-6) and within(seen["force"][0], other["force"][0], 1e-3)
+        and within(one, two, 1e-3), (seen, other, one, two))
     stick = math.sqrt(1 - seen["shear_force"] / (MU * seen["normal_force"]))
     cells = (seen["stick_area"] + seen["slip_area"]) / 0.1 * 48 / math.pi
-    say("its stick area is Cattaneo's and Mindlin's up to a cell", abs(seen["stick_area"] / (seen["stick_area"] + seen["slip_area"]) - stick) < 1 / cells, (seen, stick, cells))
+    say("its stick area is Cattaneo's and Mindlin's up to a cell",
+        abs(seen["stick_area"] / (seen["stick_area"] + seen["slip_area"]) - stick) < 1 / cells, (seen, stick, cells))
 
 
 if sys.argv[1:] == ["scenes"]:
@@ -164,7 +182,11 @@ if sys.argv[1:] == ["scenes"]:
 elif sys.argv[1:] == ["ball"]:
     seen, other = pair("ball"), pair("ball_mesh")
     one, two = steps("ball")[-1]["energy"], steps("ball_mesh")[-1]["energy"]
-    say("ball on a plane that sticks in part: force, stick area and energy as with facets", within(seen["stick_area"], other["stick_area"], 1e-6) and seen["slip_area"] > 0 and within(seen["force"][0], other["force"][0], 2e-2) and within(one, two, 1e-3), (seen, other, one, two))
-    say("the same on three ranks", within(steps("ball_3")[-1]["energy"], one, 1e-6), (steps("ball_3")[-1]["energy"], one))
+    say(
+        "ball on a plane that sticks in part: force, stick area and energy as with facets",
+        within(seen["stick_area"], other["stick_area"], 1e-6) and seen["slip_area"] > 0
+        and within(seen["force"][0], other["force"][0], 2e-2) and within(one, two, 1e-3), (seen, other, one, two))
+    say("the same on three ranks", within(steps("ball_3")[-1]["energy"], one, 1e-6),
+        (steps("ball_3")[-1]["energy"], one))
 else:
     judge()

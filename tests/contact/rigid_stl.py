@@ -1,4 +1,5 @@
-"""Rigid surfaces of STL files, against the same surfaces by formula; text and binary files; an open surface; wrong files.
+"""Rigid surfaces of STL files, against the same surfaces by formula; text and binary files; an open surface; wrong
+files.
 
 python3 rigid_stl.py scenes writes the files; python3 rigid_stl.py judges the runs.
 """
@@ -51,7 +52,8 @@ def text(name, facets):
     with open(name, "w") as file:
         file.write("solid a tool\n")
         for facet in facets:
-            file.write(" facet normal 0 0 0\n  outer loop\n" + "".join("   vertex %.9g %.9g %.9g\n" % p for p in facet) + "  endloop\n endfacet\n")
+            file.write(" facet normal 0 0 0\n  outer loop\n" + "".join("   vertex %.9g %.9g %.9g\n" % p
+                                                                       for p in facet) + "  endloop\n endfacet\n")
         file.write("endsolid a tool\n")
 
 
@@ -76,14 +78,21 @@ def scenes():
     with open("ball.stl", "rb") as file, open("short.stl", "wb") as short:
         short.write(file.read()[:-1])
     text("empty.stl", [])
-    tools = {"box": ("shape: rigid_stl, mesh: box.stl", 0, -0.01), "box_mm": ("shape: rigid_stl, mesh: box_mm.stl, scale: 1e-3", 0, -0.01),
-             "sheet": ("shape: rigid_stl, mesh: sheet.stl", 0, -0.01), "plane": ("lower: [0, -1.5, 1], upper: [1.5, 2, 3], cells: [1, 1, 1], material: rigid", 0, -0.01),
-             "ball": ("shape: rigid_stl, mesh: ball.stl", 0.3, -0.05), "sphere": ("shape: rigid_sphere, center: [0.1, 0, 1.5], radius: 0.5", 0.3, -0.05)}
+    tools = {
+        "box": ("shape: rigid_stl, mesh: box.stl", 0,
+                -0.01), "box_mm": ("shape: rigid_stl, mesh: box_mm.stl, scale: 1e-3", 0, -0.01),
+        "sheet": ("shape: rigid_stl, mesh: sheet.stl", 0, -0.01),
+        "plane": ("lower: [0, -1.5, 1], upper: [1.5, 2, 3], cells: [1, 1, 1], material: rigid", 0, -0.01),
+        "ball": ("shape: rigid_stl, mesh: ball.stl", 0.3, -0.05),
+        "sphere": ("shape: rigid_sphere, center: [0.1, 0, 1.5], radius: 0.5", 0.3, -0.05)
+    }
     for name in "word", "early", "loop", "short", "empty", "turned", "none":
         tools[name] = (f"shape: rigid_stl, mesh: {name}.stl", 0, -0.01)
     for name, (tool, poisson, press) in tools.items():
         with open(name + ".yaml", "w") as file:
-            file.write(BLOCK.format(name=name, tool=tool, poisson=poisson, press=press).replace("tool.surface", "tool.zmin" if name == "plane" else "tool.surface"))
+            file.write(
+                BLOCK.format(name=name, tool=tool, poisson=poisson,
+                             press=press).replace("tool.surface", "tool.zmin" if name == "plane" else "tool.surface"))
 
 
 def pair(name):
@@ -95,12 +104,17 @@ if sys.argv[1:] == ["scenes"]:
 else:
     for name in "box", "box_mm":
         seen = pair(name)
-        say(f"{name}: uniform pressure of 10", within(seen["pressure"], 10, 1e-6) and within(-seen["force"][2], 40, 1e-6), seen)
+        say(f"{name}: uniform pressure of 10",
+            within(seen["pressure"], 10, 1e-6) and within(-seen["force"][2], 40, 1e-6), seen)
     one, other = pair("ball"), pair("sphere")
-    say("ball of 6,912 facets: force within 1 % of the sphere's", within(one["force"][2], other["force"][2], 1e-2), (one, other))
+    say("ball of 6,912 facets: force within 1 % of the sphere's", within(one["force"][2], other["force"][2], 1e-2),
+        (one, other))
     three = load("ball_3")["steps"][-1]["energy"]
     say("ball: the same on three ranks", within(three, load("ball")["steps"][-1]["energy"], 1e-8), three)
     one, other = -pair("sheet")["force"][2], -pair("plane")["force"][2]
-    say("an open surface over half of the block: within 12 % of a box with facets, which is the part of the nodes at its edge", abs(one / other - 1) < 0.12, (one, other))
+    say(("an open surface over half of the block: within 12 % of a box with facets, which is the part of the "
+         "nodes at its edge"),
+        abs(one / other - 1) < 0.12, (one, other))
     place = load("ball")["steps"][-1]["rigid_bodies"][0]["position"]
-    say("ball: its position is that of its centre of mass", all(abs(a - b) < 1e-6 for a, b in zip(place, (0.1, 0, 1.45))), place)
+    say("ball: its position is that of its centre of mass",
+        all(abs(a - b) < 1e-6 for a, b in zip(place, (0.1, 0, 1.45))), place)

@@ -1,8 +1,10 @@
 # Contact with rigid surfaces that have no facets: plane, cylinder in rubber on one and three ranks; what is refused
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/contact/rigid_surface.py" scenes
-for scene in profile pressed driven beside rubber_1 rubber_2 rubber_mesh; do "$contact" $scene.yaml -quiet -summary $scene.json 2> /dev/null || echo "$scene: exit code $?"; done
-mpiexec --oversubscribe -n 3 "$contact" rubber_1.yaml -quiet -summary rubber_1_3.json || echo "rubber_1, three ranks: exit code $?"
+for scene in profile pressed driven beside rubber_1 rubber_2 rubber_mesh; do
+  "$contact" $scene.yaml -quiet -summary $scene.json 2> /dev/null || echo "$scene: exit code $?"; done
+mpiexec --oversubscribe -n 3 "$contact" rubber_1.yaml -quiet -summary rubber_1_3.json ||
+  echo "rubber_1, three ranks: exit code $?"
 "$PYTHON" "$AMGF_DIR/tests/contact/rigid_surface.py"
 
 try() {

@@ -1,8 +1,8 @@
 """Bodies in contact with themselves: self_contact.py write makes meshes and scenes, judge and
 long check the results.
 
-The slit of width 0 in a block under uniaxial pressure must change nothing. The jaws of the clamp are one face in contact
-with itself, or two named faces of an ordinary pair, or the clamp's whole surface.
+The slit of width 0 in a block under uniaxial pressure must change nothing. The jaws of the clamp are one face in
+contact with itself, or two named faces of an ordinary pair, or the clamp's whole surface.
 """
 import sys
 
@@ -46,7 +46,6 @@ CLAMPS = {
     "named_order2": (NAMED + ", gap: dual", ", order: 2"),
 }
 
-
 BELLOWS_SCENE = """problem: bellows
 bodies:
   - bellows: {shape: gmsh, mesh: bellows.msh, volume: body, material: neohookean, young: 1, poisson: 0.3}
@@ -61,7 +60,8 @@ load: {steps: 4}
 """
 BELLOWS = {
     "bellows": "  - folds: {self: bellows, distance: 1.5}",
-    "bellows_named": "  - first: {mortar: bellows.upper_1, nonmortar: bellows.lower_1}\n  - second: {mortar: bellows.upper_2, nonmortar: bellows.lower_2}",
+    "bellows_named": ("  - first: {mortar: bellows.upper_1, nonmortar: bellows.lower_1}\n"
+                      "  - second: {mortar: bellows.upper_2, nonmortar: bellows.lower_2}"),
 }
 
 
@@ -70,7 +70,11 @@ def write_slit():
     size = (6, 2, 4)
     points, cells, places = hexahedra.grid(size, doubled=lambda i, j, k, cell: int(k == 2 and 1 < i < 5 and cell == 2))
     faces = hexahedra.outer_faces(cells, places, size, "slit")
-    upper = {v for cell, place in zip(cells, places) if place[2] == 2 for v in cell if points[v][2] == 2 and 1 < points[v][0] < 5}
+    upper = {
+        v
+        for cell, place in zip(cells, places) if place[2] == 2 for v in cell
+        if points[v][2] == 2 and 1 < points[v][0] < 5
+    }
     points = [[x + 0.3 * (v in upper), y, z] for v, (x, y, z) in enumerate(points)]
     hexahedra.write("slit.msh", points, cells, faces)
 
@@ -124,10 +128,12 @@ def compare(name, other, first, last):
         one, two = load(name)["steps"][step], load(other)["steps"][step]
         force = two["pairs"][0]["normal_force"]
         differences = [(one[key] - two[key]) / two["work"] for key in ("energy", "work", "contact_work")]
-        differences += [(one["pairs"][0][key] - two["pairs"][0][key]) / force for key in ("normal_force", "shear_force")]
+        differences += [(one["pairs"][0][key] - two["pairs"][0][key]) / force
+                        for key in ("normal_force", "shear_force")]
         differences += list(np.subtract(one["pairs"][0]["force"], two["pairs"][0]["force"]) / force)
         worst = np.abs(differences).max()
-        say("%s and %s, step %d: energy and forces agree to %g" % (name, other, one["step"], tolerance), worst < tolerance, worst)
+        say("%s and %s, step %d: energy and forces agree to %g" % (name, other, one["step"], tolerance),
+            worst < tolerance, worst)
 
 
 def judge_bellows():
@@ -135,7 +141,8 @@ def judge_bellows():
     one, two = load("bellows")["steps"][-1], load("bellows_named")["steps"][-1]
     forces = [sum(p["normal_force"] for p in step["pairs"]) for step in (one, two)]
     errors = [one["energy"] / two["energy"] - 1, forces[0] / forces[1] - 1]
-    say("bellows: both folds close, energy and force of two named pairs to 1 %", min(p["normal_force"] for p in two["pairs"]) > 0 and max(abs(e) for e in errors) < 1e-2, errors)
+    say("bellows: both folds close, energy and force of two named pairs to 1 %",
+        min(p["normal_force"] for p in two["pairs"]) > 0 and max(abs(e) for e in errors) < 1e-2, errors)
 
 
 def judge_forces(name):

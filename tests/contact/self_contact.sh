@@ -1,9 +1,11 @@
-# Contact of a surface with itself: a slit in a block, and a clamp whose jaws meet on one to three ranks; what is refused
+# Contact of a surface with itself: a slit in a block, and a clamp whose jaws meet on one to three ranks; what is
+# refused
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/contact/self_contact.py" write
 run() { # scene, ranks
   name=$1$([ "$2" -eq 1 ] || echo "_$2")
-  mpiexec --oversubscribe -n "$2" "$contact" "$1.yaml" -quiet -output "$name" -summary "$name.json" -tao_ipfilter_tol 1e-11 2> "$name.log" || echo "$name: exit code $?"
+  mpiexec --oversubscribe -n "$2" "$contact" "$1.yaml" -quiet -output "$name" -summary "$name.json" \
+    -tao_ipfilter_tol 1e-11 2> "$name.log" || echo "$name: exit code $?"
 }
 for scene in slit_body jaws named; do run $scene 1; done
 run slit_body 3

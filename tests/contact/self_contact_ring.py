@@ -1,7 +1,7 @@
 """A rubber ring pinched between two rigid rollers until its inside touches itself: self_contact_ring.py write | judge.
 
-By symmetry the ring's upper half behaves as if it touched a rigid plane. The scene `quarter` has that plane and an ordinary
-pair; `half` and `auto` have the whole ring right of the axis, and self contact.
+By symmetry the ring's upper half behaves as if it touched a rigid plane. The scene `quarter` has that plane and an
+ordinary pair; `half` and `auto` have the whole ring right of the axis, and self contact.
 """
 import sys
 
@@ -11,7 +11,8 @@ from summaries import load, say
 
 SCENE = """problem: ring
 bodies:
-  - ring: {{shape: tube_arc, axis: y, radii: [0.85, 1], angles: [0, {angle}], extent: [0, 0.2], cells: [2, {cells}, 1], material: neohookean, young: 1, poisson: 0.3}}
+  - ring: {{shape: tube_arc, axis: y, radii: [0.85, 1], angles: [0, {angle}], extent: [0, 0.2], cells: [2, {cells}, 1],
+           material: neohookean, young: 1, poisson: 0.3}}
   - top: {{shape: rigid_cylinder, center: [0, 0, 1.4], direction: [0, 1, 0], radius: 0.4}}
   - bottom: {{{bottom}}}
 displacements:
@@ -24,7 +25,9 @@ load: {{factors: [0.3, 0.6, 0.8, 0.944, 0.95, 0.96, 0.97, 0.98, 0.99, 1]}}
 """
 ROLLER = "shape: rigid_cylinder, center: [0, 0, -1.4], direction: [0, 1, 0], radius: 0.4"
 PLANE = "shape: rigid_plane, point: [0, 0, 0], normal: [0, 0, 1]"
-ABOVE, BELOW = "  - above: {mortar: top.surface, nonmortar: ring.outer}", "\n  - below: {mortar: bottom.surface, nonmortar: ring.outer}"
+ABOVE, BELOW = "  - above: {mortar: top.surface, nonmortar: ring.outer}", ("\n"
+                                                                           "  - below: {mortar: bottom.surface, "
+                                                                           "nonmortar: ring.outer}")
 SCENES = {
     "half": (180, 64, ROLLER, 0.9, ABOVE + BELOW + "\n  - inside: {self: ring.inner}"),
     "auto": (180, 64, ROLLER, 0.9, "  - auto: {self: true}"),
@@ -45,7 +48,10 @@ def pair(name, which):
 def judge_ring(name, quarter, inside="inside"):
     """The right half of the ring has two quarters"""
     step, other, touch = load(name)["steps"][-1], load(quarter)["steps"][-1], pair(name, inside)
-    errors = [step["energy"] / (2 * other["energy"]) - 1, touch["normal_force"] / pair(quarter, "inside")["normal_force"] - 1, step["energy"] / step["work"] - 1]
+    errors = [
+        step["energy"] / (2 * other["energy"]) - 1, touch["normal_force"] / pair(quarter, "inside")["normal_force"] - 1,
+        step["energy"] / step["work"] - 1
+    ]
     say("%s: energy of two quarters, to 0.2 %%" % name, abs(errors[0]) < 2e-3, errors[0])
     say("%s: contact force of a quarter, to 1 %%" % name, abs(errors[1]) < 1e-2, errors[1])
     say("%s: the work of the rollers is stored, to 1 %%" % name, abs(errors[2]) < 1e-2, errors[2])

@@ -6,7 +6,8 @@ for scene in quarter half; do
 done
 "$PYTHON" "$AMGF_DIR/tests/contact/self_contact_ring.py" judge
 # the shipped scene: few contact updates, and no warning
-"$contact" "$AMGF_DIR/share/scenes/pinched_ring.yaml" -quiet -error_estimate 0 -summary shipped.json || echo "pinched_ring: exit code $?"
+"$contact" "$AMGF_DIR/share/scenes/pinched_ring.yaml" -quiet -error_estimate 0 -summary shipped.json ||
+  echo "pinched_ring: exit code $?"
 "$PYTHON" - <<'PY'
 from summaries import load, say
 

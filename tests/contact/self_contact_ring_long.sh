@@ -13,6 +13,7 @@ run half_refined half.yaml -refine 1
 run auto auto.yaml
 run restarted half.yaml -output half -restart half_checkpoint.h5
 for ranks in 2 3; do
-  mpiexec --oversubscribe -n $ranks "$contact" half.yaml -quiet -summary half_$ranks.json 2> half_$ranks.log || echo "half, $ranks ranks: exit code $?"
+  mpiexec --oversubscribe -n $ranks "$contact" half.yaml -quiet -summary half_$ranks.json 2> half_$ranks.log ||
+    echo "half, $ranks ranks: exit code $?"
 done
 "$PYTHON" "$AMGF_DIR/tests/contact/self_contact_ring.py" long

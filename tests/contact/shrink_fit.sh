@@ -1,10 +1,13 @@
-# Shrink fit of two thick rings, a quarter of each, whose facets do not match, against Lame: smooth surfaces, both choices of sides;
+# Shrink fit of two thick rings, a quarter of each, whose facets do not match, against Lame: smooth surfaces, both
+# choices of sides;
 # the facets themselves, which interfere by their sagitta; and node to segment.
 rings() { # facets on the inner and the outer ring, mortar, nonmortar, gap, smooth
   cat <<SCENE
 bodies:
-  - inner: {shape: tube_arc, axis: z, radii: [15, 25.015], angles: [0, 90], extent: [0, 2], cells: [6, $1, 1], young: 210000, poisson: 0.3}
-  - outer: {shape: tube_arc, axis: z, radii: [24.985, 40], angles: [0, 90], extent: [0, 2], cells: [6, $2, 1], young: 210000, poisson: 0.3}
+  - inner: {shape: tube_arc, axis: z, radii: [15, 25.015], angles: [0, 90], extent: [0, 2], cells: [6, $1, 1],
+            young: 210000, poisson: 0.3}
+  - outer: {shape: tube_arc, axis: z, radii: [24.985, 40], angles: [0, 90], extent: [0, 2], cells: [6, $2, 1],
+            young: 210000, poisson: 0.3}
 symmetry: [inner.amin, inner.amax, inner.lmin, inner.lmax, outer.amin, outer.amax, outer.lmin, outer.lmax]
 contact:
   - fit: {mortar: $3, nonmortar: $4, gap: $5, smooth: $6}
@@ -15,7 +18,8 @@ SCENE
 run() { # name, ranks
   local launch=()
   [ "$2" -eq 1 ] || launch=(mpiexec --oversubscribe -n "$2")
-  "${launch[@]}" "$AMGF_DIR/bin/contact" "$1.yaml" -quiet -output "$1" -summary "$1.json" -tao_ipfilter_tol 1e-11 >/dev/null || echo "$1: exit code $?"
+  "${launch[@]}" "$AMGF_DIR/bin/contact" "$1.yaml" -quiet -output "$1" -summary "$1.json" -tao_ipfilter_tol 1e-11 \
+    >/dev/null || echo "$1: exit code $?"
 }
 
 for facets in "24 30" "30 24" "20 32"; do

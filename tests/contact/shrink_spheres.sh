@@ -4,5 +4,6 @@ for scene in *.yaml; do
   name=${scene%.yaml}
   "$AMGF_DIR/bin/contact" "$scene" -quiet -output "$name" -summary "$name.json" || echo "$name: exit code $?"
 done
-"$AMGF_DIR/bin/contact" spheres_4_5_in.yaml -quiet -refine 1 -output refined -summary refined.json || echo "refined: exit code $?"
+"$AMGF_DIR/bin/contact" spheres_4_5_in.yaml -quiet -refine 1 -output refined -summary refined.json ||
+  echo "refined: exit code $?"
 "$PYTHON" "$AMGF_DIR/tests/contact/shrink_spheres.py" judge

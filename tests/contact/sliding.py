@@ -1,4 +1,5 @@
-"""sliding.py write: a die that slides over a flat, and a pin that goes round in a hole, 20 steps each; judge: the forces that sliding.sh found."""
+"""sliding.py write: a die that slides over a flat, and a pin that goes round in a hole, 20 steps each; judge: the
+forces that sliding.sh found."""
 import math
 import sys
 
@@ -12,7 +13,8 @@ HOLE, PIN, FURTHER = 10.0, 9.8, 0.01  # radii, how much farther than its play th
 
 FLAT = """bodies:
   - flat: {{lower: [-6, 0, -3], upper: [6, 1, 0], cells: [48, 1, 12], young: 1000, poisson: 0.3, element: full}}
-  - die: {{shape: tube_arc, axis: y, center: [0, 0, {radius}], radii: [{inner}, {radius}], angles: [135, 225], extent: [0, 1], cells: [3, {around}, 1], young: 1000, poisson: 0.3, element: full}}
+  - die: {{shape: tube_arc, axis: y, center: [0, 0, {radius}], radii: [{inner}, {radius}], angles: [135, 225],
+          extent: [0, 1], cells: [3, {around}, 1], young: 1000, poisson: 0.3, element: full}}
 displacements:
   - bottom: {{face: flat.zmin, value: [0, 0, 0]}}
   - press: {{face: die.inner, value: [free, 0, {press}]}}
@@ -25,8 +27,10 @@ ramps:
   - along: {{factors: [{along}]}}
 """
 ROUND = """bodies:
-  - hole: {{shape: tube_arc, axis: y, radii: [{hole}, 16], angles: [80, 280], extent: [0, 1], cells: [4, 60, 1], young: 1000, poisson: 0.3, element: full}}
-  - pin: {{shape: tube_arc, axis: y, radii: [4.8, {pin}], angles: [90, 270], extent: [0, 1], cells: [4, 54, 1], young: 1000, poisson: 0.3, element: full}}
+  - hole: {{shape: tube_arc, axis: y, radii: [{hole}, 16], angles: [80, 280], extent: [0, 1], cells: [4, 60, 1],
+           young: 1000, poisson: 0.3, element: full}}
+  - pin: {{shape: tube_arc, axis: y, radii: [4.8, {pin}], angles: [90, 270], extent: [0, 1], cells: [4, 54, 1],
+          young: 1000, poisson: 0.3, element: full}}
 displacements:
   - rim: {{face: hole.outer, value: [0, 0, 0]}}
   - along: {{face: pin.inner, value: [{way}, free, free], ramp: sine}}
@@ -51,9 +55,13 @@ def write():
     sides = ("flat.zmax", "die.outer")
     for name, around, pair in (("die", 16, sides), ("flat", 24, sides[::-1])):
         with open(name + ".yaml", "w") as file:
-            file.write(FLAT.format(radius=DIE, inner=DIE - 1.5, around=around, press=-PRESS, slide=SLIDE, sides=pair, whole=numbers([1] * len(times)), along=numbers(times)))
+            file.write(
+                FLAT.format(radius=DIE, inner=DIE - 1.5, around=around, press=-PRESS, slide=SLIDE, sides=pair,
+                            whole=numbers([1] * len(times)), along=numbers(times)))
     with open("pin.yaml", "w") as file:
-        file.write(ROUND.format(hole=HOLE, pin=PIN, way=HOLE - PIN + FURTHER, steps=len(times), sine=numbers(map(math.sin, angles)), cosine=numbers(map(math.cos, angles))))
+        file.write(
+            ROUND.format(hole=HOLE, pin=PIN, way=HOLE - PIN + FURTHER, steps=len(times),
+                         sine=numbers(map(math.sin, angles)), cosine=numbers(map(math.cos, angles))))
 
 
 def judge():
@@ -62,13 +70,20 @@ def judge():
         force = np.array([np.linalg.norm(step["pairs"][0]["force"]) for step in run["steps"]])
         x = np.linspace(-1, 1, len(force))
         off = 100 * (force / np.polyval(np.polyfit(x, force, 3), x) - 1)
-        say("%s: %d steps, all converged" % (name, len(force)), run["converged"] and len(force) == STEPS + 1, run["reason"])
-        say("%s: the force is within %g %% of a smooth trend, and jumps by no more" % (name, limit), max(abs(off).max(), abs(np.diff(off)).max()) <= limit, off.tolist())
-        say(name + ": gaps true to 1e-6", max(each(run, "gap_change")) <= 1e-6 and min(each(run, "gap_true")) >= -1e-6, (each(run, "gap_change"), each(run, "gap_true")))
+        say("%s: %d steps, all converged" % (name, len(force)), run["converged"] and len(force) == STEPS + 1,
+            run["reason"])
+        say("%s: the force is within %g %% of a smooth trend, and jumps by no more" % (name, limit),
+            max(abs(off).max(),
+                abs(np.diff(off)).max()) <= limit, off.tolist())
+        say(name + ": gaps true to 1e-6",
+            max(each(run, "gap_change")) <= 1e-6 and min(each(run, "gap_true")) >= -1e-6,
+            (each(run, "gap_change"), each(run, "gap_true")))
         say(name + ": each body in balance to 1e-8", max(each(run, "balance")) <= 1e-8, each(run, "balance"))
-        say(name + ": no step is cut, no update damped", not sum(each(run, "cuts")) and not sum(each(run, "gap_damped")) and not run["warnings"], run["warnings"])
+        say(name + ": no step is cut, no update damped", not sum(each(run, "cuts")) and not sum(each(run, "gap_damped"))
+            and not run["warnings"], run["warnings"])
         updates = each(run, "contact_updates")
-        say(name + ": 5 linearizations a step at most, 3.5 in the mean", max(updates) <= 5 and np.mean(updates) <= 3.5, updates)
+        say(name + ": 5 linearizations a step at most, 3.5 in the mean",
+            max(updates) <= 5 and np.mean(updates) <= 3.5, updates)
 
 
 if __name__ == "__main__":

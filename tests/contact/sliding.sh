@@ -1,5 +1,6 @@
-# Large sliding in 20 steps: the force follows a smooth trend, whatever the meshes of the two faces do to one another. The nonmortar face that slides
-# with the contact, four cells across, keeps it best; of one that the contact moves over, five cells are hardly enough. sliding.py writes the scenes and judges.
+# Large sliding in 20 steps: the force follows a smooth trend, whatever the meshes of the two faces do to one another.
+# The nonmortar face that slides with the contact, four cells across, keeps it best; of one that the contact moves over,
+# five cells are hardly enough. sliding.py writes the scenes and judges.
 contact=$AMGF_DIR/bin/contact
 
 "$PYTHON" "$AMGF_DIR/tests/contact/sliding.py" write

@@ -1,6 +1,7 @@
 """Scenes for tetrahedra_contact.sh, and what its runs came to
 
-    tetrahedra_contact.py mesh SCENE.yaml BODY=FILE.msh:ORDER...   the scene with these bodies from files of tests/lib/tetrahedra.py
+    tetrahedra_contact.py mesh SCENE.yaml BODY=FILE.msh:ORDER...   the scene with these bodies from files of
+    tests/lib/tetrahedra.py
     tetrahedra_contact.py check
 """
 import glob
@@ -22,7 +23,8 @@ def mesh(scene, bodies):
     text = open(scene).read()
     for body in bodies:
         name, file, order = re.fullmatch(r"(\w+)=(.*):(\d)", body).groups()
-        text = re.sub(r"(- %s:)\s*\{?[^}]*?young" % name, r"\1 {mesh: %s, volume: block, order: %s, young" % (file, order), text, count=1)
+        text = re.sub(r"(- %s:)\s*\{?[^}]*?young" % name,
+                      r"\1 {mesh: %s, volume: block, order: %s, young" % (file, order), text, count=1)
         text = re.sub(r"(\{mesh: %s[^\n}]*)\n\s*poisson: ([0-9.]+)" % file, r"\1, poisson: \2}", text)
     print(text, end="")
 
@@ -37,24 +39,32 @@ def pressures(name):
 
 
 def check():
-    for name in sorted(file[: -len("_0001.h5")] for file in glob.glob("patch_*_0001.h5")):
+    for name in sorted(file[:-len("_0001.h5")] for file in glob.glob("patch_*_0001.h5")):
         errors, young = patch(name), float(name.split("_")[3])
         say(name + ": stress and pressure uniform", max(errors) <= 1e-12 * max(1e4, young * 1e2), errors)
     s = STRESS
-    for name in sorted(file[: -len(".json")] for file in glob.glob("tie_*.json")):
-        errors = [np.abs(np.subtract(stress(p), [s[0][0], s[1][1], s[2][2], s[0][1], s[1][2], s[2][0]])).max() for p in last(name)["probes"]]
+    for name in sorted(file[:-len(".json")] for file in glob.glob("tie_*.json")):
+        errors = [
+            np.abs(np.subtract(stress(p), [s[0][0], s[1][1], s[2][2], s[0][1], s[1][2], s[2][0]])).max()
+            for p in last(name)["probes"]
+        ]
         say(name + ": any uniform stress passes", max(errors) < 1e-8, errors)
     one = last("ring_1")
     for ranks in "235":
-        say(f"ring: energy on {ranks} ranks", within(last("ring_" + ranks)["energy"], one["energy"], 1e-9), (last("ring_" + ranks)["energy"], one["energy"]))
+        say(f"ring: energy on {ranks} ranks", within(last("ring_" + ranks)["energy"], one["energy"], 1e-9),
+            (last("ring_" + ranks)["energy"], one["energy"]))
     exact = 0.5 * lame() * 0.03 * 2 * np.pi / 2
     for name, tolerance in (("ring_1", 0.01), ("ring_node", 0.01)):
         energy = last(name)["energy"]
         say(name + ": energy near Lame's", within(energy, exact, tolerance), (energy, exact))
     p = pressures("ring_node")
     say("ring_node: mean pressure near Lame's", within(p.mean(), 1, 0.02), (p.min(), p.mean(), p.max()))
-    say("a run goes on", within(last("again")["energy"], last("press")["energy"], 1e-9), (last("again")["energy"], last("press")["energy"]))
-    say("force of the press, of tetrahedra and of hexahedra", within(last("press")["pairs"][0]["force"][2], last("hexahedra")["pairs"][0]["force"][2], 0.01), (last("press")["pairs"][0]["force"], last("hexahedra")["pairs"][0]["force"]))
+    say("a run goes on", within(last("again")["energy"],
+                                last("press")["energy"], 1e-9), (last("again")["energy"], last("press")["energy"]))
+    say("force of the press, of tetrahedra and of hexahedra",
+        within(last("press")["pairs"][0]["force"][2],
+               last("hexahedra")["pairs"][0]["force"][2], 0.01),
+        (last("press")["pairs"][0]["force"], last("hexahedra")["pairs"][0]["force"]))
 
 
 if __name__ == "__main__":

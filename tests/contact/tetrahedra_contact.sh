@@ -1,5 +1,6 @@
-# Contact and ties of tetrahedra: the patch test across kinds, orders and stiffnesses, on one rank and on three, and between facets; ties; a shrink fit of two rings on one to five
-# ranks, mortar and node to segment; finite strain, a run that goes on, and the force of the same body of hexahedra
+# Contact and ties of tetrahedra: the patch test across kinds, orders and stiffnesses, on one rank and on three, and
+# between facets; ties; a shrink fit of two rings on one to five ranks, mortar and node to segment; finite strain, a run
+# that goes on, and the force of the same body of hexahedra
 contact=$AMGF_DIR/bin/contact
 options="-quiet -tao_ipfilter_tol 1e-12"
 block() { "$PYTHON" -B "$AMGF_DIR/tests/lib/tetrahedra.py" "$@"; }
@@ -9,11 +10,15 @@ block box low.msh 1 0 0 0 1 1 1 3 4 2
 block box up.msh 1 0 0 1 1 1 1.5 4 3 3
 patch() { # kind and order of the lower and the upper block, Young's modulus of the upper, ranks, further options
   local bodies=()
-  sed "s/young: 10/young: $3/; s/value: \[free, free, -0.0105\]/value: [free, free, -0.01]/" "$AMGF_DIR/tests/contact/contact_patch.yaml" > blocks.yaml
-  case $1 in h*) sed -i "s/^  - lower:/  - lower:\n      order: ${1#h}/" blocks.yaml ;; *) bodies+=("lower=low.msh:${1#t}") ;; esac
-  case $2 in h*) sed -i "s/^  - upper:/  - upper:\n      order: ${2#h}/" blocks.yaml ;; *) bodies+=("upper=up.msh:${2#t}") ;; esac
+  sed "s/young: 10/young: $3/; s/value: \[free, free, -0.0105\]/value: [free, free, -0.01]/" \
+    "$AMGF_DIR/tests/contact/contact_patch.yaml" > blocks.yaml
+  case $1 in h*) sed -i "s/^  - lower:/  - lower:\n      order: ${1#h}/" blocks.yaml ;;
+    *) bodies+=("lower=low.msh:${1#t}") ;; esac
+  case $2 in h*) sed -i "s/^  - upper:/  - upper:\n      order: ${2#h}/" blocks.yaml ;;
+    *) bodies+=("upper=up.msh:${2#t}") ;; esac
   scene blocks.yaml "${bodies[@]}" > patch.yaml
-  mpiexec --oversubscribe -n "$4" "$contact" patch.yaml $options "${@:5}" -output "patch_$1_$2_$3_$4" || echo "exit code $?"
+  mpiexec --oversubscribe -n "$4" "$contact" patch.yaml $options "${@:5}" -output "patch_$1_$2_$3_$4" ||
+    echo "exit code $?"
 }
 for young in 1 1e3 1e6; do
   patch h1 t2 $young 1
@@ -30,7 +35,8 @@ block box tielow.msh 1 0 0 0 3 2 1 3 2 2
 block box tietop.msh 1 0 0 1 3 2 2.5 4 5 3
 tie() { # name, ranks, bodies of tetrahedra
   scene uniform.yaml "${@:3}" > tied.yaml
-  mpiexec --oversubscribe -n "$2" "$contact" tied.yaml -quiet -elasticity_ksp_rtol 1e-13 -summary "tie_$1.json" || echo "tie: exit code $?"
+  mpiexec --oversubscribe -n "$2" "$contact" tied.yaml -quiet -elasticity_ksp_rtol 1e-13 -summary "tie_$1.json" ||
+    echo "tie: exit code $?"
 }
 tie low 1 low=tielow.msh:2
 tie top 3 top=tietop.msh:2
@@ -84,5 +90,6 @@ YAML
 scene hexahedra.yaml cube=cube.msh:2 > press.yaml
 "$contact" hexahedra.yaml $options -contact_update_tol 1e-10 -summary hexahedra.json
 "$contact" press.yaml $options -contact_update_tol 1e-10 -checkpoint_every 2 -checkpoint press.h5 -summary press.json
-mpiexec --oversubscribe -n 2 "$contact" press.yaml $options -contact_update_tol 1e-10 -restart press.h5 -summary again.json
+mpiexec --oversubscribe -n 2 "$contact" press.yaml $options -contact_update_tol 1e-10 -restart press.h5 \
+  -summary again.json
 "$PYTHON" -B "$AMGF_DIR/tests/contact/tetrahedra_contact.py" check

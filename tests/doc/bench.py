@@ -1,4 +1,5 @@
-"""Holds the arithmetic of share/bench against sequences with known answers, and its table against the runs' own summaries.
+"""Holds the arithmetic of share/bench against sequences with known answers, and its table against the runs' own
+summaries.
 
 python bench.py FOLDER, of a bench with the page `material`
 """
@@ -28,16 +29,19 @@ def check_extrapolation():
     limit, order = references.richardson(sizes, [3 - 0.7 * h**1.5 for h in sizes])
     say("Richardson: limit and order", abs(limit - 3) < 1e-12 and abs(order - 1.5) < 1e-12, (limit, order))
     limit, order = references.richardson((1, 1 / 2, 1 / 4), (1.0, 1.1, 1.3))
-    say("Richardson: nothing is extrapolated from differences that grow", limit == 1.3 and math.isnan(order), (limit, order))
+    say("Richardson: nothing is extrapolated from differences that grow", limit == 1.3 and math.isnan(order),
+        (limit, order))
 
 
 def check_growth():
     unknowns = [1000, 10000, 80000, 640000]
     slope = growth.exponent(unknowns, [n**1.25 for n in unknowns])
     say("exponent", abs(slope - 1.25) < 1e-12, slope)
-    ours, theirs = {n: 2.0 * n for n in unknowns}, {n: 2.0 * n * (n / 30000) ** 0.5 for n in unknowns}
+    ours, theirs = {n: 2.0 * n for n in unknowns}, {n: 2.0 * n * (n / 30000)**0.5 for n in unknowns}
     say("crossover", abs(growth.crossover(ours, theirs) / 30000 - 1) < 1e-12, growth.crossover(ours, theirs))
-    say("crossover: never, always", (growth.crossover(theirs, {n: 1.0 for n in unknowns}), growth.crossover({1: 1.0}, {1: 2.0})) == (math.inf, 0.0), None)
+    say("crossover: never, always",
+        (growth.crossover(theirs, {n: 1.0
+                                   for n in unknowns}), growth.crossover({1: 1.0}, {1: 2.0})) == (math.inf, 0.0), None)
 
 
 def check_front():
@@ -46,8 +50,9 @@ def check_front():
 
 
 def check_scenes():
-    text = PROBLEMS["two_block"].scene("3", (("element", "bbar"),))
-    say("scene: cells and element", "[60, 18, 9]" in text and "[12, 12, 12]" in text and text.count("element: bbar") == 2 and "steps: 1}" in text, text)
+    text = PROBLEMS["two_block"].scene("3", (("element", "bbar"), ))
+    say("scene: cells and element", "[60, 18, 9]" in text and "[12, 12, 12]" in text
+        and text.count("element: bbar") == 2 and "steps: 1}" in text, text)
     for name, told in ("hertz_sphere", 9.157), ("hertz_cylinder", 0.02158):
         solution = PROBLEMS[name].solution
         force, energy = solution.loaded()
@@ -55,7 +60,8 @@ def check_scenes():
         path = [(f, solution.at(f)[2]) for f in (force * (i + 1e-9) / 2000 for i in range(2001))]
         work = sum((f + g) / 2 * (b - a) for (f, a), (g, b) in zip(path, path[1:]))
         say(f"{name}: the energy is the work of the force", abs(work / energy - 1) < 1e-5, (work, energy))
-    say("the sentence of a run that failed", last_words("a\ncontact: error: no scene\n--\n") == "contact: error: no scene", None)
+    say("the sentence of a run that failed",
+        last_words("a\ncontact: error: no scene\n--\n") == "contact: error: no scene", None)
 
 
 def check_table(folder):
@@ -64,19 +70,29 @@ def check_table(folder):
     points = [row for row in rows if row["study"] == "quadrature"]
     say("table: two rules on both problems", [row["value"] for row in points] == 2 * ["2", "3"], rows)
     row = points[0]
-    with open(os.path.join(folder, "runs", next(name for name in os.listdir(os.path.join(folder, "runs")) if name.startswith(row["key"])))) as file:
+    with open(
+            os.path.join(folder, "runs",
+                         next(name for name in os.listdir(os.path.join(folder, "runs"))
+                              if name.startswith(row["key"])))) as file:
         summary = json.load(file)["summary"]
-    say("table: what the summary says", int(row["applications"]) == sum(s["amg_applications"] for s in summary["steps"]) and int(row["unknowns"]) == summary["dofs"] == 5397, row)
+    say(
+        "table: what the summary says",
+        int(row["applications"]) == sum(s["amg_applications"] for s in summary["steps"])
+        and int(row["unknowns"]) == summary["dofs"] == 5397, row)
     hertz = [row for row in points if row["problem"] == "hertz_sphere"]
-    say("table: the contact force of Hertz, to 6 %, his peak pressure, to 1 %", all(float(row["error contact force"]) < 0.06 and float(row["error peak pressure"]) < 0.01 for row in hertz), rows)
+    say("table: the contact force of Hertz, to 6 %, his peak pressure, to 1 %",
+        all(float(row["error contact force"]) < 0.06 and float(row["error peak pressure"]) < 0.01 for row in hertz),
+        rows)
     with open(os.path.join(folder, "pages", "knobs", "material.md")) as file:
         text = file.read()
-    say("the page says where and when it was made", all(f"| {key} | " in text for key in ("date", "sources", "machine", "libraries")), text)
+    say("the page says where and when it was made",
+        all(f"| {key} | " in text for key in ("date", "sources", "machine", "libraries")), text)
 
 
 def check_kept():
-    """A run that its limit ended, or that the program refused, is a record; what has been run with the same scene is not run again"""
-    scene = PROBLEMS["cantilever"].scene("0", (("element", "bbar"),))
+    """A run that its limit ended, or that the program refused, is a record; what has been run with the same scene is
+    not run again"""
+    scene = PROBLEMS["cantilever"].scene("0", (("element", "bbar"), ))
     made = runs.Runs("kept", 60)
     with contextlib.redirect_stdout(io.StringIO()):
         first, again = (made.get("cantilever", scene, ("-refine", "0")) for _ in range(2))
@@ -104,15 +120,25 @@ def check_calculix():
     """The input file has the nodes and cells of the scene, and no cell without its nodes"""
     for factor, nodes, cells in (1, 713, 424), (2, 4460, 3392):
         blocks = re.split(r"^\*", calculix.deck(factor, "CalculiX, mortar, hard"), flags=re.M)
-        lines = {kind: [list(map(float, line.split(","))) for block in blocks if block.startswith(kind + ",") for line in block.splitlines()[1:]] for kind in ("NODE", "ELEMENT")}
+        lines = {
+            kind: [
+                list(map(float, line.split(","))) for block in blocks if block.startswith(kind + ",")
+                for line in block.splitlines()[1:]
+            ]
+            for kind in ("NODE", "ELEMENT")
+        }
         known = {int(line[0]) for line in lines["NODE"]}
-        say(f"CalculiX, mesh {factor}: nodes and cells", (len(known), len(lines["ELEMENT"])) == (nodes, cells) and all(set(map(int, line[1:])) <= known for line in lines["ELEMENT"]), (len(known), len(lines["ELEMENT"])))
+        say(f"CalculiX, mesh {factor}: nodes and cells", (len(known), len(lines["ELEMENT"])) == (nodes, cells)
+            and all(set(map(int, line[1:])) <= known for line in lines["ELEMENT"]), (len(known), len(lines["ELEMENT"])))
 
 
 def check_memory():
     """A program's peak is its own, not that of the process which started it, as getrusage() has it"""
     large = b"1" * 700_000_000
-    execute([CONTACT, os.path.join(TOP, "share", "scenes", "cantilever.yaml"), "-refine", "0", "-quiet", "-summary", "own.json"], 60)
+    execute([
+        CONTACT,
+        os.path.join(TOP, "share", "scenes", "cantilever.yaml"), "-refine", "0", "-quiet", "-summary", "own.json"
+    ], 60)
     peak = read_summary("own")["peak_memory_bytes"]
     say("memory is the program's own", 1e7 < peak < len(large) - 1e8, peak)
 

@@ -1,5 +1,7 @@
-# The bench on one tiny page: tables and figure are made, what has been run is not run again, and one lost record is one run to make.
-# bench.py: the extrapolation, exponents and crossovers behind its figures. The bench itself is what is tested here, so that its modules are imported.
+# The bench on one tiny page: tables and figure are made, what has been run is not run again, and one lost record is one
+# run to make.
+# bench.py: the extrapolation, exponents and crossovers behind its figures. The bench itself is what is tested here, so
+# that its modules are imported.
 bench() {
   "$PYTHON" -B "$AMGF_DIR/share/bench/run.py" --size tiny --folder bench --only "$@"
 }

@@ -1,5 +1,5 @@
-"""Holds the documents below AMGF_DIR to what there is: links, columns of the tables, options, manual pages. Prints the guide's commands with --commands FOLDER,
-after writing its files there."""
+"""Holds the documents below AMGF_DIR to what there is: links, columns of the tables, options, manual pages. Prints the
+guide's commands with --commands FOLDER, after writing its files there."""
 import glob
 import os
 import re
@@ -7,7 +7,8 @@ import sys
 
 TOP = os.environ["AMGF_DIR"]
 COLUMNS = 100  # of a page
-PAGES = sorted(["README.md", "tests/README.md"] + [os.path.relpath(path, TOP) for path in glob.glob(os.path.join(TOP, "share", "*", "*.md"))])
+PAGES = sorted(["README.md", "tests/README.md"] +
+               [os.path.relpath(path, TOP) for path in glob.glob(os.path.join(TOP, "share", "*", "*.md"))])
 
 
 def text(path):
@@ -41,7 +42,8 @@ def columns():
 
 
 def monitor_columns():
-    for line in re.findall(r'"(iter [^"]*)\\n"', text("tao_ipfilter/driver/monitor.c") + text("tao_ipfilter/subspace/monitor.c")):
+    for line in re.findall(r'"(iter [^"]*)\\n"',
+                           text("tao_ipfilter/driver/monitor.c") + text("tao_ipfilter/subspace/monitor.c")):
         yield from line.split()
 
 

@@ -1,5 +1,5 @@
-# The documents: links lead somewhere, every column of every table is explained, options and manual pages are there; the user guide's commands, one after the
-# other, as it has them.
+# The documents: links lead somewhere, every column of every table is explained, options and manual pages are there; the
+# user guide's commands, one after the other, as it has them.
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$PYTHON" -B "$AMGF_DIR/share/doc/manpages.py" "$AMGF_DIR" "$work/man" 0
@@ -7,7 +7,8 @@ trap 'rm -rf "$work"' EXIT
 for page in "$work"/man/man*/*; do
   if command -v groff > /dev/null; then groff -man -Tutf8 -ww -z "$page"; fi
 done
-if command -v pandoc > /dev/null; then (cd "$AMGF_DIR" && ./share/doc/html.sh "$work/html" share/doc/guide.md) && grep -q '<table' "$work/html/share/doc/guide.html" || echo "no HTML"; fi
+if command -v pandoc > /dev/null; then (cd "$AMGF_DIR" && ./share/doc/html.sh "$work/html" share/doc/guide.md) &&
+  grep -q '<table' "$work/html/share/doc/guide.html" || echo "no HTML"; fi
 
 cd "$work" && ln -s "$AMGF_DIR/bin" "$AMGF_DIR/share" . || exit 1
 "$PYTHON" -B "$AMGF_DIR/tests/doc/doc.py" --commands . > commands

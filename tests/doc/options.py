@@ -1,5 +1,5 @@
-"""Holds the list of options that are ours, in src/options/known.c, against the sources that ask for them: what stands on one side only is printed. Each must be set
-by a test, an options file, a measurement or a page."""
+"""Holds the list of options that are ours, in src/options/known.c, against the sources that ask for them: what stands
+on one side only is printed. Each must be set by a test, an options file, a measurement or a page."""
 import glob
 import os
 import re
@@ -13,8 +13,11 @@ def code(*patterns):
     return re.sub(r"/\*.*?\*/", "", "".join(open(path).read() for path in paths), flags=re.S)
 
 
-sources = code("pc_amgf/*.c", "pc_amgf/*/*.c", "tao_ipfilter/*.c", "tao_ipfilter/*/*.c", "src/*/*.c", "src/*/*/*.c", "apps/*.c")
-asked = set(re.findall(r'\bPetscOptions(?!HasName|Set|Clear)\w+\([^"();]*"-(\w+)"', sources)) | {"tao_ipfilter_" + name for name in re.findall(r'\bIP_REAL\(\s*"(\w+)"', sources)}
+sources = code("pc_amgf/*.c", "pc_amgf/*/*.c", "tao_ipfilter/*.c", "tao_ipfilter/*/*.c", "src/*/*.c", "src/*/*/*.c",
+               "apps/*.c")
+asked = set(re.findall(r'\bPetscOptions(?!HasName|Set|Clear)\w+\([^"();]*"-(\w+)"',
+                       sources)) | {"tao_ipfilter_" + name
+                                    for name in re.findall(r'\bIP_REAL\(\s*"(\w+)"', sources)}
 calls = re.findall(r'\bPetscOptions(?:Get)?(Bool|Int|BoundedInt|String|Enum|EList|FList)\([^"();]*"-(\w+)"', sources)
 known = re.search(r"OptionsOurs\[\] = \{(.*?)\}", code("src/options/known.c"), flags=re.S)[1]
 listed = re.findall(r'"(\w+)"', known)
@@ -22,15 +25,42 @@ print("options: at most 70" if len(listed) <= 70 else "options: %d" % len(listed
 print("the list is sorted, without repetition:", "yes" if listed == sorted(set(listed)) else "NO")
 print("asked for, but not in the list:", ", ".join(sorted(asked - OF_PETSC - set(listed))) or "none")
 print("in the list, but not asked for:", ", ".join(sorted(set(listed) - asked)) or "none")
-lists = {"Bool": "Switches", "Int": "Counts", "BoundedInt": "Counts", "String": "Words", "Enum": "Words", "EList": "Words", "FList": "Words"}
-kinds = {kind: re.findall(r'"(\w+)"', re.search(r"Options%s\[\] = \{(.*?)\}" % kind, code("src/options/known.c"), flags=re.S)[1]) for kind in set(lists.values())}
-print("of another kind than asked for:", ", ".join(sorted({name for call, name in calls if name not in kinds[lists[call]]} - OF_PETSC)) or "none")
-print("of a kind that is not asked for:", ", ".join(sorted(set(sum(kinds.values(), [])) - {name for _, name in calls})) or "none")
-choices = {name: re.findall(r'"(\w+)"', words) for name, words in re.findall(r'\{"(\w+)", \{([^}]*), NULL\}\}', code("src/options/known.c"))}
+lists = {
+    "Bool": "Switches", "Int": "Counts", "BoundedInt": "Counts", "String": "Words", "Enum": "Words", "EList": "Words",
+    "FList": "Words"
+}
+kinds = {
+    kind: re.findall(r'"(\w+)"',
+                     re.search(r"Options%s\[\] = \{(.*?)\}" % kind, code("src/options/known.c"), flags=re.S)[1])
+    for kind in set(lists.values())
+}
+print("of another kind than asked for:",
+      ", ".join(sorted({name
+                        for call, name in calls
+                        if name not in kinds[lists[call]]} - OF_PETSC)) or "none")
+print("of a kind that is not asked for:", ", ".join(sorted(set(sum(kinds.values(), [])) - {name
+                                                                                           for _, name in calls}))
+      or "none")
+choices = {
+    name: re.findall(r'"(\w+)"', words)
+    for name, words in re.findall(r'\{"(\w+)", \{([^}]*), NULL\}\}', code("src/options/known.c"))
+}
 enumerated = {name for call, name in calls if call in ("Enum", "EList")}
 print("enumerated, and without a list of words:", ", ".join(sorted(enumerated ^ set(choices))) or "none")
 arrays = [re.findall(r'"(\w+)"', words) for words in re.findall(r"\*const +\w+\[\] *= \{(.*?)\}", sources, flags=re.S)]
-print("with other words than the sources have:", ", ".join(name for name, words in choices.items() if not any(words == array[: len(words)] and len(array) in (len(words), len(words) + 2) for array in arrays)) or "none")
-users = "".join(open(path, errors="replace").read() for folder in ("tests", "share") for path in glob.glob(os.path.join(TOP, folder, "**", "*.*"), recursive=True)
-                if path.endswith((".c", ".sh", ".py", ".opts", ".yaml", ".md")) and not path.endswith("changelog.md")) + open(os.path.join(TOP, "README.md")).read()
-print("set by no test and no page:", ", ".join(name for name in listed if not re.search(r"(-|\b)%s\b" % name if name.startswith(("tao_", "pc_amgf_", "contact_")) else r"-%s\b" % name, users)) or "none")
+print(
+    "with other words than the sources have:",
+    ", ".join(name for name, words in choices.items()
+              if not any(words == array[:len(words)] and len(array) in (len(words), len(words) + 2)
+                         for array in arrays)) or "none")
+users = "".join(
+    open(path, errors="replace").read()
+    for folder in ("tests", "share")
+    for path in glob.glob(os.path.join(TOP, folder, "**", "*.*"), recursive=True)
+    if path.endswith((".c", ".sh", ".py", ".opts", ".yaml", ".md")) and not path.endswith("changelog.md")) + open(
+        os.path.join(TOP, "README.md")).read()
+print(
+    "set by no test and no page:", ", ".join(
+        name for name in listed
+        if not re.search(r"(-|\b)%s\b" % name if name.startswith(("tao_", "pc_amgf_",
+                                                                  "contact_")) else r"-%s\b" % name, users)) or "none")

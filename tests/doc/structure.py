@@ -27,18 +27,23 @@ src/output src/checkpoint
 apps
 """.split()
 # Public headers, by the lowest folder that defines what they declare
-PUBLIC = {"rankerror.h": "src/error", "options.h": "src/options", "material.h": "src/material", "formulation.h": "src/model", "model.h": "src/model",
-          "report.h": "src/report", "mesh.h": "src/mesh/shapes", "scene.h": "src/scene", "elasticity.h": "src/elasticity/elements",
-          "contact.h": "src/contact/geometry", "step.h": "src/state", "accuracy.h": "src/run", "output.h": "src/output", "checkpoint.h": "src/state"}
+PUBLIC = {
+    "rankerror.h": "src/error", "options.h": "src/options", "material.h": "src/material", "formulation.h": "src/model",
+    "model.h": "src/model", "report.h": "src/report", "mesh.h": "src/mesh/shapes", "scene.h": "src/scene",
+    "elasticity.h": "src/elasticity/elements", "contact.h": "src/contact/geometry", "step.h": "src/state",
+    "accuracy.h": "src/run", "output.h": "src/output", "checkpoint.h": "src/state"
+}
 
-DEFINITION = re.compile(r"^(?!typedef|struct|enum|union)(?P<static>static )?[\w *]*?\b(?P<name>\w+)\([^;{}]*\)\n\{\n", re.M)
+DEFINITION = re.compile(r"^(?!typedef|struct|enum|union)(?P<static>static )?[\w *]*?\b(?P<name>\w+)\([^;{}]*\)\n\{\n",
+                        re.M)
 DECLARATION = re.compile(r"^(?:PETSC_INTERN|PETSC_EXTERN)\s[^;{}=]*?\b(\w+)\(", re.M)
 SECTION = re.compile(r"^/\*\s+(\w+\.c(?:, \w+\.c)*)\b", re.M)  # a comment that begins with one file's name, or several
 
 
 def sources(kind):
     """Paths below the top"""
-    return sorted(os.path.relpath(path, TOP) for folder in FOLDERS for path in glob.glob(os.path.join(TOP, folder, "*." + kind)))
+    return sorted(
+        os.path.relpath(path, TOP) for folder in FOLDERS for path in glob.glob(os.path.join(TOP, folder, "*." + kind)))
 
 
 def text(path):
@@ -91,7 +96,12 @@ def reachable(graph, start):
 def circles(graph):
     """Groups of files each of which reaches all others, and the calls that make them so"""
     reach = {path: reachable(graph, path) for path in graph}
-    groups = {tuple(sorted(other for other in graph if other == path or other in reach[path] and path in reach[other])) for path in graph}
+    groups = {
+        tuple(sorted(other
+                     for other in graph
+                     if other == path or other in reach[path] and path in reach[other]))
+        for path in graph
+    }
     for group in sorted(group for group in groups if len(group) > 1):
         yield ", ".join(group)
         for a in group:
@@ -103,11 +113,13 @@ def calls_upwards(graph):
     layer = {path: LAYERS.index(os.path.dirname(path)) for path in graph if os.path.dirname(path) in LAYERS}
     yield from (f"{path} is in no layer" for path in sorted(graph) if path not in layer)
     for path in sorted(layer):
-        yield from (f"{path} -> {other}: {', '.join(sorted(names))}" for other, names in graph[path].items() if layer.get(other, -1) > layer[path])
+        yield from (f"{path} -> {other}: {', '.join(sorted(names))}" for other, names in graph[path].items()
+                    if layer.get(other, -1) > layer[path])
 
 
 def includes_upwards():
-    """A file includes its own folder's header and those of folders before it, by their path from the top, and public headers of these"""
+    """A file includes its own folder's header and those of folders before it, by their path from the top, and public
+    headers of these"""
     for path in sources("c") + sources("h"):
         folder = os.path.dirname(path)
         if folder not in LAYERS:
@@ -141,7 +153,8 @@ def readmes():
 
 def written():
     """Paths of all sources and headers, public ones too"""
-    return sources("c") + sources("h") + sorted(os.path.relpath(path, TOP) for path in glob.glob(os.path.join(TOP, "include", "*.h")))
+    return sources("c") + sources("h") + sorted(
+        os.path.relpath(path, TOP) for path in glob.glob(os.path.join(TOP, "include", "*.h")))
 
 
 def wide_lines():
@@ -152,13 +165,19 @@ def wide_lines():
 
 
 def unformatted():
-    """Files that `make format` would change; none where there is no clang-format of the release that the style is for"""
+    """Files that `make format` would change; none where there is no clang-format of the release that the style is
+    for"""
     tool = shutil.which("clang-format")
-    if not tool or f"version {FORMATTED_BY}" not in subprocess.run([tool, "--version"], capture_output=True, text=True).stdout:
+    if not tool or f"version {FORMATTED_BY}" not in subprocess.run([tool, "--version"], capture_output=True,
+                                                                   text=True).stdout:
         return
     paths = [os.path.join(TOP, path) for path in written()]
     found = subprocess.run([tool, "--dry-run", *paths], capture_output=True, text=True, cwd=TOP).stderr
-    yield from sorted({os.path.relpath(line.split(":")[0], TOP) for line in found.splitlines() if "-Wclang-format-violations" in line})
+    yield from sorted({
+        os.path.relpath(line.split(":")[0], TOP)
+        for line in found.splitlines()
+        if "-Wclang-format-violations" in line
+    })
 
 
 def repeated_statics():
@@ -189,7 +208,10 @@ def misplaced_declarations(defined):
         for match in DECLARATION.finditer(content):
             above = [names for start, names in sections if start < match.start()]
             names = above[-1].split(", ") if above else []
-            homes = [where for where in defined if os.path.basename(where) in names and where.split("/")[0] == folder.split("/")[0]]
+            homes = [
+                where for where in defined
+                if os.path.basename(where) in names and where.split("/")[0] == folder.split("/")[0]
+            ]
             if homes and not any(match[1] in defined.get(home, ()) for home in homes):
                 real = [where for where, names in defined.items() if match[1] in names]
                 yield f"{path}: {match[1]} stands under {above[-1]}, is defined in {', '.join(real) or 'no file'}"

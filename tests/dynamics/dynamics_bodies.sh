@@ -1,9 +1,12 @@
-# Bodies that move: two bars that meet, also on ranks and after a restart, a block that slides to rest, one that bounces, a rod that spins (dynamics_bodies.py)
+# Bodies that move: two bars that meet, also on ranks and after a restart, a block that slides to rest, one that
+# bounces, a rod that spins (dynamics_bodies.py)
 contact=$AMGF_DIR/bin/contact
 run() { "$contact" "$@" -quiet -error_estimate 0 2> err || { echo "exit $?"; cat err; }; }
 "$PYTHON" "$AMGF_DIR/tests/dynamics/dynamics_bodies.py" scenes
-for scene in bars bars_alpha slide bounce bounce_damped spin spin_impact rigid turn tumble pendulum massless; do run $scene.yaml -output $scene; done
-for ranks in 2 3; do mpiexec --oversubscribe -n $ranks "$contact" bars.yaml -quiet -error_estimate 0 -output bars_$ranks; done
+for scene in bars bars_alpha slide bounce bounce_damped spin spin_impact rigid turn tumble pendulum massless; do
+  run $scene.yaml -output $scene; done
+for ranks in 2 3; do mpiexec --oversubscribe -n $ranks "$contact" bars.yaml -quiet -error_estimate 0 \
+  -output bars_$ranks; done
 for scene in bars bars_alpha bounce_damped; do
   run $scene.yaml -checkpoint_every 15 -checkpoint $scene.h5 -output part_$scene
   run $scene.yaml -restart $scene.h5 -output part_$scene
@@ -13,7 +16,8 @@ done
 # the force of a contact changes in an impact: no warning of a contact one facet wide
 cat > three.yaml <<'YAML'
 bodies:
-  - a: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [4, 2, 2], young: 1e4, poisson: 0.3, density: 1, initial_velocity: [5, 0, 0]}
+  - a: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [4, 2, 2], young: 1e4, poisson: 0.3, density: 1,
+        initial_velocity: [5, 0, 0]}
   - b: {lower: [1.05, 0, 0], upper: [2.05, 1, 1], cells: [3, 3, 3], young: 1e4, poisson: 0.3, density: 1}
   - c: {lower: [2.1, 0, 0], upper: [3.1, 1, 1], cells: [4, 2, 2], young: 1e4, poisson: 0.3, density: 1}
 contact:
@@ -22,11 +26,13 @@ contact:
 dynamics: {time_step: 0.001, end_time: 0.12}
 YAML
 run three.yaml; cat err
-# a block flies 6 m in steps of 500 wave times towards a wall that it does not reach: each step takes few AMG applications
+# a block flies 6 m in steps of 500 wave times towards a wall that it does not reach: each step takes few AMG
+# applications
 cat > fly.yaml <<'YAML'
 bodies:
   - wall: {lower: [-9, -5, -5], upper: [-8, 5, 5], cells: [1, 1, 1], material: rigid}
-  - block: {lower: [1, 0, 0], upper: [2, 1, 1], cells: [4, 4, 4], young: 2e11, poisson: 0.3, density: 8000, initial_velocity: [-20, 0, 0]}
+  - block: {lower: [1, 0, 0], upper: [2, 1, 1], cells: [4, 4, 4], young: 2e11, poisson: 0.3, density: 8000,
+            initial_velocity: [-20, 0, 0]}
 displacements:
   - fix: {body: wall, value: [0, 0, 0]}
 contact:
@@ -51,19 +57,24 @@ displacements:
 load: {expression: "sin(6*t)^2"}
 dynamics: {time_step: 0.005, end_time: 0.5}
 YAML
-for scheme in impact generalized_alpha; do sed "s/end_time: 0.5/end_time: 0.5, scheme: $scheme, spectral_radius: 1/" pull.yaml > $scheme.yaml; run $scheme.yaml -output $scheme; done
+for scheme in impact generalized_alpha; do
+  sed "s/end_time: 0.5/end_time: 0.5, scheme: $scheme, spectral_radius: 1/" pull.yaml > $scheme.yaml;
+  run $scheme.yaml -output $scheme; done
 "$PYTHON" -c "
 from histories import history
 from summaries import say
 for name in 'impact', 'generalized_alpha':
     run = history(name)
-    say(name + ': reaction E A u/L of a bar that is moved slowly, to 10 %', all(abs(f - 0.1) < 0.01 for f in run['bar.xmax.reaction_x'][50:53]), run['bar.xmax.reaction_x'][50:53])
+    say(name + ': reaction E A u/L of a bar that is moved slowly, to 10 %', all(abs(f - 0.1) \
+      < 0.01 for f in run['bar.xmax.reaction_x'][50:53]), run['bar.xmax.reaction_x'][50:53])
     say(name + ': work of the moved end is energy, to 5 % of the largest', max(map(abs, run['dynamics.numerical_dissipation'])) < 0.05 * max(run['dynamics.total_energy']), run['dynamics.numerical_dissipation'])"
-# a ball hits a plate with facets far larger than the contact: a force acts although no vertex is closed, so that no warning says that the pair was open
+# a ball hits a plate with facets far larger than the contact: a force acts although no vertex is closed, so that no
+# warning says that the pair was open
 cat > drop.yaml <<'YAML'
 bodies:
   - plate: {lower: [0, 0, -2], upper: [20, 20, 0], cells: [8, 8, 2], young: 210000, poisson: 0.3, density: 7.85e-9}
-  - ball: {shape: ball, center: [0, 0, 5.01], octant: [1, 1, -1], radius: 5, patches: [4, 4, 4], layers: 3, young: 210000, poisson: 0.3, density: 7.85e-9, initial_velocity: [0, 0, -2000]}
+  - ball: {shape: ball, center: [0, 0, 5.01], octant: [1, 1, -1], radius: 5, patches: [4, 4, 4], layers: 3,
+           young: 210000, poisson: 0.3, density: 7.85e-9, initial_velocity: [0, 0, -2000]}
 symmetry: [plate.xmin, plate.ymin, ball.x0, ball.y0]
 displacements:
   - edge: {face: plate.xmax, value: [0, 0, 0]}

@@ -1,7 +1,8 @@
-"""Free vibration: order of convergence in the time step. A bar hits a rigid wall (Code_Aster, SDNV100; exact by waves): it touches the wall for
-2 L/c = 80 us, with the force A rho c v = 1.6 MN, and flies back at 100 m/s. What is refused.
+"""Free vibration: order of convergence in the time step. A bar hits a rigid wall (Code_Aster, SDNV100; exact by waves):
+it touches the wall for 2 L/c = 80 us, with the force A rho c v = 1.6 MN, and flies back at 100 m/s. What is refused.
 
-python3 dynamics_schemes.py scenes writes the scenes; python3 dynamics_schemes.py judges the runs that dynamics_schemes.sh has made.
+python3 dynamics_schemes.py scenes writes the scenes; python3 dynamics_schemes.py judges the runs that
+dynamics_schemes.sh has made.
 """
 import sys
 
@@ -25,7 +26,8 @@ dynamics: {{time_step: {step}, end_time: 3.6, scheme: {scheme}, spectral_radius:
 """
 WALL = """bodies:
   - wall: {{lower: [-0.01, -0.02, -0.02], upper: [0, 0.04, 0.04], cells: [1, 1, 1], material: rigid, density: 1}}
-  - bar: {{lower: [0.002, 0, 0], upper: [0.202, 0.02, 0.02], cells: [20, 1, 1], young: 2e11, poisson: 0, element: full, density: 8000, initial_velocity: [-100, 0, 0]}}
+  - bar: {{lower: [0.002, 0, 0], upper: [0.202, 0.02, 0.02], cells: [20, 1, 1], young: 2e11, poisson: 0, element: full,
+          density: 8000, initial_velocity: [-100, 0, 0]}}
 displacements:
   - fix: {{body: wall, value: [0, 0, 0]}}
   - y: {{face: bar.ymin, value: [free, 0, free]}}
@@ -34,26 +36,42 @@ contact:
   - hit: {{mortar: wall.xmax, nonmortar: bar.xmin}}
 dynamics: {{time_step: 2e-6, end_time: 140e-6, scheme: {scheme}, spectral_radius: {radius}, mass: {mass}}}
 """
-DAMPED = VIBRATION.replace("density: 1}}", "density: 1, initial_velocity: [0.01, 0, 0]}}").replace("[0.01, 0, 0]}}\nload: {{expression: \"{load}\"}}", "[0, 0, 0]}}").replace(
-    "mass: {mass}", "mass: {mass}, damping_stiffness: 0.1")
+DAMPED = VIBRATION.replace("density: 1}}", "density: 1, initial_velocity: [0.01, 0, 0]}}").replace(
+    "[0.01, 0, 0]}}\nload: {{expression: \"{load}\"}}", "[0, 0, 0]}}").replace("mass: {mass}",
+                                                                               "mass: {mass}, damping_stiffness: 0.1")
 STEPS = {"coarse": 0.1, "middle": 0.05, "fine": 0.025}
 SCHEMES = {"alpha_10": ("generalized_alpha", 1.0), "alpha_08": ("generalized_alpha", 0.8), "impact": ("impact", 0.8)}
 LOADS = {"smooth": ("sin(t)^4", "lumped"), "sudden": ("1", "consistent")}
-SCENES = {f"vibration_{load}_{name}_{step}": VIBRATION.format(load=LOADS[load][0], mass=LOADS[load][1], step=STEPS[step], scheme=scheme[0], radius=scheme[1])
-          for load in LOADS for name, scheme in SCHEMES.items() for step in STEPS if load == "smooth" or (step == "coarse")}
-SCENES |= {f"damped_{name}": DAMPED.format(mass="lumped", step=0.02, scheme=SCHEMES[name][0], radius=1) for name in ("alpha_10", "impact")}
-SCENES |= {f"wall_{name}_{mass}": WALL.format(scheme=scheme[0], radius=scheme[1], mass=mass)
-           for name, scheme, mass in (("alpha", SCHEMES["alpha_08"], "redistributed"), ("impact", SCHEMES["impact"], "redistributed"), ("impact", SCHEMES["impact"], "lumped"),
-                                      ("impact", SCHEMES["impact"], "consistent"))}
-BODY = "bodies:\n  - bar: {{lower: [0, 0, 0], upper: [1, 1, 1], cells: [1, 1, 1], young: 1, poisson: 0{body}}}\ndynamics: {{{dynamics}}}\n"
-REFUSED = {"density": ("", "time_step: 1, end_time: 2"), "density_negative": (", density: -1", "time_step: 1, end_time: 2"), "step_0": (", density: 1", "time_step: 0, end_time: 2"),
-           "step_negative": (", density: 1", "time_step: -1, end_time: 2"), "end": (", density: 1", "time_step: 1, end_time: 0.5"),
-           "scheme": (", density: 1", "time_step: 1, end_time: 2, scheme: newmark"), "radius": (", density: 1", "time_step: 1, end_time: 2, spectral_radius: 1.5"),
-           "no_end": (", density: 1", "time_step: 1"), "synonym": (", density: 1", "dt: 1, end_time: 2"), "many": (", density: 1", "time_step: 1e-9, end_time: 2"),
-           "damping": (", density: 1", "time_step: 1, end_time: 2, damping_mass: -1"),
-           "viscosity": (", density: 1", "time_step: 1, end_time: 2, damping_stiffness: -1"),
-           "viscosity_law": (", density: 1, material: neohookean", "time_step: 1, end_time: 2, damping_stiffness: 1")}
-
+SCENES = {
+    f"vibration_{load}_{name}_{step}": VIBRATION.format(load=LOADS[load][0], mass=LOADS[load][1], step=STEPS[step],
+                                                        scheme=scheme[0], radius=scheme[1])
+    for load in LOADS for name, scheme in SCHEMES.items() for step in STEPS if load == "smooth" or (step == "coarse")
+}
+SCENES |= {
+    f"damped_{name}": DAMPED.format(mass="lumped", step=0.02, scheme=SCHEMES[name][0], radius=1)
+    for name in ("alpha_10", "impact")
+}
+SCENES |= {
+    f"wall_{name}_{mass}": WALL.format(scheme=scheme[0], radius=scheme[1], mass=mass)
+    for name, scheme, mass in (("alpha", SCHEMES["alpha_08"], "redistributed"), ("impact", SCHEMES["impact"],
+                                                                                 "redistributed"),
+                               ("impact", SCHEMES["impact"], "lumped"), ("impact", SCHEMES["impact"], "consistent"))
+}
+BODY = ("bodies:\n  - bar: {{lower: [0, 0, 0], upper: [1, 1, 1], cells: [1, 1, 1], young: 1, poisson: 0{body}}}\n"
+        "dynamics: {{{dynamics}}}\n")
+REFUSED = {
+    "density": ("", "time_step: 1, end_time: 2"), "density_negative": (", density: -1", "time_step: 1, end_time: 2"),
+    "step_0": (", density: 1", "time_step: 0, end_time: 2"), "step_negative": (", density: 1",
+                                                                               "time_step: -1, end_time: 2"),
+    "end": (", density: 1", "time_step: 1, end_time: 0.5"), "scheme": (", density: 1",
+                                                                       "time_step: 1, end_time: 2, scheme: newmark"),
+    "radius": (", density: 1", "time_step: 1, end_time: 2, spectral_radius: 1.5"), "no_end": (", density: 1",
+                                                                                              "time_step: 1"),
+    "synonym": (", density: 1", "dt: 1, end_time: 2"), "many": (", density: 1", "time_step: 1e-9, end_time: 2"),
+    "damping": (", density: 1", "time_step: 1, end_time: 2, damping_mass: -1"),
+    "viscosity": (", density: 1", "time_step: 1, end_time: 2, damping_stiffness: -1"),
+    "viscosity_law": (", density: 1, material: neohookean", "time_step: 1, end_time: 2, damping_stiffness: 1")
+}
 
 
 def damped(time, n=10, damping=0.1):
@@ -66,7 +84,8 @@ def damped(time, n=10, damping=0.1):
     squares, modes = np.linalg.eigh(stiffness[1:, 1:] / np.outer(root, root))
     decay = 0.5 * damping * squares
     frequency = np.sqrt((squares - decay**2).astype(complex))
-    return float((modes[-1] * (modes.T @ (0.01 * root)) * np.exp(-decay * time) * (np.sin(frequency * time) / frequency).real).sum() / root[-1])
+    return float((modes[-1] * (modes.T @ (0.01 * root)) * np.exp(-decay * time) *
+                  (np.sin(frequency * time) / frequency).real).sum() / root[-1])
 
 
 if sys.argv[1:] == ["scenes"]:
@@ -74,9 +93,11 @@ if sys.argv[1:] == ["scenes"]:
         open(name + ".yaml", "w").write(text)
     for name, (body, dynamics) in REFUSED.items():
         open(f"refused_{name}.yaml", "w").write(BODY.format(body=body, dynamics=dynamics))
-    open("refused_static.yaml", "w").write(BODY.format(body=", initial_velocity: [1, 0, 0]", dynamics="").replace("dynamics: {}\n", ""))
+    open("refused_static.yaml",
+         "w").write(BODY.format(body=", initial_velocity: [1, 0, 0]", dynamics="").replace("dynamics: {}\n", ""))
     open("refused_mass.yaml", "w").write(WALL.format(scheme="generalized_alpha", radius=0.8, mass="lumped"))
-    open("refused_steps.yaml", "w").write(BODY.format(body=", density: 1", dynamics="time_step: 1, end_time: 2") + "load: {steps: 3}\n")
+    open("refused_steps.yaml",
+         "w").write(BODY.format(body=", density: 1", dynamics="time_step: 1, end_time: 2") + "load: {steps: 3}\n")
 else:
     for name in SCHEMES:
         tips = [history(f"vibration_smooth_{name}_{step}")["tip.displacement_x"][-1] for step in STEPS]
@@ -85,14 +106,18 @@ else:
         run = history(f"vibration_sudden_{name}_coarse")
         lost = run["dynamics.numerical_dissipation"]
         say(f"free vibration, {name}: no energy comes from nowhere", min(lost) > -1e-9 * max(run["work"]), lost)
-        say(f"free vibration, {name}: forces are in balance with inertia", max(run["equilibrium"]) < 1e-8, max(run["equilibrium"]))
+        say(f"free vibration, {name}: forces are in balance with inertia",
+            max(run["equilibrium"]) < 1e-8, max(run["equilibrium"]))
         if name != "alpha_08":
             say(f"free vibration, {name}: nothing is dissipated", max(lost) < 1e-9 * max(run["work"]), lost)
     for name in "alpha_10", "impact":
         run = history("damped_" + name)
         errors = [abs(tip - damped(time)) for time, tip in zip(run["time"], run["tip.displacement_x"])]
-        say(f"damping by stiffness, {name}: tip by the modes to 0.1 % at every instant", max(errors) < 1e-3 * max(run["tip.displacement_x"]), max(errors))
-        say(f"damping by stiffness, {name}: energy is accounted for", max(map(abs, run["dynamics.numerical_dissipation"])) < 1e-10 * run["dynamics.damping_work"][-1], run["dynamics.numerical_dissipation"])
+        say(f"damping by stiffness, {name}: tip by the modes to 0.1 % at every instant",
+            max(errors) < 1e-3 * max(run["tip.displacement_x"]), max(errors))
+        say(f"damping by stiffness, {name}: energy is accounted for",
+            max(map(abs, run["dynamics.numerical_dissipation"])) < 1e-10 * run["dynamics.damping_work"][-1],
+            run["dynamics.numerical_dissipation"])
     mass, energy = 8000 * 0.2 * 4e-4, 0.5 * 8000 * 0.2 * 4e-4 * 1e4
     for name in (name for name in SCENES if name.startswith("wall")):
         run = history(name)
@@ -100,14 +125,22 @@ else:
         force = [f for t, f in zip(run["time"], run["contact_force_x"]) if 30e-6 < t < 95e-6]
         speed = run["dynamics.momentum_x"][-1] / mass
         say(f"{name}: rebound speed within 6 % of 100 m/s", within(speed, 100, 0.06), speed)
-        say(f"{name}: mean force within 4 % of 1.6 MN", within(sum(force) / len(force), 1.6e6, 0.04), sum(force) / len(force))
-        say(f"{name}: contact from 20 us to 100 us", len(closed) > 0 and 18e-6 < closed[0] < 24.1e-6 and 96e-6 < closed[-1] < 104.1e-6, closed)
+        say(f"{name}: mean force within 4 % of 1.6 MN", within(sum(force) / len(force), 1.6e6, 0.04),
+            sum(force) / len(force))
+        say(f"{name}: contact from 20 us to 100 us",
+            len(closed) > 0 and 18e-6 < closed[0] < 24.1e-6 and 96e-6 < closed[-1] < 104.1e-6, closed)
         waves = [-100 + 200 * min(max((t - 20e-6) / 80e-6, 0), 1) for t in run["time"]]
         off = max(abs(p / mass - v) for p, v in zip(run["dynamics.momentum_x"], waves))
         say(f"{name}: mean velocity by waves at every instant, to 8 m/s of 200", off < 8, off)
         if "impact" in name:
-            say(f"{name}: energy never grows", max(b - a for a, b in zip([energy] + run["dynamics.total_energy"], run["dynamics.total_energy"])) < 1e-9 * energy, run["dynamics.total_energy"])
+            say(
+                f"{name}: energy never grows",
+                max(b - a for a, b in zip([energy] + run["dynamics.total_energy"], run["dynamics.total_energy"])) <
+                1e-9 * energy, run["dynamics.total_energy"])
         if name == "wall_impact_redistributed":
-            say(f"{name}: energy stays", within(run["dynamics.total_energy"][-1], energy, 1e-4), run["dynamics.total_energy"][-1] / energy)
-            say(f"{name}: force within 25 % of 1.6 MN after the first microseconds", all(within(f, 1.6e6, 0.25) for f in force), force)
-            say(f"{name}: a step takes less than half an elastic solve", sum(run["amg_applications"]) < 0.5 * 35 * len(run["time"]), sum(run["amg_applications"]))
+            say(f"{name}: energy stays", within(run["dynamics.total_energy"][-1], energy, 1e-4),
+                run["dynamics.total_energy"][-1] / energy)
+            say(f"{name}: force within 25 % of 1.6 MN after the first microseconds",
+                all(within(f, 1.6e6, 0.25) for f in force), force)
+            say(f"{name}: a step takes less than half an elastic solve",
+                sum(run["amg_applications"]) < 0.5 * 35 * len(run["time"]), sum(run["amg_applications"]))

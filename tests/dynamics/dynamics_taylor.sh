@@ -1,10 +1,13 @@
-# Taylor's impact test: a copper cylinder, 32.4 mm long and 3.2 mm in radius, hits a rigid wall at 227 m/s, and its foot is strained by 3. Published at 80 us, by different programs
-# (Kamoulakos 1990; Zhu and Cescotto 1995; Camacho and Ortiz 1997): length 21.26 to 21.66 mm, radius of the foot 6.89 to 7.24 mm, largest plastic strain 2.5 to 3.3.
+# Taylor's impact test: a copper cylinder, 32.4 mm long and 3.2 mm in radius, hits a rigid wall at 227 m/s, and its foot
+# is strained by 3. Published at 80 us, by different programs (Kamoulakos 1990; Zhu and Cescotto 1995; Camacho and Ortiz
+# 1997): length 21.26 to 21.66 mm, radius of the foot 6.89 to 7.24 mm, largest plastic strain 2.5 to 3.3.
 # CELLS, STEP: cells along radius, around the sector and along the axis, and the time step
 contact=$AMGF_DIR/bin/contact
 cat > taylor.yaml <<YAML
 bodies:
-  - bar: {shape: tube_arc, axis: z, radii: [1e-4, 3.2], angles: [0, 10], extent: [0, 32.4], cells: [${CELLS:-2, 1, 12}], material: j2_finite, young: 117e3, poisson: 0.35, yield: 400, hardening: 100, density: 8.93e-9, element: bbar, initial_velocity: [0, 0, -227e3]}
+  - bar: {shape: tube_arc, axis: z, radii: [1e-4, 3.2], angles: [0, 10], extent: [0, 32.4], cells: [${CELLS:-2, 1, 12}],
+          material: j2_finite, young: 117e3, poisson: 0.35, yield: 400, hardening: 100, density: 8.93e-9, element: bbar,
+          initial_velocity: [0, 0, -227e3]}
   - wall: {shape: rigid_plane, material: rigid, point: [0, 0, 0], normal: [0, 0, 1]}
 displacements:
   - wall: {body: wall, value: [0, 0, 0]}
@@ -37,5 +40,6 @@ cuts = [step["cuts"] for step in steps]
 say("no time step was cut", not any(cuts), cuts)
 start = 0.5 * 8.93e-9 * 32.4 * math.radians(10) / 2 * 3.2**2 * 227e3**2
 lost = history("taylor")["dynamics.numerical_dissipation"]
-say("energy is kinetic, stored or plastic work to 1e-4 at every instant", max(map(abs, lost)) < 1e-4 * start, (start, max(map(abs, lost))))
+say("energy is kinetic, stored or plastic work to 1e-4 at every instant",
+    max(map(abs, lost)) < 1e-4 * start, (start, max(map(abs, lost))))
 PY

@@ -1,4 +1,5 @@
-"""Rigid surfaces with mass: a ball that a force and a moment drive; a ball that falls on an elastic block and rises again.
+"""Rigid surfaces with mass: a ball that a force and a moment drive; a ball that falls on an elastic block and rises
+again.
 
 python3 dynamics_tools.py scenes writes the scenes; python3 dynamics_tools.py judges the runs.
 """
@@ -20,7 +21,8 @@ load: {expression: "1"}
 dynamics: {time_step: 0.02, end_time: 1}
 """
 FALL = """bodies:
-  - block: {lower: [0, 0, -2], upper: [2, 2, 0], cells: [8, 8, 8], grading: [4, 4, 0.25], young: 1e5, poisson: 0.3, density: 1e-3}
+  - block: {lower: [0, 0, -2], upper: [2, 2, 0], cells: [8, 8, 8], grading: [4, 4, 0.25], young: 1e5, poisson: 0.3,
+            density: 1e-3}
   - ball: {shape: rigid_sphere, center: [0, 0, 2.0005], radius: 2, mass: 10, initial_velocity: [0, 0, -2]}
 displacements:
   - bottom: {face: block.zmin, value: [0, 0, 0]}
@@ -41,7 +43,8 @@ else:
     seen = [(x, t * t) for t, x in zip(run["time"], run["ball.position_x"])]
     say("driven: x = F t^2/(2 m)", all(abs(x - exact) < 1e-8 for x, exact in seen), seen)
     turned = math.degrees(0.5 * 0.1 / (0.4 * 2 * 0.25))
-    say("driven: turns by M t^2/(2 I), I = 2/5 m r^2, within 0.2 %", within(run["ball.rotation_z"][-1], turned, 2e-3), (run["ball.rotation_z"][-1], turned))
+    say("driven: turns by M t^2/(2 I), I = 2/5 m r^2, within 0.2 %", within(run["ball.rotation_z"][-1], turned, 2e-3),
+        (run["ball.rotation_z"][-1], turned))
     run = history("fall")
     last = run["dynamics.momentum_z"]
     # a quarter of the block, so that the ball has a mass of 40 and four times the force
@@ -50,6 +53,7 @@ else:
     largest = stiffness * deepest**1.5 / 4
     force = max(run["touch.force_z"], key=abs)
     say("fall: the ball rises with 0.99 of its speed or more", last[-1] > 0.99 * 20, last)
-    say("fall: largest force within 10 % of Hertz's quasi-static one, on 8 x 8 x 8 cells", within(-force, largest, 0.1), (force, largest))
+    say("fall: largest force within 10 % of Hertz's quasi-static one, on 8 x 8 x 8 cells", within(-force, largest, 0.1),
+        (force, largest))
     lost = run["dynamics.numerical_dissipation"]
     say("fall: energy is accounted for to 1e-6", max(map(abs, lost)) < 1e-6 * max(run["dynamics.total_energy"]), lost)

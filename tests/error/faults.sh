@@ -1,5 +1,5 @@
-# What breaks from outside or inside a run: each ends by itself with a reason and an exit code that is not 0, and what was written
-# before stays readable. A signal: tests/run/interrupt.sh.
+# What breaks from outside or inside a run: each ends by itself with a reason and an exit code that is not 0, and what
+# was written before stays readable. A signal: tests/run/interrupt.sh.
 contact=$AMGF_DIR/bin/contact
 blocks=$AMGF_DIR/share/scenes/two_block.yaml
 
@@ -14,10 +14,13 @@ try() {
 }
 
 one_step=(-refine 0 -load_steps 1 -load_max_cuts 0 -tao_max_it 20 -tao_ipfilter_subspace false)
-no_space=(-options_file "$AMGF_DIR/share/options/direct.opts" -tao_ipfilter_mat_mumps_icntl_23 1 -tao_ipfilter_mat_mumps_icntl_14 0)
+no_space=(-options_file "$AMGF_DIR/share/options/direct.opts" -tao_ipfilter_mat_mumps_icntl_23 1 \
+  -tao_ipfilter_mat_mumps_icntl_14 0)
 for memory in 2000 0; do
-  try "MUMPS without work space, allowed for another: $memory MB" "$contact" "$blocks" "${one_step[@]}" "${no_space[@]}" -tao_ipfilter_direct_memory $memory
-  try "limit of PCG, allowed for MUMPS: $memory MB" "$contact" "$blocks" "${one_step[@]}" -tao_ipfilter_ksp_max_it 1 -tao_ipfilter_direct_memory $memory
+  try "MUMPS without work space, allowed for another: $memory MB" "$contact" "$blocks" "${one_step[@]}" \
+    "${no_space[@]}" -tao_ipfilter_direct_memory $memory
+  try "limit of PCG, allowed for MUMPS: $memory MB" "$contact" "$blocks" "${one_step[@]}" -tao_ipfilter_ksp_max_it 1 \
+    -tao_ipfilter_direct_memory $memory
 done
 
 cat > crush.yaml <<'YAML'
@@ -39,8 +42,10 @@ PY
 written crush_0001.h5
 "$PYTHON" - <<'PY'
 import json
+
 run = json.load(open("crush.json"))
-print("  the summary says so: converged %s, load steps %s" % (run["converged"], [step["converged"] for step in run["steps"]]))
+print("  the summary says so: converged %s, load steps %s" %
+      (run["converged"], [step["converged"] for step in run["steps"]]))
 PY
 
 # The second load step's file goes where there is no room

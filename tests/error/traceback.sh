@@ -1,5 +1,5 @@
-# An error ends every rank, with -traceback and without: one that all ranks meet, one that a rank knows to be its own, and one that a
-# rank takes for everybody's. Only rank 2 has the option that is wrong.
+# An error ends every rank, with -traceback and without: one that all ranks meet, one that a rank knows to be its own,
+# and one that a rank takes for everybody's. Only rank 2 has the option that is wrong.
 contact=$AMGF_DIR/bin/contact
 scene="$AMGF_DIR/share/scenes/two_block.yaml -refine 0 -quiet"
 
@@ -17,7 +17,9 @@ for traceback in '' ' -traceback'; do
   # shellcheck disable=SC2086
   {
     try "all ranks$traceback" -n 3 "$contact" nowhere.yaml $traceback
-    try "a rank that knows$traceback" -n 2 "$contact" $scene $traceback : -n 1 "$contact" $scene $traceback -tao_ipfilter_ksp_norm_type wide
-    try "a rank that does not$traceback" -n 2 "$contact" $scene $traceback : -n 1 "$contact" $scene $traceback -load_steps 0
+    try "a rank that knows$traceback" -n 2 "$contact" $scene $traceback : -n 1 "$contact" $scene $traceback \
+      -tao_ipfilter_ksp_norm_type wide
+    try "a rank that does not$traceback" -n 2 "$contact" $scene $traceback : -n 1 "$contact" $scene $traceback \
+      -load_steps 0
   }
 done

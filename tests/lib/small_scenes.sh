@@ -1,5 +1,7 @@
-# Writes small scenes that together use all features, and runs each: small_scenes.sh CONTACT..., where CONTACT is the program, perhaps with another that runs it.
-# A run that fails prints the end of its messages. SCENES="ring sector" runs some. For `make memcheck`, and for any other tool that makes runs slow.
+# Writes small scenes that together use all features, and runs each: small_scenes.sh CONTACT..., where CONTACT is the
+# program, perhaps with another that runs it.
+# A run that fails prints the end of its messages. SCENES="ring sector" runs some. For `make memcheck`, and for any
+# other tool that makes runs slow.
 set -u
 failed=0
 run() { # name, options...
@@ -39,7 +41,8 @@ blocks stick 'material: linear, order: 2' 'stick: true' ''
 run stick stick.yaml
 blocks plastic 'material: j2, yield: 0.02, hardening: 0.1, element: bbar' 'friction: 0.2, shear_limit: 0.01' ''
 run plastic plastic.yaml
-blocks rubber 'material: neohookean, element: bbar' 'gap: mortar' 'probes: [middle: {point: [0.5, 0.5, 0.5], body: cube}]'
+blocks rubber 'material: neohookean, element: bbar' 'gap: mortar' \
+  'probes: [middle: {point: [0.5, 0.5, 0.5], body: cube}]'
 run rubber rubber.yaml -checkpoint rubber.h5 -checkpoint_every 1
 sed "s|steps: 2|factors: [0.5, 1, 0.7]|" rubber.yaml > further.yaml
 run restart further.yaml -restart rubber.h5 -output restart
@@ -69,7 +72,8 @@ cat > impact.yaml <<'YAML'
 problem: impact
 bodies:
   - wall: {lower: [-0.01, -0.02, -0.02], upper: [0, 0.04, 0.04], cells: [1, 1, 1], material: rigid, density: 8000}
-  - bar: {lower: [0.002, 0, 0], upper: [0.202, 0.02, 0.02], cells: [8, 1, 1], young: 2e11, poisson: 0, density: 8000, initial_velocity: [-100, 0, 0]}
+  - bar: {lower: [0.002, 0, 0], upper: [0.202, 0.02, 0.02], cells: [8, 1, 1], young: 2e11, poisson: 0, density: 8000,
+          initial_velocity: [-100, 0, 0]}
 displacements:
   - hold: {body: wall, value: [0, 0, 0]}
 symmetry: [bar.ymin, bar.zmin]
@@ -82,7 +86,8 @@ run impact impact.yaml
 cat > ring.yaml <<'YAML'
 problem: ring
 bodies:
-  - ring: {shape: tube_arc, axis: y, radii: [0.85, 1], angles: [0, 180], extent: [0, 0.2], cells: [1, 16, 1], material: neohookean, young: 1, poisson: 0.3}
+  - ring: {shape: tube_arc, axis: y, radii: [0.85, 1], angles: [0, 180], extent: [0, 0.2], cells: [1, 16, 1],
+           material: neohookean, young: 1, poisson: 0.3}
   - top: {shape: rigid_cylinder, center: [0, 0, 1.4], direction: [0, 1, 0], radius: 0.4}
   - bottom: {shape: rigid_cylinder, center: [0, 0, -1.4], direction: [0, 1, 0], radius: 0.4}
 displacements:
@@ -98,7 +103,8 @@ run ring ring.yaml
 cat > sector.yaml <<'YAML'
 problem: sector
 bodies:
-  - disc: {shape: tube_arc, axis: z, radii: [1, 2], angles: [0, 30], extent: [0, 0.5], cells: [2, 2, 1], young: 1000, poisson: 0.3, density: 1}
+  - disc: {shape: tube_arc, axis: z, radii: [1, 2], angles: [0, 30], extent: [0, 0.5], cells: [2, 2, 1], young: 1000,
+           poisson: 0.3, density: 1}
 cyclic:
   - cut: {from: disc.amin, to: disc.amax, axis: [0, 0, 1]}
 displacements:

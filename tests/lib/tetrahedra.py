@@ -1,6 +1,7 @@
 """A block of cells, each cut into six tetrahedra, as a Gmsh file: a box, or a quarter of a pipe
 
-    tetrahedra.py write NAME.msh FORMAT ORDER CELLS...     the pipe, format 2.2 or 4.1; order 1 or 2: nodes in the middles of the edges, on its circles
+    tetrahedra.py write NAME.msh FORMAT ORDER CELLS...     the pipe, format 2.2 or 4.1; order 1 or 2: nodes in the
+    middles of the edges, on its circles
     tetrahedra.py box NAME.msh ORDER LOWER UPPER CELLS...  three numbers each
     tetrahedra.py ring NAME.msh ORDER RADII CELLS...       of any radii, 2 long
     tetrahedra.py check                                    what the runs of tetrahedra.sh came to
@@ -27,7 +28,8 @@ def pipe(inner, outer, length):
 
 
 class Block:
-    """Nodes are numbered by their parameters, of which middles of edges have halves; faces: the axis and the end of each"""
+    """Nodes are numbered by their parameters, of which middles of edges have halves; faces: the axis and the end of
+    each"""
 
     def __init__(self, order, cells, place, faces):
         self.order, self.cells, self.number = order, np.array(cells), {}
@@ -84,7 +86,8 @@ class Block:
                     print(number, *map(repr, map(float, x)), file=file)
             else:
                 entities = [f"{tag} 0 0 0 2 2 1 1 {tag} 0" for tag in range(1, 8)]
-                print("$Entities\n0 0 6 1", *entities, "$EndEntities", f"$Nodes\n1 {len(places)} 1 {len(places)}\n3 7 0 {len(places)}", sep="\n", file=file)
+                print("$Entities\n0 0 6 1", *entities, "$EndEntities",
+                      f"$Nodes\n1 {len(places)} 1 {len(places)}\n3 7 0 {len(places)}", sep="\n", file=file)
                 print(*(number for number, *_ in places), sep="\n", file=file)
                 for _, *x in places:
                     print(*map(repr, map(float, x)), file=file)
@@ -104,15 +107,19 @@ def check():
     step = {name: load(name)["steps"][-1] for name in "p1 p2 p3 p5 old straight bbar r1 r2 whole part".split()}
     energy = {name: s["energy"] for name, s in step.items()}
     for ranks in "235":
-        say(f"energy on {ranks} ranks", within(energy["p" + ranks], energy["p1"], 1e-9), (energy["p" + ranks], energy["p1"]))
+        say(f"energy on {ranks} ranks", within(energy["p" + ranks], energy["p1"], 1e-9),
+            (energy["p" + ranks], energy["p1"]))
     say("format 4.1 as 2.2", within(energy["old"], energy["p1"], 1e-12), (energy["old"], energy["p1"]))
     exact = lame()
     errors = [abs(energy[name] / exact - 1) for name in ("p1", "r1", "r2")]
     say("energy near Lame's", errors[0] < 1e-2, errors)
-    say("and nearer on finer meshes, as near as the file's parabolas are to circles", errors[1] < errors[0] / 3 and errors[2] < 2e-4, errors)
-    say("energy of straight cells less near", 3 * errors[0] < abs(energy["straight"] / exact - 1) < 0.1, energy["straight"] / exact)
+    say("and nearer on finer meshes, as near as the file's parabolas are to circles", errors[1] < errors[0] / 3
+        and errors[2] < 2e-4, errors)
+    say("energy of straight cells less near", 3 * errors[0] < abs(energy["straight"] / exact - 1) < 0.1,
+        energy["straight"] / exact)
     say("mean dilatation", within(energy["bbar"], exact, 2e-2), energy["bbar"] / exact)
-    say("the run that goes on, refined", within(energy["part"], energy["whole"], 1e-9), (energy["part"], energy["whole"]))
+    say("the run that goes on, refined", within(energy["part"], energy["whole"], 1e-9),
+        (energy["part"], energy["whole"]))
     probe = step["r1"]["probes"][0]
     r, hoop = 1.5, 10 / 3 * (1 + 4 / 1.5**2)
     u = 1.3 * 10 / 3000 * (0.4 * r + 4 / r) / 2**0.5
@@ -126,8 +133,10 @@ def check():
         kinds.append(numbers[at])
         at += 1 + {38: 10, 9: 8}[numbers[at]]
     kinds = np.array(kinds)
-    say("cells: tetrahedra of 10 nodes, and hexahedra", (kinds[body == 0] == 38).all() and (kinds[body == 1] == 9).all() and (kinds == 9).sum() == 64, kinds)
-    say("a displacement a node, a stress a cell", displacement.shape == x.shape and len(stress) == len(kinds), (x.shape, stress.shape))
+    say("cells: tetrahedra of 10 nodes, and hexahedra", (kinds[body == 0] == 38).all()
+        and (kinds[body == 1] == 9).all() and (kinds == 9).sum() == 64, kinds)
+    say("a displacement a node, a stress a cell", displacement.shape == x.shape and len(stress) == len(kinds),
+        (x.shape, stress.shape))
 
 
 def main():
@@ -137,12 +146,15 @@ def main():
         return
     name, numbers = words[0], [float(word) for word in words[1:]]
     if what == "write":
-        block, version = Block(int(words[2]), [int(n) for n in words[3:]], pipe(INNER, OUTER, LENGTH), PIPE_FACES), words[1]
+        block, version = Block(int(words[2]), [int(n) for n in words[3:]], pipe(INNER, OUTER, LENGTH),
+                               PIPE_FACES), words[1]
     elif what == "box":
         lower, upper = np.array(numbers[1:4]), np.array(numbers[4:7])
-        block, version = Block(int(numbers[0]), [int(n) for n in numbers[7:]], lambda p: lower + p * (upper - lower), BOX_FACES), "2.2"
+        block, version = Block(int(numbers[0]), [int(n) for n in numbers[7:]], lambda p: lower + p * (upper - lower),
+                               BOX_FACES), "2.2"
     else:
-        block, version = Block(int(numbers[0]), [int(n) for n in numbers[3:]], pipe(*numbers[1:3], 2), PIPE_FACES), "2.2"
+        block, version = Block(int(numbers[0]), [int(n) for n in numbers[3:]], pipe(*numbers[1:3], 2),
+                               PIPE_FACES), "2.2"
     block.write(name, version)
 
 

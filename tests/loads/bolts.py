@@ -105,13 +105,14 @@ def judge():
         bolts(load("short")[-1])["m8"]["force"] / (0.05 / (1 / kb + 1 / ks) + 300 * kb / (kb + ks)) - 1, 1e-10)
     with open("bars.csv") as file:
         rows = list(csv.DictReader(file))
-    say("history has force and shortening", float(rows[0]["m8.force"]) * float(rows[0]["m8.shortening"]) * 12 - 1000,
-        1e-6)
+    say("history has force and shortening",
+        float(rows[0]["m8.force"]) * float(rows[0]["m8.shortening"]) * 12 - 1000, 1e-6)
     forces = {"b1": -1000, "b2": -800, "b3": -600, "b4": -1200}
     for name in ("four", "four_3"):
         step = load(name)[-1]
         pairs = {pair["name"]: pair for pair in step["pairs"]}
-        say(f"{name}: forces are the given ones", max(abs(bolts(step)[b]["force"] / forces[b] - 1) for b in forces), 1e-7)
+        say(f"{name}: forces are the given ones", max(abs(bolts(step)[b]["force"] / forces[b] - 1) for b in forces),
+            1e-7)
         say(f"{name}: and those of the contacts",
             max(abs(pairs["c" + b[1]]["normal_force"] / -forces[b] - 1) for b in forces), 1e-3)
         say(f"{name}: bodies are in equilibrium", step["balance"], 1e-7)
@@ -125,11 +126,11 @@ def judge():
     for _ in range(200):  # the side at which the transverse stress is 0
         J = stretch * side * side
         trace = stretch**2 + 2 * side**2
-        stress = mu * J ** (-2 / 3) * (side - trace / (3 * side)) + kappa * (J - 1) * J / side
+        stress = mu * J**(-2 / 3) * (side - trace / (3 * side)) + kappa * (J - 1) * J / side
         side -= 0.2 * stress / young
     J = stretch * side * side
     trace = stretch**2 + 2 * side**2
-    axial = mu * J ** (-2 / 3) * (stretch - trace / (3 * stretch)) + kappa * (J - 1) * J / stretch
+    axial = mu * J**(-2 / 3) * (stretch - trace / (3 * stretch)) + kappa * (J - 1) * J / stretch
     say("rubber: stress of a bar that is stretched by the shortening", axial / 0.9 - 1, 1e-6)
     say("rubber: work is stored, by the trapezoidal rule", rubber["work"] / rubber["energy"] - 1, 0.03)
 

@@ -1,9 +1,12 @@
-# Pretension of bolts: bars in closed form (shortening, then a load shared by stiffness), with a restart; several bolts of unlike elements that close clearances, on one rank and on three; finite strain; what is refused.
+# Pretension of bolts: bars in closed form (shortening, then a load shared by stiffness), with a restart; several bolts
+# of unlike elements that close clearances, on one rank and on three; finite strain; what is refused.
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/loads/bolts.py" write
 for scene in bars four; do
-  "$contact" $scene.yaml -quiet -summary $scene.json -output $scene -checkpoint $scene.state -checkpoint_every 2 || echo "$scene: exit code $?"
-  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json || echo "$scene, three ranks: exit code $?"
+  "$contact" $scene.yaml -quiet -summary $scene.json -output $scene -checkpoint $scene.state -checkpoint_every 2 ||
+    echo "$scene: exit code $?"
+  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json ||
+    echo "$scene, three ranks: exit code $?"
 done
 "$contact" rubber.yaml -quiet -summary rubber.json || echo "rubber: exit code $?"
 "$contact" short.yaml -quiet -summary short.json || echo "short: exit code $?"

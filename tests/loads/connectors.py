@@ -34,7 +34,8 @@ load: {steps: 1}
 
 # two blocks as stiff as rigid ones, of mass 8 and 4, with a spring and a damper between them; one is hit
 DAMPED = """bodies:
-  - left: {lower: [0, 0, 0], upper: [2, 2, 2], cells: [2, 1, 1], young: 1e9, poisson: 0, density: 1, initial_velocity: [1, 0, 0]}
+  - left: {lower: [0, 0, 0], upper: [2, 2, 2], cells: [2, 1, 1], young: 1e9, poisson: 0, density: 1,
+           initial_velocity: [1, 0, 0]}
   - right: {lower: [3, 0, 0], upper: [4, 2, 2], cells: [2, 1, 1], young: 1e9, poisson: 0, density: 1}
 symmetry: [left.ymin, left.zmin, right.ymin, right.zmin]
 connectors:
@@ -53,19 +54,25 @@ def say(what, off, allowed):
 
 
 def judge_damped(name):
-    """The distance x of the blocks: m x'' + 40 x' + 8000 x = 0 with the reduced mass m, x = 0 and x' = -1 at the start"""
+    """The distance x of the blocks: m x'' + 40 x' + 8000 x = 0 with the reduced mass m, x = 0 and x' = -1 at the
+    start"""
     mass, stiffness, damping = 8 * 4 / (8 + 4), 8000, 40
     decay = damping / (2 * mass)
     omega = math.sqrt(stiffness / mass - decay**2)
     with open(name + ".csv") as file:
         rows = list(csv.DictReader(file))
+
     def error(row):
         t = float(row["time"])
         x = -math.exp(-decay * t) * math.sin(omega * t) / omega
         v = -math.exp(-decay * t) * (math.cos(omega * t) - decay / omega * math.sin(omega * t))
-        return max(abs(float(row["strut.offset_x"]) - x) * omega, abs(float(row["strut.force_x"]) - stiffness * x - damping * v) / stiffness * omega)
+        return max(
+            abs(float(row["strut.offset_x"]) - x) * omega,
+            abs(float(row["strut.force_x"]) - stiffness * x - damping * v) / stiffness * omega)
+
     say(f"{name}: offset and force of a damped oscillation", max(map(error, rows)), 5e-3)
-    say(f"{name}: the energy that is left and the work of damping are the energy at the start", max(abs(float(row["dynamics.total_energy"]) + float(row["dynamics.damping_work"]) - 4) for row in rows), 1e-6)
+    say(f"{name}: the energy that is left and the work of damping are the energy at the start",
+        max(abs(float(row["dynamics.total_energy"]) + float(row["dynamics.damping_work"]) - 4) for row in rows), 1e-6)
     say(f"{name}: momentum", max(abs(float(row["dynamics.momentum_x"]) - 8) for row in rows), 1e-7)
 
 

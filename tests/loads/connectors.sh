@@ -1,9 +1,11 @@
-# Springs between points: a rigid lever on a hinge of two connectors and a rod to an elastic block, a body that hangs on springs, two bodies with a spring and a damper between them; on one rank and on three; what is refused.
+# Springs between points: a rigid lever on a hinge of two connectors and a rod to an elastic block, a body that hangs on
+# springs, two bodies with a spring and a damper between them; on one rank and on three; what is refused.
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/loads/connectors.py" write
 for scene in lever hung damped; do
   "$contact" $scene.yaml -quiet -summary $scene.json -output $scene || echo "$scene: exit code $?"
-  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json -output ${scene}_3 || echo "$scene, three ranks: exit code $?"
+  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json -output ${scene}_3 ||
+    echo "$scene, three ranks: exit code $?"
 done
 "$PYTHON" "$AMGF_DIR/tests/loads/connectors.py" judge
 "$contact" lever.yaml -scene_check | grep '^  connector '

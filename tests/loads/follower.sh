@@ -1,12 +1,15 @@
-# Pressures that follow the deformed face: homogeneous states and a sphere that is blown up, on one rank and on three; with contact, ties and hanging vertices; what is refused.
+# Pressures that follow the deformed face: homogeneous states and a sphere that is blown up, on one rank and on three;
+# with contact, ties and hanging vertices; what is refused.
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/loads/follower.py" write
 for scene in cube free bar sphere press glued fine; do
   "$contact" $scene.yaml -quiet -tao_ipfilter_tol 1e-8 -summary $scene.json || echo "$scene: exit code $?"
-  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -tao_ipfilter_tol 1e-8 -summary ${scene}_3.json || echo "$scene, three ranks: exit code $?"
+  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -tao_ipfilter_tol 1e-8 -summary ${scene}_3.json ||
+    echo "$scene, three ranks: exit code $?"
 done
 "$PYTHON" "$AMGF_DIR/tests/loads/follower.py" judge
-# Where the gap is linearized again the load goes on from the last solve, by secants of its own: a third of the solves that it takes with those of another gap
+# Where the gap is linearized again the load goes on from the last solve, by secants of its own: a third of the solves
+# that it takes with those of another gap
 "$contact" ride.yaml > ride.log || echo "ride: exit code $?"
 solves=$(grep -c '^iter' ride.log)
 echo "solves of four linearizations of the gap, 55 at most: $([ "$solves" -le 55 ] && echo yes || echo "no, $solves")"

@@ -1,11 +1,15 @@
-# A rigid cone is pressed into a metal and lifted a little: Code_Aster's case SSNA111 (V6.01.111, modelling A) on its mesh of 49 by 35 cells and with its load steps.
-# Its values are the displacement of the node at the tip and the force on it per radian; the law there is Simo and Miehe's, with the same yield stress of Kirchhoff stresses
+# A rigid cone is pressed into a metal and lifted a little: Code_Aster's case SSNA111 (V6.01.111, modelling A) on its
+# mesh of 49 by 35 cells and with its load steps.
+# Its values are the displacement of the node at the tip and the force on it per radian; the law there is Simo and
+# Miehe's, with the same yield stress of Kirchhoff stresses
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" - <<'PY'
 pressed = ", ".join("%g" % (step / 40) for step in range(1, 41))
 # 49 cells whose sizes grow by 1.02; hardening from the tangent modulus of 5000; flanks that rise by 1 over 2.7
 open("cone.yaml", "w").write("""bodies:
-  - block: {shape: tube_arc, axis: z, radii: [1e-4, 10], angles: [0, 4], extent: [-5, 0], cells: [49, 1, 35], grading: [%.9f, 1, 1], material: j2_finite, young: 2e5, poisson: 0.3, yield: 300, hardening: %.9f, element: full}
+  - block: {shape: tube_arc, axis: z, radii: [1e-4, 10], angles: [0, 4], extent: [-5, 0], cells: [49, 1, 35],
+            grading: [%.9f, 1, 1], material: j2_finite, young: 2e5, poisson: 0.3, yield: 300, hardening: %.9f,
+            element: full}
   - cone: {shape: rigid_cone, material: rigid, tip: [0, 0, 0], direction: [0, 0, 1], half_angle: 69.676863}
 displacements:
   - floor: {face: block.lmin, value: [0, 0, 0]}

@@ -18,8 +18,8 @@ static inline PetscErrorCode Report(const char name[], PetscReal value, PetscRea
   PetscFunctionReturn(0);
 }
 
-/* Central differences at the displacement gradient H. Raises errors[] to those of the stress P against the energy, of the
-   tangent A against the stress, and of the symmetry of A */
+/* Central differences at the displacement gradient H. Raises errors[] to those of the stress P against the energy, of
+   the tangent A against the stress, and of the symmetry of A */
 static inline void RaiseDerivativeErrors(const MaterialLaw *law, const MaterialModuli *m, PetscReal h, PetscReal H[9],
   const PetscReal P[9], const PetscReal A[81], PetscReal errors[3])
 {

@@ -1,4 +1,5 @@
-# Materials by name, of a library and of the scene; the units that tables carry; what is wrong with a name, a file or its units.
+# Materials by name, of a library and of the scene; the units that tables carry; what is wrong with a name, a file or
+# its units.
 contact=$AMGF_DIR/bin/contact
 cat > bars.yaml <<YAML
 library: $AMGF_DIR/share/materials/mm_N.yaml
@@ -19,16 +20,28 @@ YAML
 grep '^Units' log
 "$PYTHON" - <<'PY'
 import json, os, re
+
 run = json.load(open("bars.json"))
 a, b = (p["displacement"] for p in run["steps"][0]["probes"])
 near = lambda u, v: all(abs(x - y) <= 1e-10 * abs(v[2]) for x, y in zip(u, v))
-print("constants are the named ones, those beside a name win:", near(a, [3e-5, 3e-5, -1e-4]) and near(b, [0.04, 0.04, -0.1]))
+print("constants are the named ones, those beside a name win:",
+      near(a, [3e-5, 3e-5, -1e-4]) and near(b, [0.04, 0.04, -0.1]))
 print("units of the summary:", run["units"])
+
+
 def table(name):
     text = open(os.path.join(os.environ["AMGF_DIR"], "share", "materials", name)).read()
-    return {m[1]: (float(m[2]), float(m[3])) for m in re.finditer(r"- (\w+): {.*young: ([^,]*), poisson: ([^,}]*)", text)}
+    return {
+        m[1]: (float(m[2]), float(m[3]))
+        for m in re.finditer(r"- (\w+): {.*young: ([^,]*), poisson: ([^,}]*)", text)
+    }
+
+
 mm, m = table("mm_N.yaml"), table("m_N.yaml")
-print("both libraries have the same materials:", len(mm) > 15 and mm.keys() == m.keys() and all(abs(m[k][0] / mm[k][0] - 1e6) < 1e-6 and m[k][1] == mm[k][1] for k in mm))
+print(
+    "both libraries have the same materials:",
+    len(mm) > 15 and mm.keys() == m.keys()
+    and all(abs(m[k][0] / mm[k][0] - 1e6) < 1e-6 and m[k][1] == mm[k][1] for k in mm))
 PY
 try() {
   sed "$1" bars.yaml > other.yaml
@@ -39,7 +52,8 @@ try '1s/^/units: m, N, Pa\n/'
 try 's/^  - own/  - steel/; s/material: Own/material: steel/'
 try 's|^library.*|library: nowhere.yaml|'
 try 's|^library.*|library: bars.yaml|'
-for name in mm_N m_N; do for material in $(sed -n 's/^  - \([a-z_]*\): .*/\1/p' "$AMGF_DIR/share/materials/$name.yaml"); do
+for name in mm_N m_N; do for material in $(sed \
+  -n 's/^  - \([a-z_]*\): .*/\1/p' "$AMGF_DIR/share/materials/$name.yaml"); do
   sed "s/mm_N/$name/; s/material: steel/material: $material/" bars.yaml > other.yaml
   "$contact" other.yaml -scene_check > /dev/null || echo "$material of $name"
 done; done

@@ -44,7 +44,11 @@ def bars(name, factors=(0.1, 1, 0.9, -1, 1.5)):
     }
     errors, strains, work = {}, {}, []
     for step, factor in zip(load(name)["steps"], factors):
-        forces = {face["name"].split(".")[0]: face["reaction"][0] for face in step["faces"] if face["name"].endswith("xmax")}
+        forces = {
+            face["name"].split(".")[0]: face["reaction"][0]
+            for face in step["faces"]
+            if face["name"].endswith("xmax")
+        }
         largest = {body["name"]: body["plastic_strain"] for body in step["bodies"]}
         for bar, law in made.items():
             exact = law.strain(factor * (-0.003 if bar == "hot" else 0.005))
@@ -58,19 +62,25 @@ for ranks in (1, 2, 3):
     errors, strains, work = bars("bars%d" % ranks)
     say("bars on %d ranks: forces of the closed form" % ranks, max(errors.values()) < 1e-7, errors)
     say("  and their equivalent plastic strains", max(strains.values()) < 1e-9, strains)
-    say("  plastic work grows while they yield", all(b > a for a, b in zip(work[1:2] + work[3:], work[3:])) and work[0] == 0 and abs(work[2] - work[1]) < 1e-12, work)
+    say("  plastic work grows while they yield",
+        all(b > a for a, b in zip(work[1:2] + work[3:], work[3:])) and work[0] == 0 and abs(work[2] - work[1]) < 1e-12,
+        work)
 
 whole = load("whole")["steps"]
 for ranks in (1, 3):
     part = load("part%d" % ranks)["steps"]
     pairs = [(step, other) for step in part for other in whole if other["step"] == step["step"]]
-    off = max(abs(step[key] / other[key] - 1) for step, other in pairs for key in ("energy", "plastic_work", "plastic_strain"))
+    off = max(
+        abs(step[key] / other[key] - 1)
+        for step, other in pairs
+        for key in ("energy", "plastic_work", "plastic_strain"))
     say("restarted on %d ranks: the same" % ranks, len(pairs) == 2 and off < 1e-9, (len(pairs), off))
 
 finer = load("finer")["steps"]
 pairs = [(step, other) for step in finer for other in whole if other["step"] == step["step"]]
 off = [abs(step[key] / other[key] - 1) for step, other in pairs for key in ("energy", "plastic_work", "plastic_strain")]
-say("restarted on a refined mesh, 2 ranks: the same, since the strain is uniform", len(pairs) == 2 and max(off) < 1e-7, (len(pairs), off))
+say("restarted on a refined mesh, 2 ranks: the same, since the strain is uniform",
+    len(pairs) == 2 and max(off) < 1e-7, (len(pairs), off))
 
 k, a, b, G = 1.0, 1.0, 2.0, 1000 / 2 / 1.4999
 
@@ -88,7 +98,7 @@ def border(p):
 def widening(p):
     """Displacement outside: elastic up to the first yield, then k c^2/(2 G b)"""
     limit = k * (1 - a * a / b / b)
-    return k * a * a / (2 * G * b) * p / limit if p <= limit else k * border(p) ** 2 / (2 * G * b)
+    return k * a * a / (2 * G * b) * p / limit if p <= limit else k * border(p)**2 / (2 * G * b)
 
 
 tube = load("tube")["steps"]
@@ -102,19 +112,30 @@ found = tube[4]["probes"][1]["stress_yy"]
 say("residual hoop stress at the bore, to 8 % on 16 cells", abs(found / hoop - 1) < 0.08, (found, hoop))
 residual = outside[3] - k * a * a / (2 * G * b) * 1.3 / 0.75
 say("residual widening", abs(outside[4] / residual - 1) < 1e-2, (outside[4], residual))
-say("unloading does no plastic work", abs(tube[4]["plastic_work"] / tube[3]["plastic_work"] - 1) < 1e-9, (tube[4]["plastic_work"], tube[3]["plastic_work"]))
-say("balance: work is stored or plastic, to 2 %", all(abs((s["energy"] + s["plastic_work"]) / s["work"] - 1) < 0.02 for s in tube[:4]), [(s["energy"], s["plastic_work"], s["work"]) for s in tube])
+say("unloading does no plastic work",
+    abs(tube[4]["plastic_work"] / tube[3]["plastic_work"] - 1) < 1e-9,
+    (tube[4]["plastic_work"], tube[3]["plastic_work"]))
+say("balance: work is stored or plastic, to 2 %",
+    all(abs((s["energy"] + s["plastic_work"]) / s["work"] - 1) < 0.02 for s in tube[:4]),
+    [(s["energy"], s["plastic_work"], s["work"]) for s in tube])
 refined, fine = load("refined")["steps"], load("fine")["steps"]
-ends = [[steps[-1][key] for key in ("plastic_work", "plastic_strain")] + steps[-1]["probes"][0]["displacement"][:1] for steps in (refined, tube, fine)]
-say("plastic strains on a refined mesh: after unloading as on the first mesh to 1 %", len(refined) == 1 and all(abs(x / y - 1) < 1e-2 for x, y in zip(*ends[:2])), ends)
+ends = [[steps[-1][key]
+         for key in ("plastic_work", "plastic_strain")] + steps[-1]["probes"][0]["displacement"][:1]
+        for steps in (refined, tube, fine)]
+say("plastic strains on a refined mesh: after unloading as on the first mesh to 1 %",
+    len(refined) == 1 and all(abs(x / y - 1) < 1e-2 for x, y in zip(*ends[:2])), ends)
 with h5py.File("tube_0004.h5") as file:
     strain, equivalent = file["plastic_strain"][:], file["equivalent_plastic_strain"][:]
-say("fields: plastic strain without volume, zero outside the plastic zone", abs(strain[:, 0] + strain[:, 3] + strain[:, 5]).max() < 1e-12 and (equivalent > 0).mean() > 0.5 and equivalent.min() == 0 and equivalent.max() <= tube[3]["plastic_strain"], (equivalent.min(), equivalent.max()))
+say(
+    "fields: plastic strain without volume, zero outside the plastic zone",
+    abs(strain[:, 0] + strain[:, 3] + strain[:, 5]).max() < 1e-12 and (equivalent > 0).mean() > 0.5
+    and equivalent.min() == 0 and equivalent.max() <= tube[3]["plastic_strain"], (equivalent.min(), equivalent.max()))
 
 for name in "collapse", "modes":
     end = load(name)["steps"][-1]
     held = 1.36 + 0.06 * (end["reason"] and float(end["reason"].rsplit(" ", 1)[1]) - 2)
     failed = 1.36 + 0.06 * (float(end["reason"].split("time ")[1].split(":")[0]) - 2)
     limit = 2 * k * math.log(b / a)
-    say(name + ": collapse pressure between what was held and what was not, to 1 %", held < 1.01 * limit and failed > 0.99 * limit and failed - held < 0.01, (held, limit, failed))
+    say(name + ": collapse pressure between what was held and what was not, to 1 %", held < 1.01 * limit
+        and failed > 0.99 * limit and failed - held < 0.01, (held, limit, failed))
     say("Newton steps until then below 100", end["ip_iterations"] < 100, end["ip_iterations"])

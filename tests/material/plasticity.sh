@@ -1,4 +1,5 @@
-# Metals that yield: bars in cycles on every element, Hill's tube up to its collapse, a clamped bar that is heated; ranks, restart, also on a refined mesh, cuts; what is wrong with the constants.
+# Metals that yield: bars in cycles on every element, Hill's tube up to its collapse, a clamped bar that is heated;
+# ranks, restart, also on a refined mesh, cuts; what is wrong with the constants.
 contact=$AMGF_DIR/bin/contact
 options="-quiet -tao_ipfilter_tol 1e-11"
 linear="material: j2, young: 200, poisson: 0.3, yield: 0.2, hardening: 10, kinematic: 20"
@@ -6,11 +7,15 @@ cat > bars.yaml <<YAML
 problem: bars
 bodies:
   - full: {lower: [0, 0, 0], upper: [2, 1, 1], cells: [3, 2, 2], element: full, $linear}
-  - bbar: {lower: [0, 2, 0], upper: [2, 3, 1], cells: [2, 1, 1], element: bbar, material: j2, young: 200, poisson: 0.3, yield: 0.2, kinematic: 20}
-  - modes: {lower: [0, 4, 0], upper: [2, 5, 1], cells: [2, 1, 1], element: incompatible, material: j2, young: 200, poisson: 0.3, yield: 0.2, saturation: 0.3, saturation_rate: 100, kinematic: 5}
-  - second: {lower: [0, 6, 0], upper: [2, 7, 1], cells: [1, 1, 1], order: 2, material: j2, young: 200, poisson: 0.3, plastic_strains: [0, 0.002, 0.01], yield_stresses: [0.2, 0.25, 0.3]}
+  - bbar: {lower: [0, 2, 0], upper: [2, 3, 1], cells: [2, 1, 1], element: bbar, material: j2, young: 200, poisson: 0.3,
+           yield: 0.2, kinematic: 20}
+  - modes: {lower: [0, 4, 0], upper: [2, 5, 1], cells: [2, 1, 1], element: incompatible, material: j2, young: 200,
+            poisson: 0.3, yield: 0.2, saturation: 0.3, saturation_rate: 100, kinematic: 5}
+  - second: {lower: [0, 6, 0], upper: [2, 7, 1], cells: [1, 1, 1], order: 2, material: j2, young: 200, poisson: 0.3,
+             plastic_strains: [0, 0.002, 0.01], yield_stresses: [0.2, 0.25, 0.3]}
   - both: {lower: [0, 8, 0], upper: [2, 9, 1], cells: [1, 1, 1], order: 2, element: bbar, $linear}
-  - elastic: {lower: [0, 10, 0], upper: [2, 11, 1], cells: [1, 1, 1], material: j2, young: 200, poisson: 0.3, yield: 1e6}
+  - elastic: {lower: [0, 10, 0], upper: [2, 11, 1], cells: [1, 1, 1], material: j2, young: 200, poisson: 0.3,
+              yield: 1e6}
   - hot: {lower: [0, 12, 0], upper: [2, 13, 1], cells: [2, 1, 1], element: bbar, $linear, expansion: 1e-5}
 symmetry: [full.xmin, full.ymin, full.zmin, bbar.xmin, bbar.ymin, bbar.zmin, modes.xmin, modes.ymin, modes.zmin, second.xmin, second.ymin, second.zmin, both.xmin, both.ymin, both.zmin, elastic.xmin, elastic.ymin, elastic.zmin, hot.xmin, hot.ymin, hot.zmin]
 displacements:
@@ -28,7 +33,9 @@ YAML
 cat > tube.yaml <<'YAML'
 problem: tube
 bodies:
-  - tube: {shape: tube_arc, axis: z, center: [0, 0, 0], radii: [1, 2], angles: [0, 15], extent: [0, 0.1], cells: [16, 2, 1], grading: [4, 1, 1], material: j2, young: 1000, poisson: 0.4999, yield: 1.7320508075688772, element: bbar}
+  - tube: {shape: tube_arc, axis: z, center: [0, 0, 0], radii: [1, 2], angles: [0, 15], extent: [0, 0.1],
+           cells: [16, 2, 1], grading: [4, 1, 1], material: j2, young: 1000, poisson: 0.4999, yield: 1.7320508075688772,
+           element: bbar}
 displacements:
   - bottom: {face: tube.lmin, value: [free, free, 0]}
   - top: {face: tube.lmax, value: [free, free, 0]}
@@ -50,10 +57,12 @@ done
 "$contact" bars.yaml $options -load_steps 5 -restart bars.h5 -summary part1.json
 mpiexec --oversubscribe -n 3 "$contact" bars.yaml $options -load_steps 5 -restart bars.h5 -summary part3.json
 mpiexec --oversubscribe -n 2 "$contact" bars.yaml $options -load_steps 5 -refine 1 -restart bars.h5 -summary finer.json
-"$contact" tube.yaml $options -checkpoint tube_checkpoint.h5 -checkpoint_every 4 -output tube -summary tube.json || echo "tube: exit code $?"
+"$contact" tube.yaml $options -checkpoint tube_checkpoint.h5 -checkpoint_every 4 -output tube -summary tube.json ||
+  echo "tube: exit code $?"
 "$contact" tube.yaml $options -refine 1 -restart tube_checkpoint.h5 -summary refined.json
 "$contact" tube.yaml $options -refine 1 -summary fine.json
-"$contact" collapse.yaml $options -summary collapse.json 2>&1 | sed "s/time [0-9.]*[0-9]/time .../g"; echo "collapse: exit code ${PIPESTATUS[0]}"
+"$contact" collapse.yaml $options -summary collapse.json 2>&1 | sed "s/time [0-9.]*[0-9]/time .../g";
+  echo "collapse: exit code ${PIPESTATUS[0]}"
 sed 's/element: bbar/element: incompatible/; s/0.4999/0.3/' collapse.yaml > modes.yaml
 "$contact" modes.yaml $options -summary modes.json 2> /dev/null; echo "incompatible modes: exit code $?"
 sed 's/element: bbar/element: full/; s/0.4999/0.3/' collapse.yaml > locks.yaml
@@ -78,5 +87,6 @@ try "plastic_strains: [0.1, 0.2], yield_stresses: [0.2, 0.3]"
 try "plastic_strains: [0, 0.1], yield_stresses: [0.2]"
 try "yield: 0.1, plastic_strains: [0, 0.1], yield_stresses: [0.2, 0.3]"
 try "yield_stress: 0.2"
-sed 's/poisson: 0.3, yield: 0.2, kinematic/poisson: 0.5, yield: 0.2, kinematic/' bars.yaml > other.yaml; "$contact" other.yaml -quiet 2>&1 || echo "exit code $?"
+sed 's/poisson: 0.3, yield: 0.2, kinematic/poisson: 0.5, yield: 0.2, kinematic/' bars.yaml > other.yaml;
+  "$contact" other.yaml -quiet 2>&1 || echo "exit code $?"
 sed '1s/^/model: quadratic\n/' bars.yaml > other.yaml; "$contact" other.yaml -quiet 2>&1 || echo "exit code $?"

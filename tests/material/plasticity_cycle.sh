@@ -3,7 +3,8 @@ contact=$AMGF_DIR/bin/contact
 for element in auto full bbar; do
   cat > $element.yaml <<YAML
 bodies:
-  - bar: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [1, 1, 1], material: j2, young: 1000, poisson: 0.3, yield: 1, kinematic: 100, element: $element}
+  - bar: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [1, 1, 1], material: j2, young: 1000, poisson: 0.3, yield: 1,
+          kinematic: 100, element: $element}
 symmetry: [bar.xmin, bar.ymin, bar.zmin]
 displacements:
   - pull: {face: bar.xmax, value: [0.004, free, free]}
@@ -20,6 +21,7 @@ for name in "auto", "full", "bbar":
     for step, factor in zip(load(name)["steps"], [0.5, 1, 0.5, 0, -0.5, -1, -0.5, 0, 0.5, 1, 0, -1]):
         trial = 1000 * (0.004 * factor - plastic) - 100 * plastic
         plastic += math.copysign(max(abs(trial) - 1, 0) / 1100, trial)
-        off.append([face for face in step["faces"] if face["name"] == "bar.xmax"][0]["reaction"][0] - 1000 * (0.004 * factor - plastic))
+        off.append([face for face in step["faces"] if face["name"] == "bar.xmax"][0]["reaction"][0] - 1000 *
+                   (0.004 * factor - plastic))
     say(f"{name}: stresses of twelve load steps", len(off) == 12 and max(map(abs, off)) < 1e-8, off)
 PY

@@ -44,7 +44,11 @@ def bars(name):
     }
     forces, strains = {}, {}
     for step, factor in zip(load(name)["steps"], (0.5, 1, 0.6, 0.2, -0.2)):
-        found = {face["name"].split(".")[0]: face["reaction"][0] for face in step["faces"] if face["name"].endswith("xmax")}
+        found = {
+            face["name"].split(".")[0]: face["reaction"][0]
+            for face in step["faces"]
+            if face["name"].endswith("xmax")
+        }
         largest = {body["name"]: body["plastic_strain"] for body in step["bodies"]}
         for bar, law in made.items():
             exact = law.force(1 + factor * (0.25 if bar == "both" else 1))
@@ -55,29 +59,37 @@ def bars(name):
 
 for ranks in (1, 3):
     forces, strains = bars("bars%d" % ranks)
-    say("bars of up to twice their length, pushed back, on %d ranks: forces of the closed form" % ranks, max(forces.values()) < 1e-7, forces)
+    say("bars of up to twice their length, pushed back, on %d ranks: forces of the closed form" % ranks,
+        max(forces.values()) < 1e-7, forces)
     say("  and their equivalent plastic strains", max(strains.values()) < 1e-8, strains)
 
 whole = load("whole")["steps"]
 for ranks in (1, 2):
     part = load("part%d" % ranks)["steps"]
     pairs = [(step, other) for step in part for other in whole if other["step"] == step["step"]]
-    off = max(abs(step[key] / other[key] - 1) for step, other in pairs for key in ("energy", "plastic_work", "plastic_strain"))
+    off = max(
+        abs(step[key] / other[key] - 1)
+        for step, other in pairs
+        for key in ("energy", "plastic_work", "plastic_strain"))
     say("restarted on %d ranks: the same" % ranks, len(pairs) == 2 and off < 1e-8, (len(pairs), off))
 
 # rigid-plastic tube: r^2 - R^2 = a^2 - 1; the pressures are those of a = 1.1 and a = 1.3
 exact = [math.sqrt(4 + a * a - 1) - 2 for a in (1.1, 1.3)]
 for name, cells, limit in ("bbar", "12 cells", 0.02), ("order2", "6 cells of order 2", 0.02):
     found = [step["probes"][0]["displacement"][0] for step in load(name)["steps"][1:]]
-    say("tube of %s widened by 8 %%: to 2 %%" % cells, all(abs(u / v - 1) < limit for u, v in zip(found, exact)), (found, exact))
+    say("tube of %s widened by 8 %%: to 2 %%" % cells, all(abs(u / v - 1) < limit for u, v in zip(found, exact)),
+        (found, exact))
 found = load("full")["steps"][2]["probes"][0]["displacement"][0]
 say("full integration locks: less than half of it", found < 0.5 * exact[1], found)
 tube = load("bbar")["steps"]
-say("balance: work is stored or plastic, to 8 % in three steps", abs((tube[2]["energy"] + tube[2]["plastic_work"]) / tube[2]["work"] - 1) < 0.08, (tube[2]["energy"], tube[2]["plastic_work"], tube[2]["work"]))
+say("balance: work is stored or plastic, to 8 % in three steps",
+    abs((tube[2]["energy"] + tube[2]["plastic_work"]) / tube[2]["work"] - 1) < 0.08,
+    (tube[2]["energy"], tube[2]["plastic_work"], tube[2]["work"]))
 with h5py.File("tube_0002.h5") as file:
     equivalent = file["equivalent_plastic_strain"][:]
 exact = 2 / math.sqrt(3) * math.log(1.3)
-say("plastic strain at the bore, 2/sqrt(3) ln(1.3), to 6 % in the first of 12 cells", abs(tube[2]["plastic_strain"] / exact - 1) < 0.06 and equivalent.max() < exact, (tube[2]["plastic_strain"], exact))
+say("plastic strain at the bore, 2/sqrt(3) ln(1.3), to 6 % in the first of 12 cells",
+    abs(tube[2]["plastic_strain"] / exact - 1) < 0.06 and equivalent.max() < exact, (tube[2]["plastic_strain"], exact))
 
 steps = open("newton.txt").read().split("Load step")[1]
 lengths = [float(row.split()[5]) for row in steps.splitlines() if re.match(r" +[1-9]", row)]

@@ -1,9 +1,11 @@
-# Metals against published figures: deal.II's step-42, a sphere pressed into a cube, on its first mesh; a press fit of a hub that yields, by Hill and Lamé
+# Metals against published figures: deal.II's step-42, a sphere pressed into a cube, on its first mesh; a press fit of a
+# hub that yields, by Hill and Lamé
 contact=$AMGF_DIR/bin/contact
 # its law: norm of the deviator 400, slope gamma = H/(3 mu + H) = 0.01 of the trial stress
 cat > cube.yaml <<'YAML'
 bodies:
-  - cube: {lower: [0.5, 0.5, 0], upper: [1, 1, 1], cells: [4, 4, 8], element: full, material: j2, young: 200000, poisson: 0.3, yield: 489.89794855663564, hardening: 2331.002331002331}
+  - cube: {lower: [0.5, 0.5, 0], upper: [1, 1, 1], cells: [4, 4, 8], element: full, material: j2, young: 200000,
+           poisson: 0.3, yield: 489.89794855663564, hardening: 2331.002331002331}
   - ball: {shape: rigid_sphere, material: rigid, center: [0.5, 0.5, 1.6], radius: 0.6}
 displacements:
   - bottom: {face: cube.zmin, value: [0, 0, 0]}
@@ -16,8 +18,11 @@ contact:
 YAML
 cat > fit.yaml <<'YAML'
 bodies:
-  - hub: {shape: tube_arc, axis: z, center: [0, 0, 0], radii: [1, 2], angles: [0, 15], extent: [0, 0.1], cells: [16, 2, 1], grading: [4, 1, 1], material: j2, young: 1000, poisson: 0.4999, yield: 1.7320508075688772, element: bbar}
-  - shaft: {shape: tube_arc, axis: z, center: [0, 0, 0], radii: [0.5, 1.0061881], angles: [0, 15], extent: [0, 0.1], cells: [8, 2, 1], young: 500, poisson: 0.3}
+  - hub: {shape: tube_arc, axis: z, center: [0, 0, 0], radii: [1, 2], angles: [0, 15], extent: [0, 0.1],
+          cells: [16, 2, 1], grading: [4, 1, 1], material: j2, young: 1000, poisson: 0.4999, yield: 1.7320508075688772,
+          element: bbar}
+  - shaft: {shape: tube_arc, axis: z, center: [0, 0, 0], radii: [0.5, 1.0061881], angles: [0, 15], extent: [0, 0.1],
+            cells: [8, 2, 1], young: 500, poisson: 0.3}
 displacements:
   - bottom: {face: hub.lmin, value: [free, free, 0]}
   - top: {face: hub.lmax, value: [free, free, 0]}
@@ -46,7 +51,8 @@ k, a, b, c, G = 1.0, 1.0, 2.0, 1.5, 1000 / 2 / 1.4999
 exact = 2 * k * math.log(c / a) + k * (1 - c * c / b / b)
 inner, E, nu = 0.5, 500.0, 0.3
 shaft = exact / E * (1 + nu) * ((1 - 2 * nu) * a * a + inner * inner) / (a * a - inner * inner) * a
-say("press fit: the interference is that of a plastic zone up to 1.5", within(k * c * c / (2 * G * a) + shaft, 0.0061881, 1e-4), k * c * c / (2 * G * a) + shaft)
+say("press fit: the interference is that of a plastic zone up to 1.5",
+    within(k * c * c / (2 * G * a) + shaft, 0.0061881, 1e-4), k * c * c / (2 * G * a) + shaft)
 step = load("fit")["steps"][-1]
 pressure, wide = step["pairs"][0]["normal_force"] / step["pairs"][0]["area"], step["probes"][0]["displacement"][0]
 say("press fit: pressure to 0.5 %", within(pressure, exact, 5e-3), (pressure, exact))

@@ -1,13 +1,15 @@
-# Forces by pair, face and body against statics, on one rank and on three: a peg that three faces guide, a stack of three blocks, a ball in a
-# box, a flat punch whose edge lies anywhere in the facets under it. Then what an older run leaves. forces.py has the scenes, and holds their
-# summaries and fields against the weights.
+# Forces by pair, face and body against statics, on one rank and on three: a peg that three faces guide, a stack of
+# three blocks, a ball in a box, a flat punch whose edge lies anywhere in the facets under it. Then what an older run
+# leaves. forces.py has the scenes, and holds their summaries and fields against the weights.
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/measure/forces.py" write
 
 # One linearization of the gap: the statics are those of the undeformed faces, whose normals do not tilt
 for scene in peg stack ball; do
-  "$contact" $scene.yaml -quiet -output $scene -summary $scene.json -tao_ipfilter_tol 1e-12 -contact_updates 1 || echo "$scene: exit code $?"
-  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -output ${scene}_3 -summary ${scene}_3.json -tao_ipfilter_tol 1e-12 -contact_updates 1 || echo "$scene, three ranks: exit code $?"
+  "$contact" $scene.yaml -quiet -output $scene -summary $scene.json -tao_ipfilter_tol 1e-12 -contact_updates 1 ||
+    echo "$scene: exit code $?"
+  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -output ${scene}_3 -summary ${scene}_3.json \
+    -tao_ipfilter_tol 1e-12 -contact_updates 1 || echo "$scene, three ranks: exit code $?"
 done
 for punch in punch_*.yaml; do
   name=${punch%.yaml}
@@ -19,4 +21,5 @@ done
 "$contact" peg.yaml -quiet -output again -load_steps 1
 echo "a run of one step after one of three:" again*
 cp again_0001.h5 again_0002.h5 # as an older run leaves it that was killed
-PYTHONPATH=$AMGF_DIR/share/python "$PYTHON" -B -c 'from contact.files import Files; print("load steps to draw:", Files("again").files)'
+PYTHONPATH=$AMGF_DIR/share/python "$PYTHON" -B \
+  -c 'from contact.files import Files; print("load steps to draw:", Files("again").files)'

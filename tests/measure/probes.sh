@@ -1,5 +1,5 @@
-# Points and lines: displacement, stress and contact of a stack under uniform pressure against the exact answer, on one rank and on three; the fields of the
-# files against each other; points on curved surfaces; points in no body.
+# Points and lines: displacement, stress and contact of a stack under uniform pressure against the exact answer, on one
+# rank and on three; the fields of the files against each other; points on curved surfaces; points in no body.
 contact=$AMGF_DIR/bin/contact
 cat > stack.yaml <<'YAML'
 problem: stack
@@ -21,11 +21,13 @@ probes:
 load: {steps: 2}
 YAML
 for ranks in 1 3; do
-  mpiexec --oversubscribe -n $ranks "$contact" stack.yaml -quiet -output stack -output_gauss -summary stack.json -tao_ipfilter_tol 1e-12 || echo "exit code $?"
+  mpiexec --oversubscribe -n $ranks "$contact" stack.yaml -quiet -output stack -output_gauss -summary stack.json \
+    -tao_ipfilter_tol 1e-12 || echo "exit code $?"
   echo "ranks: $ranks"
   "$PYTHON" "$AMGF_DIR/tests/measure/probes.py"
 done
-"$PYTHON" "$AMGF_DIR/share/plot/curves.py" stack_height.csv line.png --steps all && head -c 4 line.png | tail -c 3 && echo
+"$PYTHON" "$AMGF_DIR/share/plot/curves.py" stack_height.csv line.png --steps all && head -c 4 line.png | tail -c 3 &&
+  echo
 "$contact" stack.yaml -scene_check | sed -n '/^Probes/,/^Load steps/p'
 
 # Where bodies touch a point is the first one's, on any ranks

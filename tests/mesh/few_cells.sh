@@ -1,4 +1,5 @@
-# Two cells on four ranks: ranks that own nothing take part in friction, output, checkpoints and restarts. The answers are those of one rank.
+# Two cells on four ranks: ranks that own nothing take part in friction, output, checkpoints and restarts. The answers
+# are those of one rank.
 cat > two.yaml << 'YAML'
 problem: two
 bodies:
@@ -11,10 +12,12 @@ contact:
   - joint: {mortar: lid.zmin, nonmortar: cube.zmax, friction: 0.3, gap: node}
 load: {steps: 2}
 YAML
-sed 's/young: 1,/material: j2, yield: 0.01, hardening: 0.1, young: 1,/; s/, friction: 0.3//; s/, gap: node//' two.yaml > plastic.yaml
+sed 's/young: 1,/material: j2, yield: 0.01, hardening: 0.1, young: 1,/; s/, friction: 0.3//; s/, gap: node//' two.yaml \
+  > plastic.yaml
 sed 's/steps: 2/factors: [0.5, 1, 0.7]/' two.yaml > further.yaml
 run() { # scene, ranks, options
-  mpiexec --oversubscribe -n "$2" "$AMGF_DIR/bin/contact" "$1.yaml" -quiet -tao_ipfilter_tol 1e-12 -summary "$1_$2.json" "${@:3}" > log 2>&1 ||
+  mpiexec --oversubscribe -n "$2" "$AMGF_DIR/bin/contact" "$1.yaml" -quiet -tao_ipfilter_tol 1e-12 \
+    -summary "$1_$2.json" "${@:3}" > log 2>&1 ||
     { echo "$1 on $2 ranks: exit code $?"; cat log; }
   grep -i "graph" log # METIS
 }
@@ -42,7 +45,8 @@ for scene in ("two", "plastic"):
     with h5py.File(f"{scene}_1_0002.h5") as one, h5py.File(f"{scene}_4_0002.h5") as four:
         names = [[], []]
         for found, file in zip(names, (one, four)):
-            file.visititems(lambda name, item: found.append((name, item.shape)) if isinstance(item, h5py.Dataset) else None)
+            file.visititems(lambda name, item: found.append((name, item.shape))
+                            if isinstance(item, h5py.Dataset) else None)
         say(f"{scene}: the same fields in the results", names[0] == names[1] and len(names[0]) > 5, names)
         sums = [sorted(numpy.linalg.norm(file["stress"], axis=1)) for file in (one, four)]
         say(f"{scene}: the same stress", numpy.allclose(*sums, rtol=1e-8), sums)

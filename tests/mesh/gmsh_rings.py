@@ -1,7 +1,8 @@
-"""Meshes and scenes for gmsh_rings.sh, two thick rings that overlap, and their exact answer: python gmsh_rings.py write|judge.
+"""Meshes and scenes for gmsh_rings.sh, two thick rings that overlap, and their exact answer: python gmsh_rings.py
+write|judge.
 
-Quarters of rings as a mesh file has them: hexahedra with 8, 20 or 27 nodes, those of second order on the true circles too. And cones, rings
-whose radii shrink along the axis, which have no closed form: coarse against fine.
+Quarters of rings as a mesh file has them: hexahedra with 8, 20 or 27 nodes, those of second order on the true circles
+too. And cones, rings whose radii shrink along the axis, which have no closed form: coarse against fine.
 """
 import sys
 
@@ -12,10 +13,12 @@ from summaries import load, say
 
 YOUNG, POISSON, HEIGHT, OVERLAP = 1000, 0.3, 1, 0.03
 RADII = {"inner": (20, 25.015), "outer": (24.985, 30)}
-AROUND, ACROSS, ALONG = {"inner": 12, "outer": 15}, 2, {0: 1, -0.2: 2}  # cells; along the axis by the taper, change of radius over height
+# cells; along the axis by the taper, change of radius over height
+AROUND, ACROSS, ALONG = {"inner": 12, "outer": 15}, 2, {0: 1, -0.2: 2}
 
 CORNERS = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
-EDGES = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (2, 1, 0), (2, 0, 1), (1, 2, 0), (2, 2, 1), (0, 2, 1), (1, 0, 2), (0, 1, 2), (2, 1, 2), (1, 2, 2)]
+EDGES = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (2, 1, 0), (2, 0, 1), (1, 2, 0), (2, 2, 1), (0, 2, 1), (1, 0, 2), (0, 1, 2),
+         (2, 1, 2), (1, 2, 2)]
 MIDDLES = [(1, 1, 0), (1, 0, 1), (0, 1, 1), (2, 1, 1), (1, 2, 1), (1, 1, 2), (1, 1, 1)]
 HEXAHEDRA = {8: (5, CORNERS), 20: (17, CORNERS + EDGES), 27: (12, CORNERS + EDGES + MIDDLES)}
 REFINED = {8: 1, 20: 2, 27: 1}
@@ -25,7 +28,8 @@ SIDES = ("in", "out", "begin", "end", "low", "high")  # of the three directions:
 
 
 def ring(name, nodes, taper, number):
-    """Elements of a ring: (type, physical tag, dimension, nodes); number: of a node by its place on the grid of half cells"""
+    """Elements of a ring: (type, physical tag, dimension, nodes); number: of a node by its place on the grid of half
+    cells"""
     cells = (ACROSS, AROUND[name], ALONG[taper])
     volume = 1 + list(RADII).index(name)
     kind, places = HEXAHEDRA[nodes]
@@ -53,18 +57,27 @@ def place(taper, name, i, j, k):
 def write_mesh(file, nodes, version, taper=0):
     number = {}
     elements = [element for name in RADII for element in ring(name, nodes, taper, number)]
-    names = [(3, 1 + v, name) for v, name in enumerate(RADII)] + [(2, 10 * (1 + v) + f, name + "_" + side) for v, name in enumerate(RADII) for f, side in enumerate(SIDES)]
+    names = [(3, 1 + v, name) for v, name in enumerate(RADII)] + [(2, 10 * (1 + v) + f, name + "_" + side)
+                                                                  for v, name in enumerate(RADII)
+                                                                  for f, side in enumerate(SIDES)]
     lines = ["$MeshFormat", "%g 0 8" % version, "$EndMeshFormat", "$PhysicalNames", str(len(names))]
     lines += ['%d %d "%s"' % name for name in names] + ["$EndPhysicalNames"]
     nodes_at = ["%.16g %.16g %.16g" % place(taper, *p) for p in number]
     if version < 4:
-        lines += ["$Nodes", str(len(number))] + ["%d %s" % at for at in enumerate(nodes_at, 1)] + ["$EndNodes", "$Elements", str(len(elements))]
-        lines += ["%d %d 2 %d %d %s" % (e, kind, tag, tag, " ".join(map(str, n))) for e, (kind, tag, _, n) in enumerate(elements, 1)] + ["$EndElements"]
+        lines += ["$Nodes", str(len(number))] + ["%d %s" % at for at in enumerate(nodes_at, 1)] + [
+            "$EndNodes", "$Elements", str(len(elements))
+        ]
+        lines += [
+            "%d %d 2 %d %d %s" % (e, kind, tag, tag, " ".join(map(str, n)))
+            for e, (kind, tag, _, n) in enumerate(elements, 1)
+        ] + ["$EndElements"]
     else:
         by_dimension = [[name for name in names if name[0] == d] for d in range(4)]
         lines += ["$Entities", " ".join(str(len(n)) for n in by_dimension)]
         lines += ["%d 0 0 0 1 1 1 1 %d 0" % (tag, tag) for n in by_dimension for _, tag, _ in n] + ["$EndEntities"]
-        lines += ["$Nodes", "1 %d 1 %d" % (len(number), len(number)), "3 1 0 %d" % len(number)] + [str(i) for i in range(1, len(number) + 1)] + nodes_at + ["$EndNodes"]
+        lines += ["$Nodes", "1 %d 1 %d" % (len(number), len(number)),
+                  "3 1 0 %d" % len(number)] + [str(i) for i in range(1,
+                                                                     len(number) + 1)] + nodes_at + ["$EndNodes"]
         lines += ["$Elements", "%d %d 1 %d" % (len(names), len(elements), len(elements))]
         e = 0
         for dimension, tag, _ in names:
@@ -89,7 +102,9 @@ contact:
 
 
 def write_scene(name, mesh, curved):
-    symmetry = "\n".join("  - %s_%s: {face: %s.%s_%s, normal: %s}" % (ring, side, ring, ring, side, normal) for ring in RADII for side, normal in (("begin", "y"), ("end", "x"), ("low", "z"), ("high", "z")))
+    symmetry = "\n".join("  - %s_%s: {face: %s.%s_%s, normal: %s}" % (ring, side, ring, ring, side, normal)
+                         for ring in RADII
+                         for side, normal in (("begin", "y"), ("end", "x"), ("low", "z"), ("high", "z")))
     with open(name + ".yaml", "w") as file:
         file.write(SCENE.format(mesh=mesh, young=YOUNG, poisson=POISSON, symmetry=symmetry, curved=curved))
 
@@ -134,15 +149,19 @@ def judge():
     for nodes in HEXAHEDRA:
         coarse, fine = "rings_%d_2.2_0" % nodes, "rings_%d_2.2_%d" % (nodes, REFINED[nodes])
         errors = [abs(force(name) / lame() - 1) for name in (coarse, fine)]
-        say("%d nodes: refined, the vertices of the joint within 5e-6 of its circles" % nodes, stand_off(fine) <= 5e-6, stand_off(fine))
-        say("%d nodes: the force within 0.5 %% of Lame; refined within 0.1 %%" % nodes, errors[0] <= 5e-3 and errors[1] <= 1e-3, errors)
+        say("%d nodes: refined, the vertices of the joint within 5e-6 of its circles" % nodes,
+            stand_off(fine) <= 5e-6, stand_off(fine))
+        say("%d nodes: the force within 0.5 %% of Lame; refined within 0.1 %%" % nodes, errors[0] <= 5e-3
+            and errors[1] <= 1e-3, errors)
         other = abs(force("rings_%d_4.1_0" % nodes) / force(coarse) - 1)
         say("%d nodes: the same by format 4.1, to 1e-7" % nodes, other <= 1e-7, other)
     x, p = fields("cones_0")
     rounds = [p[x[:, 2] == z] for z in np.unique(x[:, 2])]
     off = [abs(around / around.mean() - 1).max() for around in rounds]
-    say("cones: around each circle the pressure at every vertex within 3 % of its mean", len(rounds) == 3 and max(off) <= 0.03, off)
-    say("cones: the force within 1 % of that refined once", abs(force("cones_0") / force("cones_1") - 1) <= 0.01, (force("cones_0"), force("cones_1")))
+    say("cones: around each circle the pressure at every vertex within 3 % of its mean",
+        len(rounds) == 3 and max(off) <= 0.03, off)
+    say("cones: the force within 1 % of that refined once",
+        abs(force("cones_0") / force("cones_1") - 1) <= 0.01, (force("cones_0"), force("cones_1")))
     energies = [load("cones_%d" % refine)["steps"][-1]["energy"] for refine in (0, 1)]
     say("cones: the energy within 2 %", abs(energies[0] / energies[1] - 1) <= 0.02, energies)
     say("curved: false keeps the facets, which interfere", force("facets") >= 1.03 * lame(), force("facets"))

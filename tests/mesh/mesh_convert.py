@@ -1,4 +1,5 @@
-"""Meshes for mesh_convert.sh in the formats of other programs, and what contact-mesh makes of them: python mesh_convert.py write|judge.
+"""Meshes for mesh_convert.sh in the formats of other programs, and what contact-mesh makes of them: python
+mesh_convert.py write|judge.
 
 A block of 1 x 1 x 2, two volumes of unlike stiffness one upon the other. Decks are written by hand, the rest by meshio.
 """
@@ -16,7 +17,10 @@ TETRAHEDRON = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
 ABAQUS_SIDES = ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
 TETRAHEDRA = ((0, 1, 2, 6), (0, 2, 3, 6), (0, 3, 7, 6), (0, 7, 4, 6), (0, 4, 5, 6), (0, 5, 1, 6))
 WEDGES = ((0, 1, 2, 4, 5, 6), (0, 2, 3, 4, 6, 7))
-KINDS = {"hexahedron": "C3D8", "hexahedron20": "C3D20R", "hexahedron27": "C3D27", "tetra": "C3D4", "tetra10": "C3D10", "wedge": "C3D6"}
+KINDS = {
+    "hexahedron": "C3D8", "hexahedron20": "C3D20R", "hexahedron27": "C3D27", "tetra": "C3D4", "tetra10": "C3D10",
+    "wedge": "C3D6"
+}
 
 
 def block(kind):
@@ -33,7 +37,7 @@ def block(kind):
     cells = []
     for k, j, i in np.ndindex(4, 2, 2):
         corner = (CORNERS + (i, j, k)) / 2.0
-        parts = TETRAHEDRA if kind.startswith("tetra") else WEDGES if kind == "wedge" else (range(8),)
+        parts = TETRAHEDRA if kind.startswith("tetra") else WEDGES if kind == "wedge" else (range(8), )
         for part in parts:
             x = corner[list(part)]
             edges = {"hexahedron20": HEXAHEDRON, "hexahedron27": HEXAHEDRON, "tetra10": TETRAHEDRON}.get(kind, ())
@@ -54,13 +58,14 @@ def deck(name, kind):
         file.write(f"*Element, type={KINDS[kind]}\n")
         for number, cell in enumerate(cells, 1001):
             words = [str(number), *map(str, cell + 101)]
-            file.write(",\n".join(", ".join(words[i : i + 16]) for i in range(0, len(words), 16)) + "\n")
+            file.write(",\n".join(", ".join(words[i:i + 16]) for i in range(0, len(words), 16)) + "\n")
         half = len(cells) // 2
         file.write(f"*Elset, elset=lower, generate\n1001, {1000 + half}, 1\n*ELSET, ELSET=upper\n")
         numbers = [str(1001 + row) for row in range(half, len(cells))]
-        file.write("".join(", ".join(numbers[i : i + 10]) + ",\n" for i in range(0, len(numbers), 10)))
+        file.write("".join(", ".join(numbers[i:i + 10]) + ",\n" for i in range(0, len(numbers), 10)))
         if kind.startswith("hexahedron"):
-            file.write(f"*ELSET, ELSET=last, GENERATE\n{1001 + len(cells) - 4}, {1000 + len(cells)}\n*SURFACE, NAME=top, TYPE=ELEMENT\nlast, S2\n")
+            file.write(f"*ELSET, ELSET=last, GENERATE\n{1001 + len(cells) - 4}, {1000 + len(cells)}\n"
+                       f"*SURFACE, NAME=top, TYPE=ELEMENT\nlast, S2\n")
         else:
             file.write("*NSET, NSET=top\n" + "".join(f"{101 + node}\n" for node in np.flatnonzero(points[:, 2] == 2)))
         file.write("*NSET, NSET=bottom\n" + "".join(f"{101 + node}\n" for node in np.flatnonzero(points[:, 2] == 0)))
@@ -71,26 +76,41 @@ def deck(name, kind):
 def others(kind):
     points, cells = block(kind)
     half = len(cells) // 2
-    ends = {name: [tuple(side) for cell in cells for side in (cell[[0, 3, 2, 1]], cell[[4, 5, 6, 7]]) if np.all(points[list(side), 2] == z)][:4] for name, z in (("bottom", 0), ("top", 2), ("joint", 1))}
+    ends = {
+        name: [
+            tuple(side)
+            for cell in cells
+            for side in (cell[[0, 3, 2, 1]], cell[[4, 5, 6, 7]])
+            if np.all(points[list(side), 2] == z)
+        ][:4]
+        for name, z in (("bottom", 0), ("top", 2), ("joint", 1))
+    }
     parts = [(kind, cells[:half]), (kind, cells[half:])] + [("quad", np.array(ends[name])) for name in ends]
     numbers = [np.full(len(part), tag, np.int32) for tag, (_, part) in enumerate(parts, 1)]
     meshio.write("cells.vtu", meshio.Mesh(points, parts[:2], cell_data={"part": numbers[:2]}))
-    med = meshio.Mesh(points, [("hexahedron", cells[:, [4, 5, 6, 7, 0, 1, 2, 3]]), ("quad", np.concatenate([part for _, part in parts[2:]]))],
-                      cell_data={"cell_tags": [np.repeat([-1, -2], half), np.repeat([-3, -4, -5], 4)]})
+    med = meshio.Mesh(points, [("hexahedron", cells[:, [4, 5, 6, 7, 0, 1, 2, 3]]),
+                               ("quad", np.concatenate([part for _, part in parts[2:]]))],
+                      cell_data={"cell_tags": [np.repeat([-1, -2], half),
+                                               np.repeat([-3, -4, -5], 4)]})
     med.cell_tags = {-1: ["lower"], -2: ["upper"], -3: ["bottom"], -4: ["top"], -5: ["joint"]}
     med.point_tags = {}
     meshio.write("turned.med", med)
-    meshio.write("blocks.e", meshio.Mesh(points, parts[:2], point_sets={"bottom": np.flatnonzero(points[:, 2] == 0), "joint": np.flatnonzero(points[:, 2] == 1)}))
+    meshio.write(
+        "blocks.e",
+        meshio.Mesh(
+            points, parts[:2],
+            point_sets={"bottom": np.flatnonzero(points[:, 2] == 0), "joint": np.flatnonzero(points[:, 2] == 1)}))
     with netCDF4.Dataset("blocks.e", "a") as file:
         for dimension, size in (("num_side_sets", 1), ("num_side_ss1", len(ends["top"])), ("len_name", 33)):
             if dimension not in file.dimensions:
                 file.createDimension(dimension, size)
-        for variable, names in (("eb_names", ("lower", "upper")), ("ss_names", ("top",))):
-            table = file.createVariable(variable, "S1", ("num_el_blk" if variable == "eb_names" else "num_side_sets", "len_name"))
+        for variable, names in (("eb_names", ("lower", "upper")), ("ss_names", ("top", ))):
+            table = file.createVariable(variable, "S1",
+                                        ("num_el_blk" if variable == "eb_names" else "num_side_sets", "len_name"))
             for row, name in enumerate(names):
-                table[row, : len(name)] = [letter.encode() for letter in name]
-        file.createVariable("elem_ss1", "i4", ("num_side_ss1",))[:] = np.arange(len(cells) - 3, len(cells) + 1)
-        file.createVariable("side_ss1", "i4", ("num_side_ss1",))[:] = 6
+                table[row, :len(name)] = [letter.encode() for letter in name]
+        file.createVariable("elem_ss1", "i4", ("num_side_ss1", ))[:] = np.arange(len(cells) - 3, len(cells) + 1)
+        file.createVariable("side_ss1", "i4", ("num_side_ss1", ))[:] = 6
 
 
 SCENE = """problem: blocks

@@ -1,12 +1,15 @@
-# Meshes of other programs: decks of Abaqus and CalculiX, MED, Exodus, VTU. contact-mesh keeps names, volumes and areas; scenes read such
-# files, also with a scale, and give the energy of the same mesh in another format; damaged files are refused in one sentence.
+# Meshes of other programs: decks of Abaqus and CalculiX, MED, Exodus, VTU. contact-mesh keeps names, volumes and areas;
+# scenes read such files, also with a scale, and give the energy of the same mesh in another format; damaged files are
+# refused in one sentence.
 "$PYTHON" -B "$AMGF_DIR/tests/mesh/mesh_convert.py" write
 mesh() { "$AMGF_DIR/bin/contact-mesh" "$@" 2>&1; }
-for file in hexahedron.inp hexahedron20.inp hexahedron27.inp tetra.inp tetra10.inp wedge.inp cells.vtu turned.med blocks.e; do
+for file in hexahedron.inp hexahedron20.inp hexahedron27.inp tetra.inp tetra10.inp wedge.inp cells.vtu turned.med \
+  blocks.e; do
   mesh "$file" -check
 done
 mesh hexahedron27.inp there.msh -quiet && mesh there.msh there.inp -quiet && mesh there.inp -check | sed 1d > back
-mesh hexahedron27.inp -check | grep -v "^sets" | sed 1d | sort | diff - <(sort back) && echo "hexahedron27: there and back"
+mesh hexahedron27.inp -check | grep -v "^sets" | sed 1d | sort | diff - <(sort back) &&
+  echo "hexahedron27: there and back"
 mesh hexahedron.inp back.msh -quiet && mesh back.msh back.inp -quiet
 
 names="hexahedron hexahedron20 hexahedron27 tetra10 med exodus gmsh deck scaled"

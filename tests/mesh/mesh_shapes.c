@@ -396,7 +396,8 @@ int main(int argc, char **argv)
       args: -scene ${AMGF_DIR}/tests/mesh/mesh_beam_sphere.yaml -levels 1
       output_file: output/mesh_shapes_beam_sphere_2.out
 
-   # two touching bodies from one Gmsh file beside a box: no common nodes, and no surface of the file on a body it does not bound
+   # two touching bodies from one Gmsh file beside a box: no common nodes, and no surface of the file on a body
+   # that it does not bound
    test:
       suffix: gmsh
       nsize: {{1 2 3}}

@@ -1,5 +1,6 @@
-# Tetrahedra from Gmsh files of both formats beside a body of hexahedra: Lame's pipe, straight and curved, on one to five ranks, refined, and from a checkpoint; files for
-# ParaView, and a picture; cells and elements that do not go together
+# Tetrahedra from Gmsh files of both formats beside a body of hexahedra: Lame's pipe, straight and curved, on one to
+# five ranks, refined, and from a checkpoint; files for ParaView, and a picture; cells and elements that do not go
+# together
 contact=$AMGF_DIR/bin/contact
 write() { "$PYTHON" -B "$AMGF_DIR/tests/lib/tetrahedra.py" write "$@"; }
 write curved.msh 2.2 2 2 3 1
@@ -23,7 +24,8 @@ probes:
   - middle: {point: [1.06066017178, 1.06066017178, 0.2]}
 YAML
 run() { # name, ranks, of the scene, further options
-  mpiexec --oversubscribe -n "$2" "$contact" "$3.yaml" -quiet -ksp_rtol 1e-12 -summary "$1.json" "${@:4}" || echo "$1: exit code $?"
+  mpiexec --oversubscribe -n "$2" "$contact" "$3.yaml" -quiet -ksp_rtol 1e-12 -summary "$1.json" "${@:4}" ||
+    echo "$1: exit code $?"
 }
 for ranks in 1 2 3 5; do
   run "p$ranks" $ranks pipe

@@ -1,4 +1,5 @@
-"""Every key of every load, support, body, law and result with values that it cannot have: each ends with one sentence. python bad_values.py [all]"""
+"""Every key of every load, support, body, law and result with values that it cannot have: each ends with one sentence.
+python bad_values.py [all]"""
 import os
 import subprocess
 import sys
@@ -10,7 +11,10 @@ BODIES = """bodies:
   - wall: {lower: [-1, 0, 0], upper: [0, 1, 1], cells: [1, 1, 1], material: rigid}
 """
 HOLD = {
-    "displacements": ["floor: {face: low.zmin, value: [0, 0, 0]}", "lid: {face: top.zmax, value: [0, 0, 0]}", "wall: {body: wall, value: [0, 0, 0]}"],
+    "displacements": [
+        "floor: {face: low.zmin, value: [0, 0, 0]}", "lid: {face: top.zmax, value: [0, 0, 0]}",
+        "wall: {body: wall, value: [0, 0, 0]}"
+    ],
 }
 LINEAR = "young: 10, poisson: 0.3, expansion: 1e-5"
 # What is right: of each entry its list, and its keys with what they are
@@ -42,12 +46,15 @@ LAWS = {
     "neohookean": dict(material="neohookean", young="10", poisson="0.3"),
     "saint_venant": dict(material="saint_venant", young="10", poisson="0.3"),
     "mooney_rivlin": dict(material="mooney_rivlin", c10="1.5", c01="0.4", bulk="8"),
-    "orthotropic": dict(material="orthotropic", first_axis="[1, 1, 0]", young="[12, 10, 8]", poisson="[0.3, 0.3, 0.25]", shear="[4, 3, 3.5]", expansion="[1e-3, 2e-3, 3e-3]"),
+    "orthotropic": dict(material="orthotropic", first_axis="[1, 1, 0]", young="[12, 10, 8]", poisson="[0.3, 0.3, 0.25]",
+                        shear="[4, 3, 3.5]", expansion="[1e-3, 2e-3, 3e-3]"),
 }
 NUMBERS = ["nan", "inf", "-inf", "1e999", "word", "[1, 2, 3, 4, 5, 6, 7]", '""', "{a: 1}", "0x", "1 2", "--1"]
 # Of a key what else it cannot be
 OTHERS = {
-    "face": ["low.none", "none.zmin", "low", "7", '""', "[low.zmin, low.zmax]", "Low.zmin", "low.zmin.x", "wall.xmax.q"],
+    "face": [
+        "low.none", "none.zmin", "low", "7", '""', "[low.zmin, low.zmax]", "Low.zmin", "low.zmin.x", "wall.xmax.q"
+    ],
     "body": ["none", "low.zmin", '""', "7", "[low, top]", "Low"],
     "ramp": ["none", '""', "7x"],
     "young": ["0", "-1"],
@@ -81,19 +88,26 @@ def text(keys):
 def scene(law, lists):
     lists = {**HOLD, **lists}
     lists.setdefault("ramps", []).append("later: {factors: [0.5]}")
-    return "problem: bad\n" + BODIES % law + "".join("%s:\n%s" % (name, "".join("  - %s\n" % entry for entry in entries)) for name, entries in lists.items())
+    return "problem: bad\n" + BODIES % law + "".join("%s:\n%s" % (name, "".join("  - %s\n" % entry
+                                                                                for entry in entries))
+                                                     for name, entries in lists.items())
 
 
 def with_entry(section, keys):
-    return scene("material: neohookean, young: 10, poisson: 0.3" if "follows" in keys else LINEAR, {section: HOLD.get(section, []) + ["one: {%s}" % text(keys)]})
+    return scene("material: neohookean, young: 10, poisson: 0.3" if "follows" in keys else LINEAR,
+                 {section: HOLD.get(section, []) + ["one: {%s}" % text(keys)]})
 
 
 def changes(keys):
     """One key at a time: a value that it cannot have, another name of it, and without it"""
     for key in keys:
-        others = OTHERS["face"][:6] if key == "to" and keys[key].startswith("top") else [] if key == "to" else OTHERS.get(key, [])
+        others = OTHERS["face"][:6] if key == "to" and keys[key].startswith(
+            "top") else [] if key == "to" else OTHERS.get(key, [])
         # A temperature is an expression of the place, which may have two signs, and is judged where it is evaluated
-        for value in others + [number for number in (NUMBERS if key not in WORDS else []) if not (number in ("1e999", "--1") and keys[key] == "10*x")]:
+        for value in others + [
+                number for number in (NUMBERS if key not in WORDS else [])
+                if not (number in ("1e999", "--1") and keys[key] == "10*x")
+        ]:
             yield "%s: %s" % (key, value), {**keys, key: value}
         yield "%s misspelt" % key, {(key + "x" if name == key else name): value for name, value in keys.items()}
 
@@ -119,7 +133,8 @@ def judge(right, contents):
         return None if end.returncode == 0 else "refused: %s" % said
     if end.returncode == 0:
         return "taken"
-    return None if end.returncode == 1 and len(said) == 1 and said[0].startswith("contact: error: ") else "exit code %d, %s" % (end.returncode, said)
+    return None if end.returncode == 1 and len(said) == 1 and said[0].startswith(
+        "contact: error: ") else "exit code %d, %s" % (end.returncode, said)
 
 
 n, bad, begun = 0, 0, len(sys.argv) < 3

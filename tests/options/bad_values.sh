@@ -1,4 +1,5 @@
-# Values that keys cannot have, a part of them: unknown faces, bodies and ramps, numbers that are none, not finite or too many, keys misspelt. `bad_values.py all` tries every one.
+# Values that keys cannot have, a part of them: unknown faces, bodies and ramps, numbers that are none, not finite or
+# too many, keys misspelt. `bad_values.py all` tries every one.
 "$PYTHON" "$AMGF_DIR/tests/options/bad_values.py"
 cat > names.yaml << 'END'
 problem: names

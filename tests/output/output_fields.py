@@ -61,10 +61,13 @@ def main(base):
             "contact_status": np.allclose(fields["contact_status"], status, equal_nan=True),
             "contact_force": np.allclose(fields["contact_force"], force, atol=1e-14),
             "first_pair": np.allclose(fields["contact_pressure_first"], np.where(rows, 1 + x[:, 0], 0), atol=1e-14),
-            "second_pair": np.allclose(fields["contact_gap_second"], np.where(rows & repeat, 1 - x[:, 0], np.nan), atol=1e-14, equal_nan=True),
+            "second_pair": np.allclose(fields["contact_gap_second"], np.where(rows & repeat, 1 - x[:, 0], np.nan),
+                                       atol=1e-14, equal_nan=True),
         }
-        print(f"time {time}: {len(x)} vertices, {len(np.unique(x[~upper], axis=0))} and {len(np.unique(x[upper], axis=0))} apart,"
-              f" {len(cells)} cells, volumes {volume[body == 0].sum():.12g} {volume[body == 1].sum():.12g}, smallest {volume.min():.12g}, {rows.sum()} rows")
+        print(f"time {time}: {len(x)} vertices, {len(np.unique(x[~upper], axis=0))} and "
+              f"{len(np.unique(x[upper], axis=0))} apart,"
+              f" {len(cells)} cells, volumes {volume[body == 0].sum():.12g} {volume[body == 1].sum():.12g}, "
+              f"smallest {volume.min():.12g}, {rows.sum()} rows")
         print("  " + " ".join(f"{name}:{'ok' if good else 'WRONG'}" for name, good in checks.items()))
 
 

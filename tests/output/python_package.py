@@ -21,7 +21,8 @@ def notebook():
     for cell in cells:
         exec(compile(cell.replace("print(", "str("), "press.ipynb", "exec"), names)
     os.chdir(here)
-    print(f"notebook: {len(cells)} cells, a picture of more than 5,000 bytes: {os.path.getsize(names['picture']) > 5000}")
+    print(
+        f"notebook: {len(cells)} cells, a picture of more than 5,000 bytes: {os.path.getsize(names['picture']) > 5000}")
 
 
 def calls():
@@ -30,11 +31,16 @@ def calls():
     with h5py.File("here_0002.h5", "r") as file:
         same = np.array_equal(file["displacement"][:], again.displacement())
     print("load steps:", run.steps, "; displacement as in the file:", same)
-    print("energy of the history is that of the summary:", np.allclose(run.history["energy"], [step["energy"] for step in run.summary["steps"]], rtol=1e-13))
-    print("one pair's force under its last word:", np.array_equal(run.history["normal_force"], run.history["blocks.normal_force"]))
-    print("its force as vectors:", np.array_equal(run.history["force"][:, 2], run.history["blocks.force_z"]), run.history["force"].shape)
+    print("energy of the history is that of the summary:",
+          np.allclose(run.history["energy"], [step["energy"] for step in run.summary["steps"]], rtol=1e-13))
+    print("one pair's force under its last word:",
+          np.array_equal(run.history["normal_force"], run.history["blocks.normal_force"]))
+    print("its force as vectors:", np.array_equal(run.history["force"][:, 2], run.history["blocks.force_z"]),
+          run.history["force"].shape)
     print(run)
-    print("cells and points fit:", len(run.field("von_mises")) == len(run.cells), len(run.field("pressure")) == len(run.points))
+    print("cells and points fit:",
+          len(run.field("von_mises")) == len(run.cells),
+          len(run.field("pressure")) == len(run.points))
     two = contact.run("two_block.yaml", output="two", ranks=2, refine=0, error_estimate=0)
     print("two ranks: the same energy:", np.allclose(two.history["energy"], run.history["energy"], rtol=1e-8))
 
@@ -54,9 +60,15 @@ def vtk():
         reader.Update()
         grid = reader.GetOutput()
         data, cells = grid.GetPointData(), grid.GetCellData()
-        print("step", step, "cells and points:", grid.GetNumberOfCells() == len(run.cells), np.array_equal(vtk_to_numpy(grid.GetPoints().GetData()), run.points))
-        print("fields:", np.array_equal(vtk_to_numpy(data.GetArray("displacement")), run.displacement(step)), np.array_equal(vtk_to_numpy(cells.GetArray("von_mises")), run.field("von_mises", step)),
-              np.array_equal(vtk_to_numpy(cells.GetArray("stress"))[:, [0, 1, 3]].T, [run.field("stress_" + name, step) for name in ("xx", "yy", "xy")]))
+        print("step", step, "cells and points:",
+              grid.GetNumberOfCells() == len(run.cells),
+              np.array_equal(vtk_to_numpy(grid.GetPoints().GetData()), run.points))
+        print(
+            "fields:", np.array_equal(vtk_to_numpy(data.GetArray("displacement")), run.displacement(step)),
+            np.array_equal(vtk_to_numpy(cells.GetArray("von_mises")), run.field("von_mises", step)),
+            np.array_equal(
+                vtk_to_numpy(cells.GetArray("stress"))[:, [0, 1, 3]].T,
+                [run.field("stress_" + name, step) for name in ("xx", "yy", "xy")]))
     done = subprocess.run([sys.executable, "-B", os.path.join(FOLDER, "contact_mesh.py"), "here.xmf", "again.pvd"])
     with open("again_0002.vtu") as one, open("written_0002.vtu") as other:
         print("contact-mesh writes the same:", done.returncode == 0 and one.read() == other.read())
@@ -65,14 +77,14 @@ def vtk():
 def refused():
     run = contact.load("here")
     for call in (
-        lambda: contact.run("nothing.yaml"),
-        lambda: contact.run("two_block.yaml", output="bad", refine="abc"),
-        lambda: contact.load("nothing"),
-        lambda: run.history["heat"],
-        lambda: run.field("heat"),
-        lambda: run.field("von_mises", step=7),
-        lambda: run.plot("heat"),
-        lambda: run.write_vtk("here.vtk"),
+            lambda: contact.run("nothing.yaml"),
+            lambda: contact.run("two_block.yaml", output="bad", refine="abc"),
+            lambda: contact.load("nothing"),
+            lambda: run.history["heat"],
+            lambda: run.field("heat"),
+            lambda: run.field("von_mises", step=7),
+            lambda: run.plot("heat"),
+            lambda: run.write_vtk("here.vtk"),
     ):
         try:
             print("accepted:", call())

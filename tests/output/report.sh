@@ -1,5 +1,5 @@
-# contact -report: one page of a run, from the tree and from an installed copy, on one rank and on two; of a run that fails, whose exit code stays; and what is
-# said where a module or the script is missing
+# contact -report: one page of a run, from the tree and from an installed copy, on one rank and on two; of a run that
+# fails, whose exit code stays; and what is said where a module or the script is missing
 contact=$AMGF_DIR/bin/contact
 sed "s/problem: boxes/& \& <others>/" "$AMGF_DIR/tests/lib/boxes.yaml" > boxes.yaml
 judge() { "$PYTHON" -B "$AMGF_DIR/tests/output/report.py" "$@"; }
@@ -9,7 +9,8 @@ judge one 4
 mkdir -p installed/bin installed/share/amgf
 cp "$contact" installed/bin
 cp -r "$AMGF_DIR/share/plot" "$AMGF_DIR/share/python" "$AMGF_DIR/share/report" installed/share/amgf
-LD_LIBRARY_PATH=$AMGF_DIR/lib mpiexec --oversubscribe -n 2 installed/bin/contact boxes.yaml -quiet -load_steps 1 -report two.html -output fields -summary two.json || echo "exit code $?"
+LD_LIBRARY_PATH=$AMGF_DIR/lib mpiexec --oversubscribe -n 2 installed/bin/contact boxes.yaml -quiet -load_steps 1 \
+  -report two.html -output fields -summary two.json || echo "exit code $?"
 judge two 3
 ls fields.xmf two.xmf 2> /dev/null
 

@@ -1,11 +1,14 @@
 """A petsc4py program that knows nothing of PCAMGF but the name under which it composes the stiff unknowns.
 
-    python3 amgf_foreign.py -dll_append /path/to/libpetscamgf.so -pc_type amgf [-filter composed] [-write PREFIX] [-stiff MATRIX]
+    python3 amgf_foreign.py -dll_append /path/to/libpetscamgf.so -pc_type amgf [-filter composed] [-write PREFIX]
+    [-stiff MATRIX]
 
 A = K + J^T D J: a Laplacian on a square grid, and J ties its lower to its upper edge with a stiffness D of many orders.
--filter composed    composes an IS of the tied unknowns on A; otherwise name them by -pc_amgf_filter_file or -pc_amgf_detect
+-filter composed    composes an IS of the tied unknowns on A; otherwise name them by -pc_amgf_filter_file or
+-pc_amgf_detect
 -write PREFIX       writes A and b to PREFIX.dat and the IS to PREFIX.is (PETSc binary), for other programs
--stiff MATRIX       reads MATRIX instead (PETSc binary) and writes the rows whose diagonal exceeds 50 medians to MATRIX.is
+-stiff MATRIX       reads MATRIX instead (PETSc binary) and writes the rows whose diagonal exceeds 50 medians to
+                    MATRIX.is
 """
 import sys
 
@@ -19,9 +22,10 @@ N = 40  # nodes a side
 
 
 def constraint(k):
-    """Unknowns and coefficients of row k of J, as a mortar method has them: a lower node against three upper ones; and its stiffness."""
+    """Unknowns and coefficients of row k of J, as a mortar method has them: a lower node against three upper ones; and
+    its stiffness."""
     upper = N * (N - 1) + k
-    return (k, upper - 1, upper, upper + 1), (1.0, -0.25, -0.5, -0.25), 10.0 ** (2 + 6 * (7 * k % N) / N)
+    return (k, upper - 1, upper, upper + 1), (1.0, -0.25, -0.5, -0.25), 10.0**(2 + 6 * (7 * k % N) / N)
 
 
 def create_operator(comm):

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The plugin in programs that were never compiled for it: PETSc's tutorials ksp/ex10 (a system from a file) and ksp/ex56 (elasticity), and a petsc4py
-# script; the subspace from a file, from a composed IS, and by detection. Each line: the filter at least halves the iterations of the same AMG alone.
+# The plugin in programs that were never compiled for it: PETSc's tutorials ksp/ex10 (a system from a file) and ksp/ex56
+# (elasticity), and a petsc4py script; the subspace from a file, from a composed IS, and by detection. Each line: the
+# filter at least halves the iterations of the same AMG alone.
 set -eu
 top=${AMGF_DIR:-$(cd "$(dirname "$0")/../.." && pwd)}
 plugin=${AMGF_PLUGIN:-$top/lib/libpetscamgf.so}
@@ -17,7 +18,8 @@ for tutorial in ex10 ex56; do
     source=$folder/src/ksp/ksp/tutorials/$tutorial.c
     if [ -f "$source" ]; then break; fi
   done
-  mpicc $(pkg-config --cflags PETSc) "$source" -o $tutorial $(pkg-config --libs PETSc) -Wl,-rpath,"$(pkg-config --variable=libdir PETSc)" -lm
+  mpicc $(pkg-config --cflags PETSc) "$source" -o $tutorial $(pkg-config --libs PETSc) \
+    -Wl,-rpath,"$(pkg-config --variable=libdir PETSc)" -lm
 done
 
 # iterations RANKS PROGRAM ARGUMENTS...: of the last solve; "none" if it did not converge
@@ -50,7 +52,8 @@ filtered() {
 
 script="$python $top/tests/pc_amgf/amgf_foreign.py"
 $script -write system > /dev/null
-mpiexec --oversubscribe -n 1 ./ex56 -ne 7 -alpha 1e6 -log_stages 0 -ksp_view_mat binary:ex56.mat -ksp_max_it 1 > /dev/null
+mpiexec --oversubscribe -n 1 ./ex56 -ne 7 -alpha 1e6 -log_stages 0 -ksp_view_mat binary:ex56.mat -ksp_max_it 1 \
+  > /dev/null
 $script -stiff ex56.mat
 
 for n in 1 3; do

@@ -1,7 +1,8 @@
 # The figures of tests/lib/cantilever.py anew, by the meshes that they are of
 contact=$AMGF_DIR/bin/contact
 scene=$AMGF_DIR/share/scenes/cantilever.yaml
-(sed 's/poisson: 0.3/&\n      order: 2/' "$scene" && printf 'probes:\n  - tip: {point: [10, 0, 0]}\n  - middle: {point: [5, 0, 0.5]}\n') > tip.yaml
+(sed 's/poisson: 0.3/&\n      order: 2/' "$scene" \
+  && printf 'probes:\n  - tip: {point: [10, 0, 0]}\n  - middle: {point: [5, 0, 0.5]}\n') > tip.yaml
 "$contact" "$scene" -quiet -refine 2 -summary energy.json || echo "energy: exit code $?"
 "$contact" tip.yaml -quiet -refine 1 -summary tip.json || echo "tip: exit code $?"
 "$PYTHON" - <<'PY'

@@ -1,5 +1,7 @@
-# -accuracy_adaptive: Hertz's ball from 1,131 unknowns, a beam, rings whose facets err where stress recovery sees nothing, thin cells along a curve; the same
-# meshes on any ranks; starts from the mesh before; what is asked of; what is refused, in one sentence; a cold start with friction; a block with edges. adaptive_long: more ranks, finer meshes. adaptive.py holds the summaries against references.
+# -accuracy_adaptive: Hertz's ball from 1,131 unknowns, a beam, rings whose facets err where stress recovery sees
+# nothing, thin cells along a curve; the same meshes on any ranks; starts from the mesh before; what is asked of; what
+# is refused, in one sentence; a cold start with friction; a block with edges. adaptive_long: more ranks, finer meshes.
+# adaptive.py holds the summaries against references.
 contact=$AMGF_DIR/bin/contact
 long=${1-}
 if [ -n "$long" ]; then slide=3e-2 edge=50000; else slide=1e-1 edge=8000; fi
@@ -16,7 +18,8 @@ run() { # summary, scene, options
 run ball ball -accuracy 3e-3 > progress
 run peak ball -accuracy 1e-2 -accuracy_of pressure
 run small ball -accuracy 1e-3 -accuracy_max_dofs 5000 2> /dev/null
-for ranks in 1 3 ${long:+2 5}; do mpiexec --oversubscribe -n $ranks "$contact" ball.yaml -quiet -accuracy_adaptive -accuracy 1e-2 -tao_ipfilter_tol 1e-10 -contact_update_tol 1e-10 -summary ranks_$ranks.json; done
+for ranks in 1 3 ${long:+2 5}; do mpiexec --oversubscribe -n $ranks "$contact" ball.yaml -quiet -accuracy_adaptive \
+  -accuracy 1e-2 -tao_ipfilter_tol 1e-10 -contact_update_tol 1e-10 -summary ranks_$ranks.json; done
 run cylinder cylinder -accuracy 3e-3
 run cold cylinder -accuracy 3e-3 -load_warm_start 0
 run slide slide -accuracy $slide
@@ -29,8 +32,10 @@ sed '/element: full/d; s/^refine: 1/refine: 0/; s/lower: \[-4.5, -2, /lower: [-4
 echo 'symmetry: [slab.ymin, block.ymin]' >> edge.yaml
 run edge edge -accuracy 1e-2 -accuracy_of energy -contact_updates 1 -accuracy_max_dofs $edge 2> /dev/null
 PYTHONPATH=$AMGF_DIR/share/scenes:$AMGF_DIR/tests/lib "$PYTHON" "$AMGF_DIR/tests/run/adaptive.py" judge
-"$contact" cantilever.yaml -accuracy 1e-2 -accuracy_adaptive | grep -a '^Accuracy 0.01: a mesh' | sed 's/has an error of .*; the next/has an error of ...; the next/'
+"$contact" cantilever.yaml -accuracy 1e-2 -accuracy_adaptive | grep -a '^Accuracy 0.01: a mesh' |
+  sed 's/has an error of .*; the next/has an error of ...; the next/'
 # what is refused
 sed 's/layers: 4/layers: 4, order: 2/' ball.yaml > order2.yaml
-for scene in order2 rigid tied; do "$contact" $scene.yaml -quiet -accuracy 1e-2 -accuracy_adaptive 2>&1 || echo "exit code $?"; done
+for scene in order2 rigid tied; do "$contact" $scene.yaml -quiet -accuracy 1e-2 -accuracy_adaptive 2>&1 ||
+  echo "exit code $?"; done
 "$contact" ball.yaml -quiet -accuracy 1e-2 -accuracy_of size 2>&1 | grep -a -m 1 error

@@ -6,8 +6,10 @@ import sys
 # CalculiX issue 98: tubes 20 to 40.005 and 40 to 60, friction 0.1, 5.74 MPa, 1,371 N. Assumed: E 196,000 and length 19,
 # which give these figures by Lame; a quarter
 PRESS_IN = """bodies:
-  - inner: {shape: tube_arc, axis: z, center: [0, 0, 0], radii: [10, 20.0025], angles: [0, 90], extent: [0, 19], cells: [4, 8, 5], young: 196000, poisson: 0.3}
-  - outer: {shape: tube_arc, axis: z, center: [0, 0, 0], radii: [20, 30], angles: [0, 90], extent: [0, 19], cells: [4, 8, 5], young: 196000, poisson: 0.3}
+  - inner: {shape: tube_arc, axis: z, center: [0, 0, 0], radii: [10, 20.0025], angles: [0, 90], extent: [0, 19],
+            cells: [4, 8, 5], young: 196000, poisson: 0.3}
+  - outer: {shape: tube_arc, axis: z, center: [0, 0, 0], radii: [20, 30], angles: [0, 90], extent: [0, 19],
+            cells: [4, 8, 5], young: 196000, poisson: 0.3}
 symmetry: [inner.amin, inner.amax, outer.amin, outer.amax]
 displacements:
   - stay: {face: outer.lmin, value: [free, free, 0]}
@@ -31,8 +33,8 @@ contact:
 load: {{steps: 1}}
 """
 
-# MOOSE issue 10950, pull request 14241: plank 0.6 x 20, block 0.6 x 0.8, gap 0.01, E 1e9, friction 0.4: pressed and moved
-# along. Assumed: plane strain by a slice, motions of 0.02 and 1, Poisson's ratio 0.3
+# MOOSE issue 10950, pull request 14241: plank 0.6 x 20, block 0.6 x 0.8, gap 0.01, E 1e9, friction 0.4: pressed and
+# moved along. Assumed: plane strain by a slice, motions of 0.02 and 1, Poisson's ratio 0.3
 PLANK = """bodies:
   - plank: {lower: [-0.3, -10, 0], upper: [0.3, 10, 0.3], cells: [2, 67, 1], young: 1e9, poisson: 0.3}
   - block: {lower: [0.31, 9.2, 0], upper: [0.91, 10, 0.3], cells: [3, 4, 1], young: 1e9, poisson: 0.3}
@@ -103,9 +105,10 @@ load: {steps: 1}
 """
 
 # The CalculiX forum's 1486: a stack of loose plates. Assumed: five of them, friction 0.2, a load on top
-STACK = "bodies:\n" + "".join(
-    f"  - p{k}: {{lower: [0, 0, {k}], upper: [4, 4, {k + 1}], cells: [{2 + k % 2}, {2 + k % 2}, 1], young: 2e5, poisson: 0.3}}\n"
-    for k in range(5)) + """displacements:
+STACK = "bodies:\n" + "".join((
+    f"  - p{k}: "
+    f"{{lower: [0, 0, {k}], upper: [4, 4, {k + 1}], cells: [{2 + k % 2}, {2 + k % 2}, 1], young: 2e5, poisson: 0.3}}\n")
+                              for k in range(5)) + """displacements:
   - ground: {face: p0.zmin, value: [0, 0, 0]}
 pressures:
   - load: {face: p4.zmax, value: 10}
@@ -114,8 +117,8 @@ contact:
 load: {steps: 1}
 """
 
-# SimScale's 91408, MOOSE discussion 32856: a bolted joint, without contact parameters. Assumed: two plates, a hollow bolt
-# with a head, its other end fixed, E 210,000, 2,000 N on a quarter, a clearance of 0.01 under the head
+# SimScale's 91408, MOOSE discussion 32856: a bolted joint, without contact parameters. Assumed: two plates, a hollow
+# bolt with a head, its other end fixed, E 210,000, 2,000 N on a quarter, a clearance of 0.01 under the head
 ARC = "shape: tube_arc, axis: z, center: [0, 0, 0], angles: [0, 90], young: 210e3, poisson: 0.3"
 BOLTED = f"""bodies:
   - low: {{{ARC}, radii: [4.5, 12], extent: [0, 5], cells: [4, 6, 2]}}
@@ -138,9 +141,12 @@ load: {{steps: 1}}
 
 def scenes():
     """Names and texts of all scenes"""
-    made = {"press_in": PRESS_IN, "plank": PLANK, "corner": CORNER, "elsewhere": ELSEWHERE, "stack": STACK, "bolted": BOLTED}
+    made = {
+        "press_in": PRESS_IN, "plank": PLANK, "corner": CORNER, "elsewhere": ELSEWHERE, "stack": STACK, "bolted": BOLTED
+    }
     for name, length, force in (("mm_N", 1.0, 1.0), ("m_N", 1e-3, 1.0), ("um_kN", 1e3, 1e-3)):
-        made[name] = UNITS.format(a=8 * length, b=4 * length, c=2 * length, d=6 * length, u=0.01 * length, E=2e5 * force / length**2)
+        made[name] = UNITS.format(a=8 * length, b=4 * length, c=2 * length, d=6 * length, u=0.01 * length,
+                                  E=2e5 * force / length**2)
     for mu in (0.1, 0.5, 0.9):
         made[f"drag_{mu}"] = DRAG.replace("MU", str(mu))
     return made
@@ -165,7 +171,8 @@ def judge():
     say("units: um and kN instead of mm and N", energy["um_kN"] / energy["mm_N"] - 1, 1e-9)
     for step in steps["plank"][2:]:
         pair = step["pairs"][0]
-        say(f"plank: friction is 0.4 of the pressure in load step {step['step']}", pair["shear_force"] / pair["normal_force"] / 0.4 - 1, 1e-4)
+        say(f"plank: friction is 0.4 of the pressure in load step {step['step']}",
+            pair["shear_force"] / pair["normal_force"] / 0.4 - 1, 1e-4)
     corner = steps["corner"][-1]["pairs"]
     say("corner: the sum of both pairs", corner[0]["normal_force"] + corner[1]["normal_force"] - 20, 1e-6)
     # the nodes that they share are in both: which of them has their force is not determined
@@ -174,7 +181,8 @@ def judge():
         last = steps[f"drag_{mu}"][-1]
         probes = {probe["name"]: probe["displacement"][0] for probe in last["probes"]}
         print(f"drag_{mu}: the foot lags behind: {'sound' if probes['foot'] < probes['top'] else probes}")
-        say(f"drag_{mu}: friction is its coefficient times the pressure", last["pairs"][0]["shear_force"] / last["pairs"][0]["normal_force"] / mu - 1, 1e-3)
+        say(f"drag_{mu}: friction is its coefficient times the pressure",
+            last["pairs"][0]["shear_force"] / last["pairs"][0]["normal_force"] / mu - 1, 1e-3)
     faces = {face["name"]: face["reaction"] for face in steps["elsewhere"][-1]["faces"]}
     say("elsewhere: the clamp holds the pull", faces["plate.xmin"][0] / -1e8 - 1, 1e-9)
     for pair in steps["stack"][-1]["pairs"]:

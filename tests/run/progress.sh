@@ -1,4 +1,5 @@
-# A run says how far it is: each load step, with time and what is left once that can be known; nothing of a short run, nothing with -quiet.
+# A run says how far it is: each load step, with time and what is left once that can be known; nothing of a short run,
+# nothing with -quiet.
 contact=$AMGF_DIR/bin/contact
 cat > press.yaml <<'YAML'
 bodies:
@@ -14,8 +15,11 @@ for scene in press linear; do
     mpiexec --oversubscribe -n $ranks "$contact" $scene.yaml -progress_every 1e-9 > log || echo "exit code $?"
     "$PYTHON" - <<'PY'
 import re
+
 said = [line.rstrip("\n") for line in open("log") if line.startswith("Progress")]
-form = re.compile(r"Progress: load step (\d) of 4(, iteration \d+ with an error of \S+ \(ends at 1e-\d\d\))?, (\d+) s so far(|, about \d+ s left)")
+form = re.compile(
+    r"Progress: load step (\d) of 4(, iteration \d+ with an error of \S+ \(ends at 1e-\d\d\))?, (\d+) s so "
+    r"far(|, about \d+ s left)")
 words = [form.fullmatch(line) for line in said]
 print("each line says it:", all(words) or said)
 print("load steps:", sorted({int(word[1]) for word in words}))

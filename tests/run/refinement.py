@@ -9,9 +9,11 @@ from summaries import each, load, say, within
 
 PRESSURE, YOUNG, POISSON = 1.0, 100.0, 0.3
 
-# A quarter of half a ball on a rigid plane; the force at an approach of 0.5 is that of 37,791 unknowns in zones of three levels after a uniform one, where 18,372 say 19485; 414,222 of uniform refinement say 19278
+# A quarter of half a ball on a rigid plane; the force at an approach of 0.5 is that of 37,791 unknowns in zones of
+# three levels after a uniform one, where 18,372 say 19485; 414,222 of uniform refinement say 19278
 HERTZ, FORCE = """bodies:
-  - ball: {shape: ball, center: [0, 0, 50], octant: [1, 1, -1], radius: 50, patches: [4, 4, 4], layers: 4, young: 20000, poisson: 0.3}
+  - ball: {shape: ball, center: [0, 0, 50], octant: [1, 1, -1], radius: 50, patches: [4, 4, 4], layers: 4, young: 20000,
+           poisson: 0.3}
   - plane: {lower: [0, 0, -5], upper: [30, 30, 0], cells: [1, 1, 1], material: rigid}
 displacements:
   - rigid: {body: plane, value: [0, 0, 0]}
@@ -23,7 +25,8 @@ contact:
 
 SLIDE = """bodies:
   - base: {lower: [-2, -2, -2], upper: [2, 2, 0], cells: [4, 4, 2], young: 10, poisson: 0.3}
-  - ball: {shape: ball, center: [0, 0, 3.02], octant: [1, 1, -1], radius: 3, patches: [4, 4, 2], layers: 3, young: 30, poisson: 0.3}
+  - ball: {shape: ball, center: [0, 0, 3.02], octant: [1, 1, -1], radius: 3, patches: [4, 4, 2], layers: 3, young: 30,
+           poisson: 0.3}
 displacements:
   - fix: {face: base.zmin, value: [0, 0, 0]}
   - down: {face: ball.z0, value: [0.05, 0, -0.2]}
@@ -38,7 +41,8 @@ TWO = "{steps: 2}"
 
 SCENES = {
     "ball": """bodies:
-  - ball: {shape: ball, center: [0, 0, 0], octant: [1, 1, 1], radius: 2, patches: [3, 3, 3], layers: 3, young: 100, poisson: 0.3}
+  - ball: {shape: ball, center: [0, 0, 0], octant: [1, 1, 1], radius: 2, patches: [3, 3, 3], layers: 3, young: 100,
+           poisson: 0.3}
 symmetry: [ball.x0, ball.y0, ball.z0]
 pressures:
   - all: {face: ball.surface, value: 1}
@@ -73,7 +77,8 @@ refinements:
 """,
     # a symmetry plane along no axis, hanging vertices on it
     "plane": """bodies:
-  - arc: {shape: tube_arc, axis: y, center: [0, 0, 0], radii: [1, 2], angles: [-90, -30], extent: [0, 1], cells: [2, 6, 2], young: 100, poisson: 0.3}
+  - arc: {shape: tube_arc, axis: y, center: [0, 0, 0], radii: [1, 2], angles: [-90, -30], extent: [0, 1],
+          cells: [2, 6, 2], young: 100, poisson: 0.3}
 pressures:
   - inner: {face: arc.inner, value: 1}
   - outer: {face: arc.outer, value: 1}
@@ -88,15 +93,19 @@ refinements:
     "finite": SLIDE.replace("poisson: 0.3}", "poisson: 0.3, material: neohookean}") % TWO,
     "node": SLIDE.replace("friction: 0.3", "gap: node") % TWO,
     "hertz": HERTZ,
-    "hertz_by_hand": HERTZ + "refinements:\n  - wide: {near: touch, levels: 2, distance: 4}\n  - middle: {near: touch, levels: 3, distance: 2}\n  - close: {near: touch, levels: 4, distance: 0.8}\n",
+    "hertz_by_hand": HERTZ +
+    ("refinements:\n  - wide: {near: touch, levels: 2, distance: 4}\n"
+     "  - middle: {near: touch, levels: 3, distance: 2}\n  - close: {near: touch, levels: 4, distance: 0.8}\n"),
 }
 
 
 def fields(name):
-    """(vertices, displacements, stress of the cells as xx xy xz yy yz zz, pressure of the contact at vertices that have any)"""
+    """(vertices, displacements, stress of the cells as xx xy xz yy yz zz, pressure of the contact at vertices that have
+    any)"""
     with h5py.File(name + ".h5") as mesh, h5py.File(name + "_0001.h5") as step:
         pressure = step["contact_pressure"][...]
-        return mesh["vertices"][...], step["displacement"][...].reshape(-1, 3), step["stress"][...], pressure[~np.isnan(step["contact_gap"][...])]
+        return mesh["vertices"][...], step["displacement"][...].reshape(
+            -1, 3), step["stress"][...], pressure[~np.isnan(step["contact_gap"][...])]
 
 
 def off(stress, exact):
@@ -107,13 +116,18 @@ def off(stress, exact):
 def judge_patches(title, end):
     x, u, stress, _ = fields("ball" + end)
     bulk = YOUNG / (3 * (1 - 2 * POISSON))
-    say(title + "a ball under pressure, four levels: stress and displacement to 1e-11", off(stress, [-PRESSURE] * 3) < 1e-11 and np.abs(u + x * PRESSURE / (3 * bulk)).max() < 1e-11 * np.abs(u).max(), off(stress, [-PRESSURE] * 3))
+    say(title + "a ball under pressure, four levels: stress and displacement to 1e-11",
+        off(stress, [-PRESSURE] * 3) < 1e-11 and np.abs(u + x * PRESSURE / (3 * bulk)).max() < 1e-11 * np.abs(u).max(),
+        off(stress, [-PRESSURE] * 3))
     _, _, stress, pressure = fields("blocks" + end)
-    say(title + "blocks in contact: stress and pressure to 1e-8", off(stress, [0, 0, -0.01]) < 1e-10 and np.abs(np.abs(pressure) - 0.01).max() < 1e-10, (off(stress, [0, 0, -0.01]), pressure))
+    say(title + "blocks in contact: stress and pressure to 1e-8",
+        off(stress, [0, 0, -0.01]) < 1e-10 and np.abs(np.abs(pressure) - 0.01).max() < 1e-10,
+        (off(stress, [0, 0, -0.01]), pressure))
     _, _, stress, _ = fields("tied" + end)
     say(title + "blocks that are tied: stress to 1e-11", off(stress, [0, 0, 0.1]) < 1e-12, off(stress, [0, 0, 0.1]))
     _, _, stress, _ = fields("plane" + end)
-    say(title + "an arc on a plane along no axis: stress to 1e-11", off(stress, [-PRESSURE] * 3) < 1e-11, off(stress, [-PRESSURE] * 3))
+    say(title + "an arc on a plane along no axis: stress to 1e-11",
+        off(stress, [-PRESSURE] * 3) < 1e-11, off(stress, [-PRESSURE] * 3))
 
 
 def judge():
@@ -122,15 +136,27 @@ def judge():
     ranks = [n for n in (1, 2, 3, 5) if os.path.exists("slide_%d.json" % n)]
     runs = [load("slide_%d" % n) for n in ranks]
     one = runs[0]
-    say("%s ranks: the same unknowns, energies to 1e-9" % ", ".join(map(str, ranks)), all(r["dofs"] == one["dofs"] and all(within(a, b, 1e-9) for a, b in zip(each(r, "energy"), each(one, "energy"))) for r in runs), [each(r, "energy") for r in runs])
-    say("with friction: the forces balance", all(s["balance"] < 1e-7 and s["action_reaction"] < 1e-7 for s in one["steps"]), each(one, "balance"))
+    say(
+        "%s ranks: the same unknowns, energies to 1e-9" % ", ".join(map(str, ranks)),
+        all(r["dofs"] == one["dofs"] and all(
+            within(a, b, 1e-9)
+            for a, b in zip(each(r, "energy"), each(one, "energy")))
+            for r in runs), [each(r, "energy") for r in runs])
+    say("with friction: the forces balance",
+        all(s["balance"] < 1e-7 and s["action_reaction"] < 1e-7 for s in one["steps"]), each(one, "balance"))
     energy = one["steps"][-1]["energy"]
-    say("refined uniformly beforehand: the energy falls, by less than 5 %", 0.95 < load("finer")["steps"][-1]["energy"] / energy < 1, load("finer")["steps"][-1]["energy"] / energy)
-    say("finite strain, node to segment: within 3 % of it", all(within(load(name)["steps"][-1]["energy"], energy, 0.03) for name in ("finite", "node")), [load(name)["steps"][-1]["energy"] for name in ("finite", "node")])
-    say("going on from a checkpoint on other ranks: the same", within(load("again")["steps"][-1]["energy"], energy, 1e-6), (load("again")["steps"][-1]["energy"], energy))
+    say("refined uniformly beforehand: the energy falls, by less than 5 %",
+        0.95 < load("finer")["steps"][-1]["energy"] / energy < 1,
+        load("finer")["steps"][-1]["energy"] / energy)
+    say("finite strain, node to segment: within 3 % of it",
+        all(within(load(name)["steps"][-1]["energy"], energy, 0.03) for name in ("finite", "node")),
+        [load(name)["steps"][-1]["energy"] for name in ("finite", "node")])
+    say("going on from a checkpoint on other ranks: the same",
+        within(load("again")["steps"][-1]["energy"], energy, 1e-6), (load("again")["steps"][-1]["energy"], energy))
     uniform, hand = load("uniform"), load("hand")
     errors = [abs(r["steps"][0]["pairs"][0]["normal_force"] / FORCE - 1) for r in (uniform, hand)]
-    say("Hertz: fewer unknowns, a quarter of the error in force, and below 3 %", hand["dofs"] < uniform["dofs"] and errors[1] < 0.25 * errors[0] and errors[1] < 0.03, (uniform["dofs"], hand["dofs"], errors))
+    say("Hertz: fewer unknowns, a quarter of the error in force, and below 3 %", hand["dofs"] < uniform["dofs"]
+        and errors[1] < 0.25 * errors[0] and errors[1] < 0.03, (uniform["dofs"], hand["dofs"], errors))
 
 
 if __name__ == "__main__":

@@ -1,18 +1,22 @@
-# Cells refined where a scene says so: uniform stress to rounding over hanging vertices of curved and nested cells, through contact and ties; the same mesh
-# and answer on any number of ranks (refinement_long: on more); Hertz's ball with fewer unknowns than uniform refinement; going on from a checkpoint; what is refused, in one sentence.
+# Cells refined where a scene says so: uniform stress to rounding over hanging vertices of curved and nested cells,
+# through contact and ties; the same mesh and answer on any number of ranks (refinement_long: on more); Hertz's ball
+# with fewer unknowns than uniform refinement; going on from a checkpoint; what is refused, in one sentence.
 contact=$AMGF_DIR/bin/contact
 long=${1-}
 "$PYTHON" "$AMGF_DIR/tests/run/refinement.py" write
 tight="-elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-12"
 for scene in ball blocks tied plane; do
   "$contact" $scene.yaml -quiet -summary $scene.json -output $scene $tight || echo "$scene: exit code $?"
-  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json -output ${scene}_3 $tight || echo "$scene, three ranks: exit code $?"
+  mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json -output ${scene}_3 $tight ||
+    echo "$scene, three ranks: exit code $?"
 done
-for ranks in 1 3 ${long:+2 5}; do mpiexec --oversubscribe -n $ranks "$contact" slide.yaml -quiet -summary slide_$ranks.json || echo "slide, $ranks ranks: exit code $?"; done
+for ranks in 1 3 ${long:+2 5}; do mpiexec --oversubscribe -n $ranks "$contact" slide.yaml -quiet \
+  -summary slide_$ranks.json || echo "slide, $ranks ranks: exit code $?"; done
 "$contact" slide.yaml -quiet -load_steps 1 -refine 1 -summary finer.json || echo "slide, refined: exit code $?"
 for scene in finite node; do "$contact" $scene.yaml -quiet -summary $scene.json || echo "$scene: exit code $?"; done
 "$contact" first.yaml -quiet -checkpoint_every 1 -checkpoint first.h5
-mpiexec --oversubscribe -n 3 "$contact" slide.yaml -quiet -restart first.h5 -summary again.json || echo "going on: exit code $?"
+mpiexec --oversubscribe -n 3 "$contact" slide.yaml -quiet -restart first.h5 -summary again.json ||
+  echo "going on: exit code $?"
 cat > nested.yaml <<END
 bodies:
   - low: {lower: [-1, -1, -1], upper: [1, 1, 0], cells: [3, 3, 2], young: 10, poisson: 0.3}
@@ -48,7 +52,8 @@ try "far away" "distance: 0.2" "distance: 0.001"
 try "a box that meets no cell" "near: touch" "lower: [5, 5, 5], upper: [6, 6, 6]"
 try "a box that misses the body it names" "near: touch" "lower: [-2, -2, 0.4], upper: [2, 2, 4], body: base"
 sed 's/near: touch, levels: 2, distance: 0.2/lower: [2, -2, -2], upper: [3, 2, 4], body: base/' slide.yaml > other.yaml
-"$contact" other.yaml -scene_check | grep "hang" # a box that touches the body at its border refines what it touches, as the documents say
+"$contact" other.yaml -scene_check | grep "hang" \
+  # a box that touches the body at its border refines what it touches, as the documents say
 try "misspelt" "distance: 0.2" "distanse: 0.2"
 try "no such body" "near: touch" "lower: [0, 0, 0], upper: [1, 1, 1], body: bass"
 try "order 2" "young: 10," "young: 10, order: 2,"

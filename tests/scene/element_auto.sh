@@ -1,4 +1,5 @@
-# The element of bodies that name none: -scene_check prints the choice and its reason; the run has the energy of the chosen element, of another order too
+# The element of bodies that name none: -scene_check prints the choice and its reason; the run has the energy of the
+# chosen element, of another order too
 cat > bodies.yaml <<'SCENE'
 bodies:
   - steel: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.3}
@@ -7,8 +8,10 @@ bodies:
   - seal: {lower: [6, 0, 0], upper: [7, 1, 1], cells: [1, 1, 1], material: mooney_rivlin, c10: 1, c01: 1, bulk: 100}
   - strip: {lower: [8, 0, 0], upper: [9, 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.45, material: saint_venant}
   - metal: {lower: [10, 0, 0], upper: [11, 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.3, material: j2, yield: 1}
-  - forged: {lower: [18, 0, 0], upper: [19, 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.3, material: j2_finite, yield: 1}
-  - forged2: {lower: [20, 0, 0], upper: [21, 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.3, material: j2_finite, yield: 1, order: 2}
+  - forged: {lower: [18, 0, 0], upper: [19, 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.3, material: j2_finite,
+             yield: 1}
+  - forged2: {lower: [20, 0, 0], upper: [21, 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.3, material: j2_finite,
+              yield: 1, order: 2}
   - fine: {lower: [12, 0, 0], upper: [13, 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.45, order: 2}
   - named: {lower: [14, 0, 0], upper: [15, 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.3, element: full}
   - tool: {lower: [16, 0, 0], upper: [17, 1, 1], cells: [1, 1, 1], material: rigid}
@@ -16,7 +19,8 @@ displacements:
   - tool: {body: tool, value: [0, 0, 0]}
 weak_springs: true
 SCENE
-"$AMGF_DIR/bin/contact" bodies.yaml -scene_check | sed -n 's/^  \([a-z0-9]*\): .*/\1/p; s/.*; element/  element/p' | sed '/problem/d' | head -21
+"$AMGF_DIR/bin/contact" bodies.yaml -scene_check | sed -n 's/^  \([a-z0-9]*\): .*/\1/p; s/.*; element/  element/p' |
+  sed '/problem/d' | head -21
 beam() { # name, keys of the beam
   cat > "$1.yaml" <<SCENE
 bodies:
@@ -37,7 +41,13 @@ beam full2 ", order: 2, element: full"
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'CHECK'
 from summaries import load, say, within
 
-energy = {name: load(name)["steps"][-1]["energy"] for name in ("auto", "said", "incompatible", "full", "auto2", "full2")}
-say("order 1: incompatible, not full", within(energy["auto"], energy["incompatible"], 1e-12) and energy["said"] == energy["auto"] and not within(energy["full"], energy["auto"], 0.1), energy)
+energy = {
+    name: load(name)["steps"][-1]["energy"]
+    for name in ("auto", "said", "incompatible", "full", "auto2", "full2")
+}
+say(
+    "order 1: incompatible, not full",
+    within(energy["auto"], energy["incompatible"], 1e-12) and energy["said"] == energy["auto"]
+    and not within(energy["full"], energy["auto"], 0.1), energy)
 say("order 2: full", within(energy["auto2"], energy["full2"], 1e-12), energy)
 CHECK

@@ -1,5 +1,5 @@
-# Warnings of a model that is used beyond what it can do, and none where it is not: a linear law strained or turned far, a
-# contact of one facet whose force swings, a nonmortar side that is coarser than the mortar side and not softer.
+# Warnings of a model that is used beyond what it can do, and none where it is not: a linear law strained or turned far,
+# a contact of one facet whose force swings, a nonmortar side that is coarser than the mortar side and not softer.
 contact=$AMGF_DIR/bin/contact
 run() { # name
   "$contact" "$1.yaml" -quiet -summary "$1.json" 2> "$1.log" || echo "$1: exit code $?"
@@ -48,7 +48,8 @@ for cells in 16 48; do
 problem: slide
 bodies:
   - flat: {lower: [-1, 0, -2], upper: [5, 1, 0], cells: [$cells, 1, 4], young: 100, poisson: 0.3, element: full}
-  - die: {shape: tube_arc, axis: y, center: [0.5, 0, 1], radii: [0.5, 1], angles: [90, 270], extent: [0, 1], cells: [2, 24, 1], young: 10e3, poisson: 0.3, element: full}
+  - die: {shape: tube_arc, axis: y, center: [0.5, 0, 1], radii: [0.5, 1], angles: [90, 270], extent: [0, 1],
+          cells: [2, 24, 1], young: 10e3, poisson: 0.3, element: full}
 symmetry: [flat.ymin, flat.ymax, die.lmin, die.lmax]
 displacements:
   - ground: {face: flat.zmin, value: [0, free, 0]}
@@ -82,7 +83,8 @@ SCENE
 sides coarse block.zmax foot.zmin
 sides fine foot.zmin block.zmax
 
-# Blocks with friction that ride side by side without stress: their works are rounding, and no share of them is warned of
+# Blocks with friction that ride side by side without stress: their works are rounding, and no share of them is warned
+# of
 cat > ride.yaml <<'SCENE'
 problem: ride
 bodies:
@@ -96,7 +98,8 @@ contact:
 SCENE
 run ride
 
-# A lid that is pressed through a cube: a linear law lets the cube pass through a thickness of zero. Half of that is warned of
+# A lid that is pressed through a cube: a linear law lets the cube pass through a thickness of zero. Half of that is
+# warned of
 for way in 0.5 1.5; do
   cat > lid.yaml <<SCENE
 problem: lid

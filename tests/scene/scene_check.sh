@@ -1,5 +1,5 @@
-# bin/contact -scene_check on every shipped scene: exit 0, the same words on one rank and on three, and no solve. Then one
-# scene in full, and a scene that is wrong.
+# bin/contact -scene_check on every shipped scene: exit 0, the same words on one rank and on three, and no solve. Then
+# one scene in full, and a scene that is wrong.
 contact=$AMGF_DIR/bin/contact
 for scene in "$AMGF_DIR"/share/scenes/*.yaml; do
   timeout 600 "$contact" "$scene" -scene_check > one 2>&1

@@ -1,4 +1,5 @@
-# What bin/contact says to bad input, on one rank and on three: its exit code, and one sentence. A run of ten minutes hangs.
+# What bin/contact says to bad input, on one rank and on three: its exit code, and one sentence. A run of ten minutes
+# hangs.
 contact=$AMGF_DIR/bin/contact
 sound=$AMGF_DIR/share/scenes/two_block.yaml
 

@@ -1,4 +1,5 @@
-"""The reference of keys in share/scenes/README.md is what contact -scene_keys prints: python scene_keys.py check|write."""
+"""The reference of keys in share/scenes/README.md is what contact -scene_keys prints: python scene_keys.py
+check|write."""
 import os
 import subprocess
 import sys
@@ -9,7 +10,8 @@ BEGIN, END = "<!-- contact -scene_keys -->\n", "<!-- end of contact -scene_keys 
 
 
 def main(action):
-    printed = subprocess.run([os.path.join(TOP, "bin", "contact"), "-scene_keys"], capture_output=True, text=True, check=True).stdout
+    printed = subprocess.run([os.path.join(TOP, "bin", "contact"), "-scene_keys"], capture_output=True, text=True,
+                             check=True).stdout
     with open(PAGE) as file:
         before, _, rest = file.read().partition(BEGIN)
     written, _, after = rest.partition(END)
@@ -18,7 +20,8 @@ def main(action):
             file.write(before + BEGIN + "\n" + printed + "\n" + END + after)
     else:
         same = written.strip() == printed.strip()
-        print("the page's reference of keys is what -scene_keys prints:", "yes" if same else "NO: python3 tests/scene/scene_keys.py write")
+        print("the page's reference of keys is what -scene_keys prints:",
+              "yes" if same else "NO: python3 tests/scene/scene_keys.py write")
         for line in () if same else [line for line in printed.splitlines() if line not in written.splitlines()][:5]:
             print("  missing:", line)
         without = [line for line in printed.splitlines() if line.startswith("| `") and not line.split("|")[4].strip()]

@@ -1,7 +1,10 @@
-"""Damages scenes, meshes, checkpoints and option values at random, and runs each: python scene_mutations.py NUMBER [SEED [FIRST]].
+"""Damages scenes, meshes, checkpoints and option values at random, and runs each: python scene_mutations.py NUMBER
+[SEED [FIRST]].
 
-A run must end with a documented exit code and, where it is not 0, with one sentence for each cause; with 0 all numbers of its summary must be finite.
-What it refuses leaves the results of an earlier run as they are. Scenes: those of small_scenes.sh, in the present folder."""
+A run must end with a documented exit code and, where it is not 0, with one sentence for each cause; with 0 all numbers
+of its summary must be finite.
+What it refuses leaves the results of an earlier run as they are. Scenes: those of small_scenes.sh, in the present
+folder."""
 import copy
 import glob
 import hashlib
@@ -21,15 +24,26 @@ import yaml
 TOP = os.environ["AMGF_DIR"]
 CONTACT = os.environ.get("CONTACT") or os.path.join(TOP, "bin", "contact")
 MEMORY, SECONDS = 6 << 30, 240
-VALUES = ["nan", "inf", "-inf", "1e308", "-1e308", "1e-308", "0", "-1", "1", "2.5", "1e6", "-1e-6", "99999999999", "word", "true", "", "~", "[]", "{}", "[nan]",
-          "[0, 0, 0]", "[1, 2]", "[1, 2, 3, 4]", "{a: 1}", "free", "x", "1/0", "sqrt(-1)", "cube.zmin", "a b", "%s%n", "0x10", "1e", "2nd", "é"]
-OPTIONS = ["refine", "load_steps", "contact_updates", "contact_update_tol", "contact_gap_tol", "contact_gap", "accuracy", "accuracy_max_dofs", "accuracy_share", "load_max_cuts",
-           "checkpoint_every", "contact_penalty", "tao_ipfilter_tol", "tao_max_it", "tao_ipfilter_mu_init", "elasticity_quadrature", "tao_ipfilter_scaling", "tao_type",
-           "load_warm_start", "tao_ipfilter_subspace", "accuracy_of", "elasticity_ksp_rtol", "tao_ipfilter_pc_amgf_cycle", "tao_ipfilter_pc_amgf_factor", "restart", "summary"]
-OPTION_VALUES = ["nan", "inf", "-1", "0", "1", "3", "1e308", "1e-308", "abc", "99999999999999999999", "", "1,2", "true", "0.5", "-0.5", "1e-3", "2.5", "%s%n", "."]
+VALUES = [
+    "nan", "inf", "-inf", "1e308", "-1e308", "1e-308", "0", "-1", "1", "2.5", "1e6", "-1e-6", "99999999999", "word",
+    "true", "", "~", "[]", "{}", "[nan]", "[0, 0, 0]", "[1, 2]", "[1, 2, 3, 4]", "{a: 1}", "free", "x", "1/0",
+    "sqrt(-1)", "cube.zmin", "a b", "%s%n", "0x10", "1e", "2nd", "é"
+]
+OPTIONS = [
+    "refine", "load_steps", "contact_updates", "contact_update_tol", "contact_gap_tol", "contact_gap", "accuracy",
+    "accuracy_max_dofs", "accuracy_share", "load_max_cuts", "checkpoint_every", "contact_penalty", "tao_ipfilter_tol",
+    "tao_max_it", "tao_ipfilter_mu_init", "elasticity_quadrature", "tao_ipfilter_scaling", "tao_type",
+    "load_warm_start", "tao_ipfilter_subspace", "accuracy_of", "elasticity_ksp_rtol", "tao_ipfilter_pc_amgf_cycle",
+    "tao_ipfilter_pc_amgf_factor", "restart", "summary"
+]
+OPTION_VALUES = [
+    "nan", "inf", "-1", "0", "1", "3", "1e308", "1e-308", "abc", "99999999999999999999", "", "1,2", "true", "0.5",
+    "-0.5", "1e-3", "2.5", "%s%n", "."
+]
 
 
 class Pair:
+
     def __init__(self, key, value):
         self.key, self.value = key, value
 
@@ -72,7 +86,7 @@ def change(scene, draw):
         return "twice " + name
     if what == 2 and isinstance(entry, Pair) and name:
         at = draw.randrange(len(name))
-        entry.key = name[:at] + draw.choice("xX_-9é ") + name[at + draw.randrange(2) :]
+        entry.key = name[:at] + draw.choice("xX_-9é ") + name[at + draw.randrange(2):]
         return "%s named %s" % (name, entry.key)
     value = draw.choice(VALUES)
     if what == 3:
@@ -98,7 +112,8 @@ def spoil_text(text, draw):
     elif what == 2:
         return "\n".join(lines[:i]) + "\n", "cut in line %d" % (i + 1)
     else:
-        words[draw.randrange(len(words))] = draw.choice(["nan", "-1", "0", "1e308", "99999999999", "word", "", "1e-30", "2.5", "\x00", "7"])
+        words[draw.randrange(len(words))] = draw.choice(
+            ["nan", "-1", "0", "1e308", "99999999999", "word", "", "1e-30", "2.5", "\x00", "7"])
         lines[i] = " ".join(words)
     return "\n".join(lines), "line %d, change %d" % (i + 1, what)
 
@@ -109,7 +124,7 @@ def spoil_checkpoint(name, draw):
         with open(name, "rb") as file:
             data = bytearray(file.read())
         if draw.random() < 0.3:
-            data = data[: draw.randrange(len(data))]
+            data = data[:draw.randrange(len(data))]
         for _ in range(draw.randrange(1, 20)):
             if data:
                 data[draw.randrange(len(data))] = draw.randrange(256)
@@ -124,10 +139,11 @@ def spoil_checkpoint(name, draw):
         numbers = np.issubdtype(np.asarray(old).dtype, np.number)
         new = np.array(old)
         if what == "size":
-            new = new[: len(new) // 2] if new.ndim and len(new) else np.array([value] * 3)
+            new = new[:len(new) // 2] if new.ndim and len(new) else np.array([value] * 3)
         elif what == "number" and numbers and new.size:
             with np.errstate(all="ignore"):
-                new.flat[draw.randrange(new.size)] = value if np.issubdtype(new.dtype, np.floating) or math.isfinite(value) and abs(value) < 2**31 else -7
+                new.flat[draw.randrange(new.size)] = value if np.issubdtype(
+                    new.dtype, np.floating) or math.isfinite(value) and abs(value) < 2**31 else -7
         where = file.attrs if key in file.attrs else file
         del where[key]
         if what != "gone":
@@ -150,7 +166,11 @@ def judge(end, before):
     said = [line for line in end.stderr.split("\n") if line.strip()]
     ours = [line for line in said if line.startswith("contact: ")]
     errors = [line for line in ours if not line.startswith("contact: warning: ")]
-    strange = [line for line in said if line not in ours and "HDF5" not in line and not line.startswith(("-----", "MPI_ABORT", "with errorcode", "NOTE:", "You may", "exactly when", "[vm", "mpiexec", "the job", "Primary", "a non-zero", "  Process", "  Exit"))]
+    strange = [
+        line for line in said if line not in ours and "HDF5" not in line and not line.startswith(
+            ("-----", "MPI_ABORT", "with errorcode", "NOTE:", "You may", "exactly when", "[vm", "mpiexec", "the job",
+             "Primary", "a non-zero", "  Process", "  Exit"))
+    ]
     if end.returncode not in range(7):
         return "exit code %d" % end.returncode
     if end.returncode and not errors:
@@ -174,14 +194,17 @@ def run(command, ranks):
         command = ["mpiexec", "--oversubscribe", "-n", str(ranks)] + command
     limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     try:
-        return subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=SECONDS, preexec_fn=limit if ranks == 1 else None)
+        return subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=SECONDS,
+                              preexec_fn=limit if ranks == 1 else None)
     except subprocess.TimeoutExpired:
         return None
 
 
 def attempt(number, seed, scenes):
     draw = random.Random("%s %d" % (seed, number))
-    options, kind, what, name = [], draw.choice(["scene"] * 5 + ["option", "option", "mesh", "checkpoint"]), "", draw.choice(sorted(scenes))
+    options, kind, what, name = [], draw.choice(["scene"] * 5 +
+                                                ["option", "option", "mesh", "checkpoint"]), "", draw.choice(
+                                                    sorted(scenes))
     ranks = 3 if draw.random() < 0.15 else 1
     if kind == "mesh":
         name = "gmsh_blocks"
@@ -222,20 +245,29 @@ def attempt(number, seed, scenes):
         os.makedirs("found", exist_ok=True)
         for file in ["bad.yaml"] + {"checkpoint": ["bad.h5"], "mesh": ["two_blocks.msh"]}.get(kind, []):
             shutil.copy(file, "found/%d_%s" % (number, file))
-        print("%d: %s, %s, %s, ranks %d: %s\n  %s\n  %s" % (number, kind, name, what, ranks, wrong, " ".join(command[2:]), end.stderr.strip()[:600] if end else ""), flush=True)
+        print(
+            "%d: %s, %s, %s, ranks %d: %s\n  %s\n  %s" %
+            (number, kind, name, what, ranks, wrong, " ".join(command[2:]), end.stderr.strip()[:600] if end else ""),
+            flush=True)
     return kind, end.returncode if end else "limit", bool(wrong)
 
 
 def main():
     scenes = {os.path.basename(name)[:-5]: open(name).read() for name in glob.glob("*.yaml") if name != "bad.yaml"}
-    scenes["gmsh_blocks"] = open(os.path.join(TOP, "share", "scenes", "gmsh_blocks.yaml")).read().replace("../gmsh/", os.path.join(TOP, "share", "gmsh") + "/")
+    scenes["gmsh_blocks"] = open(os.path.join(TOP, "share", "scenes", "gmsh_blocks.yaml")).read().replace(
+        "../gmsh/",
+        os.path.join(TOP, "share", "gmsh") + "/")
     subprocess.run([CONTACT, "linear.yaml", "-quiet", "-output", "earlier", "-summary", "earlier.json"], check=True)
     subprocess.run([CONTACT, "rubber.yaml", "-quiet", "-checkpoint", "rubber.h5", "-checkpoint_every", "1"], check=True)
     first = int(sys.argv[3]) if len(sys.argv) > 3 else 0
-    ends = [attempt(number, sys.argv[2] if len(sys.argv) > 2 else "1", scenes) for number in range(first, first + int(sys.argv[1]))]
+    ends = [
+        attempt(number, sys.argv[2] if len(sys.argv) > 2 else "1", scenes)
+        for number in range(first, first + int(sys.argv[1]))
+    ]
     if os.environ.get("COUNTS"):
         print({end: sum(e[1] == end for e in ends) for end in {e[1] for e in ends}})
-    print("every run ends with a documented exit code and a sentence, and leaves earlier results: %s" % ("NO, %d of %d" % (sum(e[2] for e in ends), len(ends)) if any(e[2] for e in ends) else "yes"))
+    print("every run ends with a documented exit code and a sentence, and leaves earlier results: %s" %
+          ("NO, %d of %d" % (sum(e[2] for e in ends), len(ends)) if any(e[2] for e in ends) else "yes"))
 
 
 main()

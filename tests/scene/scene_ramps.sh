@@ -13,14 +13,19 @@ energy() {
 compare() {
   "$PYTHON" - "$@" <<'PY'
 import sys
+
 a, b = ([float(x) for x in text.split()] for text in sys.argv[2:4])
-print(sys.argv[1] + ":", "same" if len(a) == len(b) and all(abs(x - y) <= 1e-8 * max(abs(y), 1e-12) for x, y in zip(a, b)) else "%s is not %s" % (a, b))
+print(
+    sys.argv[1] + ":",
+    "same" if len(a) == len(b) and all(abs(x - y) <= 1e-8 * max(abs(y), 1e-12)
+                                       for x, y in zip(a, b)) else "%s is not %s" % (a, b))
 PY
 }
 
 both=$(energy <<YAML
 $bodies
-displacements: [$floor, press: {face: bar.zmax, value: [free, 0, -0.1], ramp: down}, slide: {face: bar.zmax, value: [0.2, free, free], ramp: along}]
+displacements: [$floor, press: {face: bar.zmax, value: [free, 0, -0.1], ramp: down}, slide: {face: bar.zmax,
+    value: [0.2, free, free], ramp: along}]
 load: {steps: 3}
 ramps: [down: {factors: [1/2, 1, 1]}, along: {factors: [0, 0, 1]}]
 YAML
@@ -40,7 +45,8 @@ compare "two displacements of a face" "$both" "$one $all"
 
 counted=$(energy <<YAML
 $bodies
-displacements: [$floor, press: {face: bar.zmax, value: [free, 0, -0.1], ramp: down}, slide: {face: bar.zmax, value: [0.2, free, free], ramp: along}]
+displacements: [$floor, press: {face: bar.zmax, value: [free, 0, -0.1], ramp: down}, slide: {face: bar.zmax,
+    value: [0.2, free, free], ramp: along}]
 ramps: [down: {factors: [1/2, 1, 1]}, along: {factors: [0, 0, 1]}]
 YAML
 )

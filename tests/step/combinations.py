@@ -1,4 +1,5 @@
-"""Every two effects of a scene together: they run to forces in balance, or are refused by one sentence. python combinations.py [part | table | triples N | with EFFECT]"""
+"""Every two effects of a scene together: they run to forces in balance, or are refused by one sentence. python
+combinations.py [part | table | triples N | with EFFECT]"""
 import itertools
 import json
 import os
@@ -32,12 +33,17 @@ class Scene:
         self.lists.setdefault(section, []).append(entry)
 
     def text(self):
-        bodies = "".join(BODY % (name, self.shape[name], self.law[name] + self.constants) for name in ("low", "top")) + self.bodies
-        lists = "".join("%s:\n%s" % (name, "".join("  - %s\n" % entry for entry in entries)) for name, entries in self.lists.items() if entries)
+        bodies = "".join(BODY % (name, self.shape[name], self.law[name] + self.constants)
+                         for name in ("low", "top")) + self.bodies
+        lists = "".join("%s:\n%s" % (name, "".join("  - %s\n" % entry
+                                                   for entry in entries))
+                        for name, entries in self.lists.items()
+                        if entries)
         return "bodies:\n" + bodies + lists + "".join(line + "\n" for line in self.top)
 
 
 def law(text):
+
     def change(scene):
         scene.law = {name: text + old for name, old in scene.law.items()}
 
@@ -102,14 +108,17 @@ def follows(scene):
 
 
 def rotation(scene):
-    scene.lists["displacements"][0] = "floor: {face: low.zmin, value: [0, 0, 0], rotation: [0, 0, 0.2], center: [1.5, 1, 0]}"
+    scene.lists["displacements"][
+        0] = "floor: {face: low.zmin, value: [0, 0, 0], rotation: [0, 0, 0.2], center: [1.5, 1, 0]}"
 
 
 def tetrahedra(order, *names):
+
     def change(scene):
         for name in names:
             lower, upper = CORNERS[name]
-            cells = Block(order, [2, 2, 1], lambda p, a=lower, b=upper: [x + t * (y - x) for x, y, t in zip(a, b, p)], BOX_FACES)
+            cells = Block(order, [2, 2, 1], lambda p, a=lower, b=upper: [x + t * (y - x) for x, y, t in zip(a, b, p)],
+                          BOX_FACES)
             cells.write("%s_%d.msh" % (name, order), "2.2")
             scene.shape[name] = "mesh: %s_%d.msh, volume: block" % (name, order)
             scene.law[name] += "order: 1, " if order == 1 else ""
@@ -197,7 +206,10 @@ EFFECTS = {
 
 
 def run(scene, *more):
-    command = [CONTACT, "combination.yaml", "-quiet", "-tao_ipfilter_tol", "1e-11", "-summary", "combination.json", *scene.options, *more]
+    command = [
+        CONTACT, "combination.yaml", "-quiet", "-tao_ipfilter_tol", "1e-11", "-summary", "combination.json",
+        *scene.options, *more
+    ]
     if scene.ranks > 1:
         command = ["mpiexec", "--oversubscribe", "-n", str(scene.ranks), *command]
     return subprocess.run(command, capture_output=True, text=True, timeout=1200)
@@ -205,8 +217,9 @@ def run(scene, *more):
 
 def off(step):
     """Forces out of balance on any body by the largest forces on one"""
-    size = lambda vector: sum(x * x for x in vector) ** 0.5
-    largest = max(sum(size(body[kind]) for kind in ("contact", "reaction", "springs", "ties", "load")) for body in step["bodies"])
+    size = lambda vector: sum(x * x for x in vector)**0.5
+    largest = max(
+        sum(size(body[kind]) for kind in ("contact", "reaction", "springs", "ties", "load")) for body in step["bodies"])
     return max(size(body["residual"]) for body in step["bodies"]) / largest
 
 
@@ -219,8 +232,14 @@ def judge(names):
         file.write("problem: combination\n" + scene.text())
     if os.path.exists("combination.json"):
         os.remove("combination.json")
-    end = run(scene, *(["-checkpoint_every", "1", "-checkpoint", "combination_state.h5", "-load_steps", "2"] if scene.restarts else []))
-    said = [text for text in (end.stderr + end.stdout).splitlines() if "contact: error" in text or "contact: load step" in text]
+    end = run(
+        scene,
+        *(["-checkpoint_every", "1", "-checkpoint", "combination_state.h5", "-load_steps", "2"]
+          if scene.restarts else []))
+    said = [
+        text for text in (end.stderr + end.stdout).splitlines()
+        if "contact: error" in text or "contact: load step" in text
+    ]
     if end.returncode == 1 and len(said) == 1:
         return "refused", said[0].split("contact: error: ")[-1]
     if end.returncode:
@@ -233,12 +252,16 @@ def judge(names):
 
 
 # By themselves only: they change nothing of what is solved, or little
-ALONE = {"tetrahedra of 4 nodes", "pad", "follower", "Mooney-Rivlin", "orthotropic", "gap node", "edge", "probe", "library", "output", "one gap", "refined", "local refinement", "body force", "expression"}
+ALONE = {
+    "tetrahedra of 4 nodes", "pad", "follower", "Mooney-Rivlin", "orthotropic", "gap node", "edge", "probe", "library",
+    "output", "one gap", "refined", "local refinement", "body force", "expression"
+}
 TABLE = {}
 
 
 def chosen(words):
-    """Each alone and each two, or a quarter of the twos, always the same ones; of all effects for the table; or so many of three; or one with each other"""
+    """Each alone and each two, or a quarter of the twos, always the same ones; of all effects for the table; or so many
+    of three; or one with each other"""
     if words[:1] == ["triples"]:
         return random.Random(1).sample(list(itertools.combinations(EFFECTS, 3)), int(words[1]))
     if words[:1] == ["with"]:
@@ -246,11 +269,14 @@ def chosen(words):
     pairs = list(itertools.combinations([name for name in EFFECTS if name not in ALONE or words[:1] == ["table"]], 2))
     if words[:1] == ["part"]:
         pairs = random.Random(1).sample(pairs, len(pairs) // 4)
-    return [(name,) for name in EFFECTS] + pairs
+    return [(name, ) for name in EFFECTS] + pairs
 
 
 for pair in chosen(sys.argv[1:]):
-    first = [line.split(":")[0] for name in pair for scene in [Scene()] for _ in [EFFECTS[name](scene)] for text in scene.top for line in text.split("\n")]
+    first = [
+        line.split(":")[0] for name in pair for scene in [Scene()] for _ in [EFFECTS[name](scene)] for text in scene.top
+        for line in text.split("\n")
+    ]
     if len(set(first)) < len(first):
         continue  # the two say one key
     TABLE[pair] = judge(pair)
@@ -259,9 +285,11 @@ print("effects that do not run by themselves:", alone or "none")
 for pair, (end, why) in TABLE.items():
     if end not in ("runs", "refused"):
         print(" and ".join(pair), "-", end, why)
-print("each two together run or are refused by one sentence: %s" % ("yes" if all(end in ("runs", "refused") for end, _ in TABLE.values()) else "no"))
+print("each two together run or are refused by one sentence: %s" %
+      ("yes" if all(end in ("runs", "refused") for end, _ in TABLE.values()) else "no"))
 if sys.argv[1:] not in ([], ["part"]):
-    print(len(EFFECTS), "effects,", sum(end == "runs" for end, _ in TABLE.values()), "run,", sum(end == "refused" for end, _ in TABLE.values()), "refused")
+    print(len(EFFECTS), "effects,", sum(end == "runs" for end, _ in TABLE.values()), "run,",
+          sum(end == "refused" for end, _ in TABLE.values()), "refused")
     for pair, (end, why) in TABLE.items():
         if end == "refused":
             print("|", " and ".join(pair), "|", why, "|")

@@ -1,12 +1,16 @@
-# Newton's method for the contact updates: at most five updates a load step on curved faces, where fixed point iterations take six; on one rank and
-# on two. At most eight where fixed point iterations move away from the solution, without damping
+# Newton's method for the contact updates: at most five updates a load step on curved faces, where fixed point
+# iterations take six; on one rank and on two. At most eight where fixed point iterations move away from the solution,
+# without damping
 for ranks in 1 2; do
-  mpiexec --oversubscribe -n $ranks "$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/beam_sphere_linear.yaml" -quiet -summary $ranks.json
+  mpiexec --oversubscribe -n $ranks "$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/beam_sphere_linear.yaml" -quiet \
+    -summary $ranks.json
   echo "$ranks ranks: exit $?"
 done
-"$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/beam_sphere_neo_hookean.yaml" -quiet -error_estimate 0 -summary finite.json 2> err
+"$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/beam_sphere_neo_hookean.yaml" -quiet -error_estimate 0 \
+  -summary finite.json 2> err
 echo "finite strain: exit $?"
-"$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/two_block.yaml" -quiet -refine 1 -contact_updates 20 -summary blocks.json
+"$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/two_block.yaml" -quiet -refine 1 -contact_updates 20 \
+  -summary blocks.json
 echo "two blocks: exit $?"
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'PY'
 from summaries import load, say, within
@@ -15,7 +19,8 @@ ENERGY = 5.764763  # with -contact_update_tol 1e-9, with quadrature rules of deg
 for ranks in "1", "2":
     steps = load(ranks)["steps"]
     updates = [step["contact_updates"] for step in steps]
-    say(f"{ranks} ranks: at most 5 updates a load step, 4 in the mean", max(updates) <= 5 and sum(updates) <= 4 * len(updates), updates)
+    say(f"{ranks} ranks: at most 5 updates a load step, 4 in the mean",
+        max(updates) <= 5 and sum(updates) <= 4 * len(updates), updates)
     say("energy", within(steps[-1]["energy"], ENERGY, 1e-6), steps[-1]["energy"])
 updates = [step["contact_updates"] for step in load("finite")["steps"]]
 say("finite strain: at most 5 updates a load step", max(updates) <= 5, updates)

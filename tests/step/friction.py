@@ -1,4 +1,5 @@
-"""Scenes with friction, and what is known of them: statics of a block that is pushed, Cattaneo's and Mindlin's cylinder, a shaft pushed out of its hub, a load cycle.
+"""Scenes with friction, and what is known of them: statics of a block that is pushed, Cattaneo's and Mindlin's
+cylinder, a shaft pushed out of its hub, a load cycle.
 
 python3 friction.py scenes writes them; python3 friction.py judges the runs that friction.sh has made.
 """
@@ -25,7 +26,8 @@ ramps:
 
 
 def slide(push, law, across=(0, 0.5, 1), driven="", material=""):
-    return SLIDE.format(push=push, law=law, across=list(across), down=[1] * len(across), driven=driven, material=material)
+    return SLIDE.format(push=push, law=law, across=list(across), down=[1] * len(across), driven=driven,
+                        material=material)
 
 
 def cylinder(name, depth, center, cells):
@@ -66,8 +68,10 @@ ramps:
 
 SHAFT = """problem: shaft
 bodies:
-  - hub: {shape: tube_arc, axis: z, radii: [25, 40], angles: [0, 90], extent: [0, 20], cells: [4, 14, 4], young: 200000, poisson: 0.3}
-  - shaft: {shape: tube_arc, axis: z, radii: [15, 25.02], angles: [0, 90], extent: [0, 20], cells: [4, 12, 4], young: 200000, poisson: 0.3}
+  - hub: {shape: tube_arc, axis: z, radii: [25, 40], angles: [0, 90], extent: [0, 20], cells: [4, 14, 4], young: 200000,
+          poisson: 0.3}
+  - shaft: {shape: tube_arc, axis: z, radii: [15, 25.02], angles: [0, 90], extent: [0, 20], cells: [4, 12, 4],
+            young: 200000, poisson: 0.3}
 displacements:
   - base: {face: hub.outer, value: [free, free, 0]}
   - push: {face: shaft.inner, value: [free, free, 0.05], ramp: push}
@@ -121,7 +125,8 @@ ramps:
   - down: {factors: [-0.002, -0.002, 0.01, -0.002]}
 """
 
-# Two plates, one held at its end, the other by friction alone, as a bolt's head presses them together: rows close while they slide
+# Two plates, one held at its end, the other by friction alone, as a bolt's head presses them together: rows close while
+# they slide
 PLATES = """problem: plates
 bodies:
   - lower: {lower: [-15, -15, -6], upper: [15, 15, 0], cells: [10, 10, 3], young: 70000, poisson: 0.33}
@@ -160,7 +165,8 @@ ramps:
 FEW = """problem: few
 bodies:
   - low: {lower: [0, 0, 0], upper: [3, 2, 0.6], cells: [6, 2, 3], young: 1e4, poisson: 0.3, material: neohookean}
-  - top: {lower: [0.639, 0.56, 0.6], upper: [2.414, 1.842, 1.6], cells: [2, 4, 2], young: 1e5, poisson: 0.49, material: neohookean, element: full}
+  - top: {lower: [0.639, 0.56, 0.6], upper: [2.414, 1.842, 1.6], cells: [2, 4, 2], young: 1e5, poisson: 0.49,
+          material: neohookean, element: full}
 displacements:
   - fix: {face: low.zmin, value: [0, 0, 0]}
   - press: {face: top.zmax, value: [free, free, -0.032]}
@@ -175,11 +181,13 @@ ramps:
 
 def proportional(steps):
     """Pressure and push grow together: any number of steps goes the same way"""
-    return slide(120, "friction: 0.3", [(k + 1) / steps for k in range(steps)]).replace(f"{{factors: {[1] * steps}}}", f"{{steps: {steps}}}")
+    return slide(120, "friction: 0.3",
+                 [(k + 1) / steps for k in range(steps)]).replace(f"{{factors: {[1] * steps}}}", f"{{steps: {steps}}}")
 
 
 DRIVEN = "  - carry: {face: block.zmax, value: [0.02, 0, free], ramp: across}\n"
 CYCLE = slide(0, "friction: 0.3", (0, 0.5, 1, 0.5, 0, -0.5, -1, 0, 1), DRIVEN)
+
 
 def swap(text):
     """The larger face nonmortar: most of its vertices at the block's rim are covered in part"""
@@ -199,7 +207,8 @@ SCENES = {
     "finite": slide(0, "friction: 0.3", driven=DRIVEN, material=", material: neohookean"),
     "cycle": CYCLE,
     "node": CYCLE.replace("friction: 0.3", "friction: 0.3, gap: node"),
-    **{f"proportional_{n}": proportional(n) for n in (1, 2, 5, 20)},
+    **{f"proportional_{n}": proportional(n)
+       for n in (1, 2, 5, 20)},
     "cattaneo": CYLINDERS,
     "shaft": SHAFT,
     "inclined": SHAFT.replace("[0, 90]", "[13, 103]"),
@@ -209,7 +218,9 @@ SCENES = {
     "few": FEW,
     "plates": PLATES,
     "thin": THIN,
-    "guided": THIN.replace(", friction: 1", "").replace("body_forces:", "symmetry: [plate.xmin, plate.ymin]\nbody_forces:").replace("[20, 0, -40]", "[0, 0, -40]"),
+    "guided": THIN.replace(", friction: 1", "").replace("body_forces:",
+                                                        "symmetry: [plate.xmin, plate.ymin]\nbody_forces:").replace(
+                                                            "[20, 0, -40]", "[0, 0, -40]"),
     "over": BRINK.replace("29.99", "30.01"),
 }
 
@@ -232,27 +243,34 @@ def last(name):
 
 
 def imbalance(step, first):
-    """Work against what is stored and dissipated, relative to the work, since a step whose energy is no work of loads"""
-    return abs(step["energy"] - first["energy"] + step["dissipated"] - first["dissipated"] - (step["work"] - first["work"])) / step["work"]
+    """Work against what is stored and dissipated, relative to the work, since a step whose energy is no work of
+    loads"""
+    return abs(step["energy"] - first["energy"] + step["dissipated"] - first["dissipated"] -
+               (step["work"] - first["work"])) / step["work"]
 
 
 def taken_up(name):
-    """Work of the loads against what is stored and what the contacts take up, of it: of linear bodies as exact as equilibrium is"""
+    """Work of the loads against what is stored and what the contacts take up, of it: of linear bodies as exact as
+    equilibrium is"""
     run = load(name)
-    return max(abs(step["work"] - step["energy"] - step["contact_work"]) for step in run["steps"]) / max(abs(step["work"]) for step in run["steps"])
+    return max(abs(step["work"] - step["energy"] - step["contact_work"])
+               for step in run["steps"]) / max(abs(step["work"]) for step in run["steps"])
 
 
 def weightless(step, across):
-    """What a plate's two pairs leave of the forces on it, relative to them; across: its body force along x, None: other things hold it that way"""
+    """What a plate's two pairs leave of the forces on it, relative to them; across: its body force along x, None: other
+    things hold it that way"""
     volume = 1.65 * 0.75 * 0.2
     under, over = (pair["force"] for pair in step["pairs"])
-    left = [under[2] - over[2] - 40 * volume] + ([] if across is None else [under[0] - over[0] + across * volume, under[1] - over[1]])
+    left = [under[2] - over[2] - 40 * volume
+            ] + ([] if across is None else [under[0] - over[0] + across * volume, under[1] - over[1]])
     return max(map(abs, left)) / over[2]
 
 
 def slip_law(name, coefficient, limit, tolerance=2e-3):
     pair = last(name)
-    verdict(f"{name}, friction over its law", abs(pair["shear_force"] / min(coefficient * pair["normal_force"], limit * pair["area"]) - 1), tolerance)
+    verdict(f"{name}, friction over its law",
+            abs(pair["shear_force"] / min(coefficient * pair["normal_force"], limit * pair["area"]) - 1), tolerance)
 
 
 def beyond(name, coefficient):
@@ -269,45 +287,61 @@ def judge():
     sticks, slides = load("sticks"), load("slides")
     verdict("block that sticks, force", abs(last("sticks")["force"][0] / -178.2 - 1), 1e-6)
     verdict("block that sticks, energy balance", imbalance(sticks["steps"][-1], sticks["steps"][0]), 1e-3)
-    print("block that slides away:", "converged" if slides["converged"] else "not converged, exit code %d" % slides["exit_code"])
-    print("block a little below and above what friction holds:", *("converged" if load(name)["converged"] else "not converged" for name in ("brink", "over")))
+    print("block that slides away:",
+          "converged" if slides["converged"] else "not converged, exit code %d" % slides["exit_code"])
+    print("block a little below and above what friction holds:",
+          *("converged" if load(name)["converged"] else "not converged" for name in ("brink", "over")))
     verdict("block a little below it, force", abs(last("brink")["force"][0] / -59.98 - 1), 1e-6)
     brinks = [load(name)["steps"][-1] for name in ("brink", "brink_3")]
     verdict("block a little below it, 3 ranks against 1", abs(brinks[1]["energy"] / brinks[0]["energy"] - 1), 1e-6)
     opened = load("opens")
-    verdict("block that is lifted off and put down again by MUMPS, cuts", sum(step["cuts"] for step in opened["steps"]) if opened["converged"] else math.inf, 0)
+    verdict("block that is lifted off and put down again by MUMPS, cuts",
+            sum(step["cuts"] for step in opened["steps"]) if opened["converged"] else math.inf, 0)
     verdict("block that is lifted off, force", max(map(abs, opened["steps"][2]["pairs"][0]["force"])), 0)
-    print("block on three vertices at finite strain:", "converged" if load("few")["converged"] else "not converged", "cuts %d" % sum(step["cuts"] for step in load("few")["steps"]))
+    print("block on three vertices at finite strain:", "converged" if load("few")["converged"] else "not converged",
+          "cuts %d" % sum(step["cuts"] for step in load("few")["steps"]))
     for name in "thin", "guided":
         runs = [load(name), load(name + "_3")]
-        print(f"plate of one cell between two blocks, {name}:", *("converged" if run["converged"] else "not converged" for run in runs))
+        print(f"plate of one cell between two blocks, {name}:",
+              *("converged" if run["converged"] else "not converged" for run in runs))
         verdict(f"{name}, cuts", max(step["cuts"] for run in runs for step in run["steps"]), 0)
-        verdict(f"{name}, its pairs' forces against its weight", max(weightless(step, 20 if name == "thin" else None) for run in runs for step in run["steps"]), 1e-6)
-        verdict(f"{name}, 3 ranks against 1", abs(runs[1]["steps"][-1]["energy"] / runs[0]["steps"][-1]["energy"] - 1), 1e-6)
-        verdict(f"{name}, solves a load step", max(step["amg_applications"] for run in runs for step in run["steps"]), 40)
+        verdict(f"{name}, its pairs' forces against its weight",
+                max(weightless(step, 20 if name == "thin" else None) for run in runs for step in run["steps"]), 1e-6)
+        verdict(f"{name}, 3 ranks against 1", abs(runs[1]["steps"][-1]["energy"] / runs[0]["steps"][-1]["energy"] - 1),
+                1e-6)
+        verdict(f"{name}, solves a load step", max(step["amg_applications"] for run in runs for step in run["steps"]),
+                40)
     forces = [step["pairs"][0]["normal_force"] for step in load("foreseen")["steps"]]
     verdict("each step the continuation of the last, cuts", sum(step["cuts"] for step in load("foreseen")["steps"]), 0)
-    verdict("each step the continuation of the last, force off a straight line", max(abs(f / forces[0] - 1 - i) for i, f in enumerate(forces)), 1e-9)
+    verdict("each step the continuation of the last, force off a straight line",
+            max(abs(f / forces[0] - 1 - i) for i, f in enumerate(forces)), 1e-9)
     slip_law("finite", 0.3, math.inf)
     slip_law("limited", math.inf, 50)
     slip_law("capped", 0.3, 50, 0.02)  # less where the pressure is low
     slip_law("swapped", 0.3, math.inf)
     slip_law("swapped_limited", math.inf, 50)
     for name in "swapped", "swapped_limited":
-        verdict(f"{name}, sizes of its forces against their resultant", abs(last(name)["shear_force"] / abs(last(name)["force"][0]) - 1), 5e-3)
+        verdict(f"{name}, sizes of its forces against their resultant",
+                abs(last(name)["shear_force"] / abs(last(name)["force"][0]) - 1), 5e-3)
     verdict("swapped, traction beyond friction x pressure", beyond("swapped", 0.3), 1e-6)
-    print("slip area where all sticks: %g" % last("rough")["slip_area"], "converged" if load("rough")["converged"] else "not converged")
-    print("coefficients of 1e-6 and 10:", "converged" if load("oiled")["converged"] and load("grips")["converged"] else "not converged")
+    print("slip area where all sticks: %g" % last("rough")["slip_area"],
+          "converged" if load("rough")["converged"] else "not converged")
+    print("coefficients of 1e-6 and 10:",
+          "converged" if load("oiled")["converged"] and load("grips")["converged"] else "not converged")
     for name in "cycle", "node":
         run = load(name)
         dissipated = [step["dissipated"] for step in run["steps"]]
         slip_law(name, 0.3, math.inf)
         verdict(f"{name}, energy balance", max(imbalance(step, run["steps"][0]) for step in run["steps"][1:]), 2e-3)
         verdict(f"{name}, work of the loads that is neither stored nor taken up by the contacts", taken_up(name), 1e-9)
-        verdict(f"{name}, dissipation that is taken back", max(a - b for a, b in zip(dissipated, dissipated[1:])) / dissipated[-1], 0.02)
+        verdict(f"{name}, dissipation that is taken back",
+                max(a - b for a, b in zip(dissipated, dissipated[1:])) / dissipated[-1], 0.02)
     for name in "cycle", "cattaneo":
         one, three = load(name + "_1rank") or load(name), load(name + "_3")
-        worst = max(abs(a["pairs"][0]["force"][k] - b["pairs"][0]["force"][k]) for a, b in zip(one["steps"], three["steps"]) for k in range(3))
+        worst = max(
+            abs(a["pairs"][0]["force"][k] - b["pairs"][0]["force"][k])
+            for a, b in zip(one["steps"], three["steps"])
+            for k in range(3))
         verdict(f"{name}, 3 ranks against 1", worst / one["steps"][-1]["pairs"][0]["normal_force"], 1e-6)
     for name in "cycle_3", "cycle_restarted", "swapped", "shaft", "cattaneo":
         verdict(f"{name}, work of the loads that is neither stored nor taken up by the contacts", taken_up(name), 1e-9)
@@ -317,7 +351,8 @@ def judge():
     verdict("restarted, force", abs(a["pairs"][0]["force"][0] / b["pairs"][0]["force"][0] - 1), 1e-6)
     verdict("restarted, dissipated", abs(a["dissipated"] / b["dissipated"] - 1), 1e-6)
     shaft = last("shaft")
-    verdict("shaft, force over friction x pressure x area", abs(-shaft["force"][2] / (0.12 * shaft["normal_force"]) - 1), 5e-3)
+    verdict("shaft, force over friction x pressure x area",
+            abs(-shaft["force"][2] / (0.12 * shaft["normal_force"]) - 1), 5e-3)
     pressed = [load(name)["steps"][0]["pairs"][0]["shear_force"] for name in ("shaft", "inclined")]
     verdict("shaft between inclined planes, friction of the press fit", abs(pressed[1] / pressed[0] - 1), 0.01)
     cattaneo()
@@ -328,13 +363,16 @@ def judge_proportional():
     ends = {n: load(f"proportional_{n}")["steps"][-1] for n in (1, 2, 5, 20)}
     for n, step in ends.items():
         pair, fine = step["pairs"][0], ends[20]["pairs"][0]
-        verdict(f"proportional path in {n} steps, friction and stick area", max(abs(pair[key] / fine[key] - 1) for key in ("shear_force", "stick_area", "slip_area")), 1e-5)
+        verdict(f"proportional path in {n} steps, friction and stick area",
+                max(abs(pair[key] / fine[key] - 1) for key in ("shear_force", "stick_area", "slip_area")), 1e-5)
         verdict(f"proportional path in {n} steps, dissipation", abs(pair["dissipated"] / fine["dissipated"] - 1), 5e-3)
-        verdict(f"proportional path in {n} steps, energy balance", abs(step["energy"] + step["dissipated"] - step["work"]) / step["work"], 1e-4)
+        verdict(f"proportional path in {n} steps, energy balance",
+                abs(step["energy"] + step["dissipated"] - step["work"]) / step["work"], 1e-4)
 
 
 def cattaneo():
-    """Traction of a cylinder that sticks within c = a sqrt(1 - Q / (mu P)): mu p0 (sqrt(1 - x^2/a^2) - c/a sqrt(1 - x^2/c^2))"""
+    """Traction of a cylinder that sticks within c = a sqrt(1 - Q / (mu P)): mu p0 (sqrt(1 - x^2/a^2) - c/a sqrt(1 -
+    x^2/c^2))"""
     import h5py
     import numpy as np
 
@@ -355,7 +393,9 @@ def cattaneo():
         s = x[on, 0][order]
         half = lambda r: np.sqrt(np.maximum(0, 1 - s**2 / r**2))
         exact = mu * p0 * (half(a) - c / a * half(c))
-        verdict("Cattaneo, traction in the mean at Q = %.1f mu P" % (Q / (mu * P)), (np.diff(s) * 0.5 * (np.abs(shear[order] - exact)[1:] + np.abs(shear[order] - exact)[:-1])).sum() / Q, 0.2)
+        verdict("Cattaneo, traction in the mean at Q = %.1f mu P" % (Q / (mu * P)),
+                (np.diff(s) * 0.5 * (np.abs(shear[order] - exact)[1:] + np.abs(shear[order] - exact)[:-1])).sum() / Q,
+                0.2)
         cell = np.diff(s).min()
         held, gives = np.abs(s[status[order] == 1]).max(), np.abs(s[status[order] == 2]).min()
         verdict("Cattaneo, border of the sticking area, in cells", max(held - c, c - gives) / cell, 1.5)

@@ -4,9 +4,11 @@ run() {
   name=$1
   scene=$2
   shift 2
-  timeout 1200 "$@" "$AMGF_DIR/bin/contact" "$scene.yaml" -quiet -summary "$name.json" $options 2> "$name.err" || sed 's/ (KKT error [^;]*//; s/: it fell [^;]*//' "$name.err"
+  timeout 1200 "$@" "$AMGF_DIR/bin/contact" "$scene.yaml" -quiet -summary "$name.json" $options 2> "$name.err" ||
+    sed 's/ (KKT error [^;]*//; s/: it fell [^;]*//' "$name.err"
 }
-for scene in sticks slides limited capped rough oiled grips finite cycle node swapped_limited shaft inclined foreseen few thin guided brink over proportional_1 proportional_2 proportional_5 proportional_20; do run $scene $scene; done
+for scene in sticks slides limited capped rough oiled grips finite cycle node swapped_limited shaft inclined foreseen \
+  few thin guided brink over proportional_1 proportional_2 proportional_5 proportional_20; do run $scene $scene; done
 for scene in cattaneo swapped; do options="-output $scene" run $scene $scene; done
 for scene in cycle cattaneo brink thin guided; do run ${scene}_3 $scene mpiexec --oversubscribe -n 3; done
 options="-options_file $AMGF_DIR/share/options/direct.opts" run opens opens

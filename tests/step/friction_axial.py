@@ -1,8 +1,10 @@
 """A shaft shrunk into a hub and pushed out of it: Lame's pressure, and friction x pressure x 2 pi r L.
 
-python3 friction_axial.py scenes writes the scenes, two meshes of a quarter; python3 friction_axial.py judges the runs that friction_axial.sh has made.
+python3 friction_axial.py scenes writes the scenes, two meshes of a quarter; python3 friction_axial.py judges the runs
+that friction_axial.sh has made.
 
-Poisson's ratio is 0, or the length of the shaft would change with its pressure, against the face that pushes it; the interference is small, or the forces along the fit would tilt it.
+Poisson's ratio is 0, or the length of the shaft would change with its pressure, against the face that pushes it; the
+interference is small, or the forces along the fit would tilt it.
 """
 import math
 import sys
@@ -16,7 +18,10 @@ LIMITS = {"axial_16": 5e-3, "axial_32": 1e-3}
 
 
 def tube(name, inner, outer, around, along):
-    return f"  - {name}: {{shape: tube_arc, axis: z, radii: [{inner}, {outer}], angles: [0, 90], extent: [0, {LENGTH}], cells: [{around // 3}, {around}, {along}], young: {YOUNG}, poisson: 0}}\n"
+    return (
+        f"  - {name}: "
+        f"{{shape: tube_arc, axis: z, radii: [{inner}, {outer}], angles: [0, 90], extent: [0, {LENGTH}], cells: [{around // 3}, {around}, {along}], young: {YOUNG}, poisson: 0}}\n"
+    )
 
 
 def scene(outside, inside, along):
@@ -39,7 +44,8 @@ HELD = ("held_1", "held_5", "held_swapped")
 
 
 def held(name):
-    along, law = 1 if name in ("held_1", "held_sticks") else 5, "stick: true" if name == "held_sticks" else f"friction: {FRICTION}"
+    along, law = 1 if name in (
+        "held_1", "held_sticks") else 5, "stick: true" if name == "held_sticks" else f"friction: {FRICTION}"
     sides = ("hub.inner", "shaft.outer") if name == "held_swapped" else ("shaft.outer", "hub.inner")
     return f"""problem: held
 bodies:
@@ -55,7 +61,8 @@ ramps:
 
 
 def stiffness(bound):
-    """Of a tube held at radius `bound`, against a pressure on the fit: u = A (r - bound^2 / r) there, stress E A (1 + bound^2 / r^2)"""
+    """Of a tube held at radius `bound`, against a pressure on the fit: u = A (r - bound^2 / r) there, stress E A (1 +
+    bound^2 / r^2)"""
     return YOUNG * (1 + bound**2 / FIT**2) / abs(FIT - bound**2 / FIT)
 
 
@@ -71,16 +78,22 @@ else:
     for name, limit in LIMITS.items():
         steps = [step["pairs"][0] for step in load(name)["steps"]]
         found, force = 4 * steps[2]["normal_force"], -4 * steps[2]["force"][2]
-        say(f"{name}: no friction before the push", abs(steps[0]["shear_force"]) < 1e-3 * steps[2]["shear_force"], steps[0]["shear_force"])
+        say(f"{name}: no friction before the push",
+            abs(steps[0]["shear_force"]) < 1e-3 * steps[2]["shear_force"], steps[0]["shear_force"])
         say(f"{name}: all of it slips in the end", steps[2]["stick_area"] == 0, steps[2]["stick_area"])
         say(f"{name}: pressure within {limit:g} of Lame's", within(found, normal, limit), found / normal)
-        say(f"{name}: force within {limit:g} of friction x pressure x 2 pi r L", within(force, FRICTION * normal, limit), force / FRICTION / normal)
+        say(f"{name}: force within {limit:g} of friction x pressure x 2 pi r L",
+            within(force, FRICTION * normal, limit), force / FRICTION / normal)
     one, three = (load(name)["steps"][2]["pairs"][0]["force"][2] for name in ("axial_16", "axial_16_3"))
     say("3 ranks as 1", within(three, one, 1e-6), (three, one))
     for name in HELD:
         run = load(name)
         pair = run["steps"][2]["pairs"][0]
-        say(f"{name}: friction acts on nodes that are held", within(abs(pair["force"][2]), FRICTION * pair["normal_force"], 2e-3), pair["force"][2] / FRICTION / pair["normal_force"])
-        say(f"{name}: no warning of nodes without friction", not any("no friction" in warning for warning in run["warnings"]), run["warnings"])
+        say(f"{name}: friction acts on nodes that are held",
+            within(abs(pair["force"][2]), FRICTION * pair["normal_force"], 2e-3),
+            pair["force"][2] / FRICTION / pair["normal_force"])
+        say(f"{name}: no warning of nodes without friction",
+            not any("no friction" in warning for warning in run["warnings"]), run["warnings"])
     warnings = load("held_sticks")["warnings"]
-    say("what sticks and is driven apart: 13 of 26 nodes", any("cannot stick at 13 of the 26 nodes of hub.inner" in warning for warning in warnings), warnings)
+    say("what sticks and is driven apart: 13 of 26 nodes",
+        any("cannot stick at 13 of the 26 nodes of hub.inner" in warning for warning in warnings), warnings)

@@ -2,7 +2,8 @@
 # of their own and add up. The torque under uniform pressure is known. friction_clutch.py checks it.
 cat > clutch.yaml <<'YAML'
 bodies:
-  - disc: {shape: cylinder, axis: z, radius: 50, extent: [0, 20], cells: [4, 3, 2], material: neohookean, young: 1000, poisson: 0}
+  - disc: {shape: cylinder, axis: z, radius: 50, extent: [0, 20], cells: [4, 3, 2], material: neohookean, young: 1000,
+           poisson: 0}
   - plate: {shape: rigid_plane, point: [0, 0, 0], normal: [0, 0, 1]}
 displacements:
   - fix: {body: plate, value: [0, 0, 0]}

@@ -1,7 +1,10 @@
-"""Blocks with friction on rigid ground, solved once more by other means: trilinear hexahedra assembled here, K condensed to the vertices in contact by a dense factorization, and Coulomb's law there by
-Gauss and Seidel's method (M. Jean, The non-smooth contact dynamics method, Comput. Methods Appl. Mech. Engrg. 177, 1999), vertex after vertex until nothing changes any longer.
+"""Blocks with friction on rigid ground, solved once more by other means: trilinear hexahedra assembled here, K
+condensed to the vertices in contact by a dense factorization, and Coulomb's law there by Gauss and Seidel's method (M.
+Jean, The non-smooth contact dynamics method, Comput. Methods Appl. Mech. Engrg. 177, 1999), vertex after vertex until
+nothing changes any longer.
 
-python3 friction_direct.py scenes writes the scenes; python3 friction_direct.py compares the runs that friction_direct.sh has made with that, and looks whether the law holds at every vertex.
+python3 friction_direct.py scenes writes the scenes; python3 friction_direct.py compares the runs that
+friction_direct.sh has made with that, and looks whether the law holds at every vertex.
 """
 import itertools
 import json
@@ -10,8 +13,17 @@ import sys
 import numpy as np
 
 YOUNG, POISSON = 1000.0, 0.3
-DRIVEN = {"name": "driven", "size": (2, 1, 1), "cells": (5, 3, 3), "friction": 0.3, "top": [(0, 0, -0.01), (0.006, 0.003, -0.01), (0.003, 0.003, -0.008)]}
-LIFTED = {"name": "lifted", "size": (1, 1, 2), "cells": (4, 3, 5), "friction": 0.5, "top": [(-5e-9, 2e-9, -3e-9), (-4.6e-9, 1.9e-9, -2.9e-9)], "pressures": {"xmin": 5e-6}}  # so small that no normal turns
+DRIVEN = {
+    "name": "driven", "size": (2, 1, 1), "cells": (5, 3, 3), "friction": 0.3, "top": [(0, 0, -0.01),
+                                                                                      (0.006, 0.003, -0.01),
+                                                                                      (0.003, 0.003, -0.008)]
+}
+# so small that no normal turns
+LIFTED = {
+    "name": "lifted", "size": (1, 1, 2), "cells": (4, 3, 5), "friction": 0.5, "top": [(-5e-9, 2e-9, -3e-9),
+                                                                                      (-4.6e-9, 1.9e-9, -2.9e-9)],
+    "pressures": {"xmin": 5e-6}
+}
 CASES = DRIVEN, LIFTED
 
 
@@ -19,7 +31,8 @@ def scene(case):
     text = f"""problem: {case["name"]}
 bodies:
   - ground: {{lower: [-5, -5, -1], upper: [9, 9, 0], cells: [1, 1, 1], material: rigid}}
-  - block: {{lower: [0, 0, 0], upper: {list(case["size"])}, cells: {list(case["cells"])}, young: {YOUNG}, poisson: {POISSON}, element: full}}
+  - block: {{lower: [0, 0, 0], upper: {list(case["size"])}, cells: {list(case["cells"])}, young: {YOUNG},
+            poisson: {POISSON}, element: full}}
 displacements:
   - fix: {{body: ground, value: [0, 0, 0]}}
 """
@@ -28,9 +41,13 @@ displacements:
         value[c] = 1
         text += f"  - top{name}: {{face: block.zmax, value: [{', '.join(map(str, value))}], ramp: {name}}}\n"
     if "pressures" in case:
-        text += "pressures:\n" + "".join(f"  - {face}: {{face: block.{face}, value: {p}}}\n" for face, p in case["pressures"].items())
-    text += f"contact:\n  - base: {{mortar: ground.zmax, nonmortar: block.zmin, gap: node, friction: {case['friction']}}}\nload: {{factors: {[1] * len(case['top'])}}}\n"
-    text += "ramps:\n" + "".join(f"  - {name}: {{factors: {[u[c] for u in case['top']]}}}\n" for c, name in enumerate("xyz"))
+        text += "pressures:\n" + "".join(f"  - {face}: {{face: block.{face}, value: {p}}}\n"
+                                         for face, p in case["pressures"].items())
+    text += (f"contact:\n"
+             f"  - base: {{mortar: ground.zmax, nonmortar: block.zmin, gap: node, friction: {case['friction']}}}\n"
+             f"load: {{factors: {[1] * len(case['top'])}}}\n")
+    text += "ramps:\n" + "".join(f"  - {name}: {{factors: {[u[c] for u in case['top']]}}}\n"
+                                 for c, name in enumerate("xyz"))
     return text + "solver: {tao_ipfilter_tol: 1e-12}\n"
 
 
@@ -47,7 +64,8 @@ def element(h):
     K = np.zeros((24, 24))
     for p in itertools.product((-(3**-0.5), 3**-0.5), repeat=3):
         g = shape(np.array(p))[1] * 2 / h
-        k = lame * np.einsum("ai,bj->aibj", g, g) + shear * np.einsum("aj,bi->aibj", g, g) + shear * np.einsum("ak,bk,ij->aibj", g, g, np.eye(3))
+        k = lame * np.einsum("ai,bj->aibj", g, g) + shear * np.einsum("aj,bi->aibj", g, g) + shear * np.einsum(
+            "ak,bk,ij->aibj", g, g, np.eye(3))
         K += k.reshape(24, 24) * h.prod() / 8
     return K
 
@@ -82,7 +100,8 @@ class Block:
         c = "xyz".index(face[0])
         others = [d for d in range(3) if d != c]
         for v in self.on(face):
-            share = np.prod([self.h[d] * (0.5 if min(self.x[v, d], self.size[d] - self.x[v, d]) < 1e-12 else 1.0) for d in others])
+            share = np.prod(
+                [self.h[d] * (0.5 if min(self.x[v, d], self.size[d] - self.x[v, d]) < 1e-12 else 1.0) for d in others])
             self.f[3 * v + c] -= (1 if face[1:] == "max" else -1) * p * share
 
 
@@ -102,7 +121,8 @@ def gauss_seidel(C, free, friction, before):
 
 
 def local(W, at, before, friction, f):
-    """One vertex, `at` its place without its own force, from a force f on: normal force and friction by projections in turn"""
+    """One vertex, `at` its place without its own force, from a force f on: normal force and friction by projections in
+    turn"""
     for _ in range(5):
         normal = max(0.0, f[2] - (W[2] @ f + at[2]) / W[2, 2])
         b = f[:2] - ((W @ f + at - before)[:2] + W[:2, 2] * (normal - f[2])) / (W[0, 0] + W[1, 1])
@@ -145,7 +165,11 @@ def compare(case):
         x = mesh["vertices"][...]
     with open(name + ".json") as file:
         steps = json.load(file)["steps"]
-    order = {tuple(np.round(p, 9)): i for i, p in enumerate(x) if p[2] > -1e-9 and min(p) > -1e-9 and (p <= block.size + 1e-9).all()}
+    order = {
+        tuple(np.round(p, 9)): i
+        for i, p in enumerate(x)
+        if p[2] > -1e-9 and min(p) > -1e-9 and (p <= block.size + 1e-9).all()
+    }
     at = np.array([order[tuple(np.round(p, 9))] for p in block.x])
     before = np.zeros((len(answers[0][2]), 3))
     for step, (u, f, base) in zip(steps, answers):
@@ -158,9 +182,15 @@ def compare(case):
         verdict(f"{name}, step {step['step']}, displacements", np.abs(found - u).max() / np.abs(u).max(), 1e-8)
         verdict(f"{name}, step {step['step']}, normal forces", np.abs(force - n).max() / n.max(), 1e-8)
         verdict(f"{name}, step {step['step']}, friction", np.abs(shear[:, :2] - t).max() / n.max(), 1e-8)
-        verdict(f"{name}, step {step['step']}, friction beyond its bound", (sizes - case["friction"] * force).max() / n.max(), 1e-8)
-        verdict(f"{name}, step {step['step']}, slip against its friction", np.abs(slip * (case["friction"] * force)[:, None] + np.hypot(*slip.T)[:, None] * shear[:, :2])[force > 0].max() / n.max() / np.abs(u).max(), 1e-8)
-        print(f"{name}, step {step['step']}:", " ".join(f"{(status == k).sum()} {word}" for k, word in enumerate(("open", "stick", "slip"))))
+        verdict(f"{name}, step {step['step']}, friction beyond its bound",
+                (sizes - case["friction"] * force).max() / n.max(), 1e-8)
+        verdict(
+            f"{name}, step {step['step']}, slip against its friction",
+            np.abs(slip *
+                   (case["friction"] * force)[:, None] + np.hypot(*slip.T)[:, None] * shear[:, :2])[force > 0].max() /
+            n.max() / np.abs(u).max(), 1e-8)
+        print(f"{name}, step {step['step']}:",
+              " ".join(f"{(status == k).sum()} {word}" for k, word in enumerate(("open", "stick", "slip"))))
         before = found[base]
 
 

@@ -1,6 +1,8 @@
-"""Soft and floating bodies that friction holds: rubber pads between rigid plates, stacks of blocks of unlike stiffness under their own weight, and leaves that bend.
+"""Soft and floating bodies that friction holds: rubber pads between rigid plates, stacks of blocks of unlike stiffness
+under their own weight, and leaves that bend.
 
-python3 friction_soft.py scenes writes the scenes; python3 friction_soft.py judges the runs that friction_soft.sh has made.
+python3 friction_soft.py scenes writes the scenes; python3 friction_soft.py judges the runs that friction_soft.sh has
+made.
 """
 import json
 import sys
@@ -20,7 +22,8 @@ bodies:
   - over: {{mortar: top.zmin, nonmortar: pad.zmax{key}}}
 """
 QUARTER = "symmetry: [pad.xmin, pad.ymin]\n"
-BLOCK = "  - b{i}: {{lower: [{low}, {low}, {bottom}], upper: [{high}, {high}, {top}], cells: {cells}, young: {young}, poisson: 0.3}}\n"
+BLOCK = ("  - b{i}: {{lower: [{low}, {low}, {bottom}], upper: [{high}, {high}, {top}], cells: {cells}, young: "
+         "{young}, poisson: 0.3}}\n")
 GROUND = "  - ground: {lower: [-4, -4, -1], upper: [4, 4, 0], cells: [8, 8, 2], young: 1e5, poisson: 0.3}\n"
 CUBES = [(1, 1, [3, 3, 3], young) for young in (300, 2e4, 1e6)]  # width, height, cells, Young's modulus
 UNLIKE = [
@@ -60,11 +63,13 @@ def stack(blocks, law="friction: 0.3"):
         bottom, top = top, round(top + height, 6)
         text += BLOCK.format(i=i, low=-width / 2, high=width / 2, bottom=bottom, top=top, cells=cells, young=young)
         pairs += f"  - j{i}: {{mortar: {f'b{i - 1}' if i else 'ground'}.zmax, nonmortar: b{i}.zmin, {law}}}\n"
-    return text + "displacements:\n  - fix: {face: ground.zmin, value: [0, 0, 0]}\nbody_forces:\n  - g: {value: [0, 0, -1]}\ncontact:\n" + pairs
+    return text + ("displacements:\n  - fix: {face: ground.zmin, value: [0, 0, 0]}\nbody_forces:\n"
+                   "  - g: {value: [0, 0, -1]}\ncontact:\n") + pairs
 
 
 def tower(law):
-    """A block pressed on a floor and pushed along its top so that half of its base lifts off: vertices beside the part in contact would neither stick nor open"""
+    """A block pressed on a floor and pushed along its top so that half of its base lifts off: vertices beside the part
+    in contact would neither stick nor open"""
     return f"""problem: tower
 bodies:
   - floor: {{lower: [-2, -1, -1], upper: [2, 1, 0], cells: [12, 6, 2], young: 1e4, poisson: 0.3}}
@@ -95,7 +100,11 @@ SCENES = {
     "rests": RESTS,
     "finite_sticks": pad(", stick: true", "4, 4, 4", ", material: neohookean"),
     "finite_sticks_6": pad(", stick: true", "6, 6, 6", ", material: neohookean"),
-} | {name: stack(blocks) for name, blocks in STACKS.items()} | {"unlike_sticks": stack(UNLIKE, "stick: true"), "tower": tower(", friction: 0.6"), "tower_sticks": tower(", stick: true"), "tower_tied": tower("")}
+} | {name: stack(blocks)
+     for name, blocks in STACKS.items()} | {
+         "unlike_sticks": stack(UNLIKE, "stick: true"), "tower": tower(", friction: 0.6"),
+         "tower_sticks": tower(", stick: true"), "tower_tied": tower("")
+     }
 
 
 def load(name):
@@ -117,31 +126,41 @@ else:
             continue  # cut to half the load step
         step = load(name)
         say(f"{name}: solved without a cut", step["converged"] and step["cuts"] == 0, (step["reason"], step["cuts"]))
-    for name, twin in (("sticks", "tied"), ("sticks_quarter", "tied_quarter"), ("sticks_3", "sticks"), ("finite_sticks", "finite_tied")):
+    for name, twin in (("sticks", "tied"), ("sticks_quarter", "tied_quarter"), ("sticks_3", "sticks"), ("finite_sticks",
+                                                                                                        "finite_tied")):
         found = load(name)["energy"] / load(twin)["energy"] - 1
         say(f"{name}: the energy of {twin} to 1e-8", abs(found) < 1e-8, found)
     step = load("grips")
-    say("grips: no more energy than what is tied", step["energy"] <= (1 + 1e-12) * load("tied")["energy"], step["energy"])
-    say("grips: work is stored or taken up by the contacts", abs(step["work"] - step["energy"] - step["contact_work"]) < 1e-6 * step["work"], step["work"])
+    say("grips: no more energy than what is tied", step["energy"] <= (1 + 1e-12) * load("tied")["energy"],
+        step["energy"])
+    say("grips: work is stored or taken up by the contacts",
+        abs(step["work"] - step["energy"] - step["contact_work"]) < 1e-6 * step["work"], step["work"])
     step = load("finite_sticks_6")
     forces = [pair["force"][2] for pair in step["pairs"]]
-    say("finite_sticks_6: both faces carry the same and stick", abs(sum(forces)) < 1e-8 * abs(forces[0]) and all(pair["slip_area"] == 0 and pair["dissipated"] < 1e-12 for pair in step["pairs"]), step["pairs"])
+    say(
+        "finite_sticks_6: both faces carry the same and stick",
+        abs(sum(forces)) < 1e-8 * abs(forces[0])
+        and all(pair["slip_area"] == 0 and pair["dissipated"] < 1e-12 for pair in step["pairs"]), step["pairs"])
     off = [abs(a - b) for a, b in zip(load("rests")["pairs"][0]["force"], (-1200, 0, 3600))]
     say("rests: carries the weight to 1e-6", max(off) < 3.6e-3, off)
     step = load("leaves")
-    say("leaves: work is stored or taken up by the contacts to 1 %", abs(step["work"] - step["energy"] - step["contact_work"]) < 0.01 * step["work"], step["work"])
+    say("leaves: work is stored or taken up by the contacts to 1 %",
+        abs(step["work"] - step["energy"] - step["contact_work"]) < 0.01 * step["work"], step["work"])
     for name, coefficient in (("grips", 1), ("finite", 0.3), ("finite_quarter", 0.3), ("leaves", 0.1)):
         step = load(name)
         for pair in step["pairs"]:
             most = coefficient * pair["normal_force"]
-            say(f"{name}, {pair['name']}: pressed, and friction within its law", 0 < pair["shear_force"] <= most * (1 + 1e-6), pair)
+            say(f"{name}, {pair['name']}: pressed, and friction within its law",
+                0 < pair["shear_force"] <= most * (1 + 1e-6), pair)
     energies = [load(name)["energy"] for name in ("tower_tied", "tower_sticks", "tower")]
     say("tower_sticks: softer than what is tied, stiffer than what slides", energies == sorted(energies), energies)
     for name in "tower", "tower_sticks":
         pair = load(name)["pairs"][0]
         off = max(abs(abs(found) - applied) for found, applied in zip(pair["force"], (PUSH, 0, PRESS)))
-        say(f"{name}: carries what is applied, and part of the base is open", off < 1e-6 * PRESS and 0.1 < pair["area"] < 0.9, pair)
+        say(f"{name}: carries what is applied, and part of the base is open", off < 1e-6 * PRESS
+            and 0.1 < pair["area"] < 0.9, pair)
     for name, blocks in (STACKS | {"unlike_sticks": UNLIKE}).items():
         for i, pair in enumerate(load(name)["pairs"]):
             weight = sum(width**2 * height for width, height, _, _ in blocks[i:])
-            say(f"{name}, {pair['name']}: carries what is above", abs(pair["force"][2] / weight - 1) < 1e-6, pair["force"][2] / weight - 1)
+            say(f"{name}, {pair['name']}: carries what is above",
+                abs(pair["force"][2] / weight - 1) < 1e-6, pair["force"][2] / weight - 1)

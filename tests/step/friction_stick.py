@@ -1,15 +1,19 @@
-"""Faces that stick while they touch: leaves that bend and part, a shaft pushed out of its hub along one edge, a belt around a drum.
+"""Faces that stick while they touch: leaves that bend and part, a shaft pushed out of its hub along one edge, a belt
+around a drum.
 
-python3 friction_stick.py scenes writes the scenes; python3 friction_stick.py judges the runs that friction_stick.sh has made.
+python3 friction_stick.py scenes writes the scenes; python3 friction_stick.py judges the runs that friction_stick.sh has
+made.
 
-Some nodes of these can neither stick, since they would be pulled, nor be open, since they would penetrate. They open within the load step, and close again at another place.
+Some nodes of these can neither stick, since they would be pulled, nor be open, since they would penetrate. They open
+within the load step, and close again at another place.
 """
 import sys
 
 from leaves import leaves
 from summaries import load, say
 
-TUBE = "{{shape: tube_arc, axis: z, radii: [{}, {}], angles: [0, 90], extent: [0, 20], cells: [{}, {}, 5], young: 200000, poisson: 0}}"
+TUBE = ("{{shape: tube_arc, axis: z, radii: [{}, {}], angles: [0, 90], extent: [0, 20], cells: [{}, {}, 5], "
+        "young: 200000, poisson: 0}}")
 HELD = f"""problem: held
 bodies:
   - hub: {TUBE.format(25, 40, 4, 12)}
@@ -29,8 +33,10 @@ def belt(law):
     """A thin belt around half of a drum, pulled at one end more than at the other"""
     return f"""problem: belt
 bodies:
-  - drum: {{shape: tube_arc, axis: y, radii: [0.6, 1], angles: [0, 180], extent: [0, 0.5], cells: [2, 24, 2], young: 1e5, poisson: 0.3}}
-  - belt: {{shape: tube_arc, axis: y, radii: [1, 1.05], angles: [0, 180], extent: [0.05, 0.45], cells: [1, 36, 2], young: 1000, poisson: 0.3}}
+  - drum: {{shape: tube_arc, axis: y, radii: [0.6, 1], angles: [0, 180], extent: [0, 0.5], cells: [2, 24, 2],
+           young: 1e5, poisson: 0.3}}
+  - belt: {{shape: tube_arc, axis: y, radii: [1, 1.05], angles: [0, 180], extent: [0.05, 0.45], cells: [1, 36, 2],
+           young: 1000, poisson: 0.3}}
 displacements:
   - hold: {{face: drum.inner, value: [0, 0, 0]}}
   - pull: {{face: belt.amin, value: [0, free, -0.02]}}
@@ -41,7 +47,8 @@ contact:
 
 
 def closing(gap, motion, steps):
-    """A block above a floor, moved sideways and down. It touches the floor after half of the motion if that is twice the gap."""
+    """A block above a floor, moved sideways and down. It touches the floor after half of the motion if that is twice
+    the gap."""
     return f"""problem: closing
 bodies:
   - floor: {{lower: [-2, -2, -1], upper: [3, 3, 0], cells: [5, 5, 1], young: 1e4, poisson: 0}}
@@ -98,8 +105,11 @@ else:
         say(f"{name}: solved without a cut", run["converged"] and cuts == 0, (run["reason"], cuts))
     energies = [last[name]["energy"] for name in ("leaves_free", "leaves", "leaves_tied")]
     say("leaves: stiffer than without friction, softer than tied", energies == sorted(energies), energies)
-    for name, what in (("leaves_2", "2 ranks as 1"), ("leaves_near", "the same if the data change by 1e-12"), ("leaves_turned", "the same for another order of the bodies")):
-        off = [last[name]["energy"] / last["leaves"]["energy"] - 1] + [a["normal_force"] / b["normal_force"] - 1 for a, b in zip(last[name]["pairs"], last["leaves"]["pairs"])]
+    for name, what in (("leaves_2", "2 ranks as 1"), ("leaves_near", "the same if the data change by 1e-12"),
+                       ("leaves_turned", "the same for another order of the bodies")):
+        off = [last[name]["energy"] / last["leaves"]["energy"] - 1] + [
+            a["normal_force"] / b["normal_force"] - 1 for a, b in zip(last[name]["pairs"], last["leaves"]["pairs"])
+        ]
         say(f"leaves: {what}", max(map(abs, off)) < 1e-5, off)
     for name, most in ("held", 2e-6), ("belt", 5e-3):  # thousands of events, whose rounding errors add up
         off = last[name + "_turned"]["energy"] / last[name]["energy"] - 1
@@ -108,7 +118,8 @@ else:
     say("leaves: 1 and 3 load steps as 12, within a fifth", max(map(abs, off)) < 0.2, off)
     for name in "leaves", "five_leaves", "held", "belt":
         step = last[name]
-        say(f"{name}: in equilibrium, and pressed", step["balance"] < 1e-6 and all(0 < pair["normal_force"] for pair in step["pairs"]), (step["balance"], step["pairs"]))
+        say(f"{name}: in equilibrium, and pressed", step["balance"] < 1e-6
+            and all(0 < pair["normal_force"] for pair in step["pairs"]), (step["balance"], step["pairs"]))
     for name in "leaves", "five_leaves", "belt":
         off = [pair["dissipated"] / last[name]["energy"] for pair in last[name]["pairs"]]
         say(f"{name}: nothing is dissipated where nothing rubs", max(map(abs, off)) < 0.01, off)
@@ -117,4 +128,5 @@ else:
     for name in "closing_1", "closing_2", "closing_3":
         pair, twin = (last[run]["pairs"][0] for run in (name, "touching"))
         off = [pair[key] / twin[key] - 1 for key in ("shear_force", "normal_force")]
-        say(f"{name}: sticks where it has closed, with the forces of a block that touches from the start", max(map(abs, off)) < 0.005, off)
+        say(f"{name}: sticks where it has closed, with the forces of a block that touches from the start",
+            max(map(abs, off)) < 0.005, off)

@@ -1,5 +1,5 @@
-# Friction of tetrahedra of first and second order, on each other and beside hexahedra: a block that is pushed a little less and a little more than friction holds, and one that is moved
-# to and fro (the scenes are those of friction.py)
+# Friction of tetrahedra of first and second order, on each other and beside hexahedra: a block that is pushed a little
+# less and a little more than friction holds, and one that is moved to and fro (the scenes are those of friction.py)
 "$PYTHON" "$AMGF_DIR/tests/step/friction.py" scenes
 for order in 1 2; do
   "$PYTHON" -B "$AMGF_DIR/tests/lib/tetrahedra.py" box ground_$order.msh $order -0.5 -0.5 -0.5 2.5 1.5 0 6 4 2

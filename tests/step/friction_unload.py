@@ -30,7 +30,8 @@ contact:
   - hit: {mortar: slab.zmax, nonmortar: die.zmin, friction: 0.2}
 """,
     "ball": """bodies:
-  - ball: {shape: ball, octant: [2, 1, -1], center: [0, 0, 10], radius: 10, patches: [8, 8, 3], grading: [4, 4, 1], layers: 6, layer_grading: 0.3, young: 1000, poisson: 0}
+  - ball: {shape: ball, octant: [2, 1, -1], center: [0, 0, 10], radius: 10, patches: [8, 8, 3], grading: [4, 4, 1],
+           layers: 6, layer_grading: 0.3, young: 1000, poisson: 0}
   - flat: {shape: rigid_plane, point: [0, 0, 0], normal: [0, 0, 1]}
 symmetry: [ball.y0]
 displacements:
@@ -47,7 +48,8 @@ contact:
 JAMMED = """bodies:
   - left: {shape: rigid_plane, point: [0, 0, 0], normal: [0.9781476007338057, 0, 0.20791169081775934]}
   - right: {shape: rigid_plane, point: [0, 0, 0], normal: [-0.9781476007338057, 0, 0.20791169081775934]}
-  - key: {shape: wedge, axis: y, corners: [0, 0, 1, -0.21255656167002213, 1, 0.21255656167002213], extent: [0, 0.5], side_cells: 4, length_cells: 2, young: 1e4, poisson: 0.3}
+  - key: {shape: wedge, axis: y, corners: [0, 0, 1, -0.21255656167002213, 1, 0.21255656167002213], extent: [0, 0.5],
+          side_cells: 4, length_cells: 2, young: 1e4, poisson: 0.3}
 displacements:
   - fl: {body: left, value: [0, 0, 0]}
   - fr: {body: right, value: [0, 0, 0]}
@@ -79,8 +81,13 @@ def check_run(file, name):
     done = run["exit_code"] == 0
     energy, force = max(step["energy"] for step in steps), max(map(normal_force, steps))
     say(f"{file}: all load steps converge", done, run["reason"])
-    say(f"{file}: no energy and no force without load", done and all(steps[k]["energy"] < 1e-12 * energy and normal_force(steps[k]) < 1e-9 * force for k in UNLOADED[name]), [(step["energy"], normal_force(step)) for step in steps])
-    say(f"{file}: the same force when pressed again", done and abs(normal_force(steps[AGAIN[name]]) / normal_force(steps[0]) - 1) < 5e-3, [normal_force(step) for step in steps])
+    say(
+        f"{file}: no energy and no force without load", done
+        and all(steps[k]["energy"] < 1e-12 * energy and normal_force(steps[k]) < 1e-9 * force for k in UNLOADED[name]),
+        [(step["energy"], normal_force(step)) for step in steps])
+    say(f"{file}: the same force when pressed again", done
+        and abs(normal_force(steps[AGAIN[name]]) / normal_force(steps[0]) - 1) < 5e-3,
+        [normal_force(step) for step in steps])
 
 
 if __name__ == "__main__":
@@ -91,4 +98,5 @@ if __name__ == "__main__":
             check_run(file, file.split("_")[0])
         run = load("key")
         # ten load steps lead to 10.56
-        say("a wedge that friction holds keeps its force without load", run["exit_code"] == 0 and abs(normal_force(run["steps"][-1]) / 10.56 - 1) < 0.05, [normal_force(step) for step in run["steps"]])
+        say("a wedge that friction holds keeps its force without load", run["exit_code"] == 0
+            and abs(normal_force(run["steps"][-1]) / 10.56 - 1) < 0.05, [normal_force(step) for step in run["steps"]])

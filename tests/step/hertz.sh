@@ -1,4 +1,5 @@
-# Hertz's sphere and cylinder on three meshes, the finest as shipped, cells at the contact by sqrt(2) smaller from one to the next;
+# Hertz's sphere and cylinder on three meshes, the finest as shipped, cells at the contact by sqrt(2) smaller from one
+# to the next;
 # hertz.py holds pressures, contact areas and approaches against the exact solutions. Then SSNV104 as shipped.
 run() {
   "$AMGF_DIR/bin/contact" "$1.yaml" -quiet -output "$1" -summary "$1.json" || echo "$1: exit code $?"

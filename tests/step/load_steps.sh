@@ -21,11 +21,14 @@ for ranks in 1 3; do
   "$PYTHON" - <<'PY'
 import json
 for step, e in zip(json.load(open("bar.json"))["steps"], (0.005, 0.01)):
-    print("  energy %s, force %s" % tuple(abs(a / b - 1) < 1e-8 for a, b in ((step["energy"], 30 * e * e), (step["reaction"][2], 20 * e))))
+    print("  energy %s, force %s" %
+          tuple(abs(a / b - 1) < 1e-8 for a, b in ((step["energy"], 30 * e * e), (step["reaction"][2], 20 * e))))
 PY
 done
-"$contact" "$AMGF_DIR/share/scenes/two_block.yaml" -refine 0 -quiet -output good -load_steps 1 && cp good_0001.h5 before.h5
-"$contact" "$AMGF_DIR/share/scenes/two_block.yaml" -refine 0 -quiet -output good -load_steps 1 -tao_ipfilter_subspace false -tao_max_it 2 -load_max_cuts 0 2> err # directions of the subspace are no steps
+"$contact" "$AMGF_DIR/share/scenes/two_block.yaml" -refine 0 -quiet -output good -load_steps 1 &&
+  cp good_0001.h5 before.h5
+"$contact" "$AMGF_DIR/share/scenes/two_block.yaml" -refine 0 -quiet -output good -load_steps 1 \
+  -tao_ipfilter_subspace false -tao_max_it 2 -load_max_cuts 0 2> err # directions of the subspace are no steps
 echo "failed step: exit $?, $(grep -c 'contact: load step 1 failed: iteration limit 2 reached' err) sentence, old file intact: $(cmp -s good_0001.h5 before.h5 && echo yes || echo no)"
 # -summary through a link: what it leads to stays until there is a new one
 echo kept > target.json && ln -sf target.json link.json

@@ -1,10 +1,13 @@
-# A flat wedge between a floor and an inclined lid that moves down by 0.002 slips out without friction, to a place where no force acts on it: a warning says so. Held at its thick end it remains. With friction it
-# slips out as well, since the vertex at its tip touches both planes and finds no place between them. Where only its thick end touches the lid, friction holds it, whatever its law
+# A flat wedge between a floor and an inclined lid that moves down by 0.002 slips out without friction, to a place where
+# no force acts on it: a warning says so. Held at its thick end it remains. With friction it slips out as well, since
+# the vertex at its tip touches both planes and finds no place between them. Where only its thick end touches the lid,
+# friction holds it, whatever its law
 contact=$AMGF_DIR/bin/contact
 wedge() { # law, friction, slope of the lid, further support
   cat > wedge.yaml <<YAML
 bodies:
-  - wedge: {shape: wedge, axis: y, corners: [0, 0, 0.1, 0, 0, 2], extent: [0, 1], side_cells: 2, length_cells: 1, young: 1000, poisson: 0.3, material: $1}
+  - wedge: {shape: wedge, axis: y, corners: [0, 0, 0.1, 0, 0, 2], extent: [0, 1], side_cells: 2, length_cells: 1,
+            young: 1000, poisson: 0.3, material: $1}
   - floor: {shape: rigid_plane, point: [0, 0, 0], normal: [0, 0, 1]}
   - lid: {shape: rigid_plane, point: [0, 0, 0.1], normal: [-$3, 0, -2]}
 symmetry: [wedge.lmin, wedge.lmax]

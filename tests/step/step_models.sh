@@ -31,7 +31,8 @@ run bar
 press() {
   cat > "$1.yaml" <<YAML
 bodies:
-  - base: {shape: box, lower: [-2, -2, -2], upper: [2, 2, 0], cells: [6, 6, 3], material: neohookean, young: 1, poisson: 0.3}
+  - base: {shape: box, lower: [-2, -2, -2], upper: [2, 2, 0], cells: [6, 6, 3], material: neohookean, young: 1,
+           poisson: 0.3}
   - block: {shape: box, lower: [-0.5, -0.5, 0], upper: [0.5, 0.5, 1], cells: [2, 2, 2], young: 100, poisson: 0}
 displacements:
   - bottom: {face: base.zmin, value: [0, 0, 0]}
@@ -49,12 +50,14 @@ press updated_2 2 energy 20
 press updated_5 5 energy 20
 press untrue 2 energy 2
 for name in energy quadratic untrue; do run "$name"; done
-for name in updated_2 updated_5; do run "$name" -contact_update_tol 8e-7; done # of the largest displacement, which is above the 0.6 that the block is pressed in by
+for name in updated_2 updated_5; do run "$name" \
+  -contact_update_tol 8e-7; done # of the largest displacement, which is above the 0.6 that the block is pressed in by
 
 # one step that is too large turns elements inside out; cut, it ends where small steps end
 cat > squash.yaml <<'YAML'
 bodies:
-  - cube: {shape: box, lower: [0, 0, 0], upper: [1, 1, 1], cells: [3, 3, 3], material: neohookean, young: 1, poisson: 0.3}
+  - cube: {shape: box, lower: [0, 0, 0], upper: [1, 1, 1], cells: [3, 3, 3], material: neohookean, young: 1,
+           poisson: 0.3}
 displacements:
   - bottom: {face: cube.zmin, value: [0, 0, 0]}
   - top: {face: cube.zmax, value: [0, 0, -0.7]}
@@ -62,5 +65,6 @@ YAML
 cp squash.yaml gentle.yaml
 run squash
 run gentle -load_steps 10
-"$contact" squash.yaml -quiet -load_max_cuts 0 2>&1 | grep -c 'contact: load step 1 failed: the prescribed displacements invert an element at the start of the load step'
+"$contact" squash.yaml -quiet -load_max_cuts 0 2>&1 |
+  grep -c 'contact: load step 1 failed: the prescribed displacements invert an element at the start of the load step'
 "$PYTHON" "$AMGF_DIR/tests/step/step_models.py"

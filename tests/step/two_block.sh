@@ -1,5 +1,6 @@
-# The two-block benchmark: the published configuration on a coarse mesh against the defaults and against AMG alone; on mesh 1 the defaults
-# against MUMPS, and on any number of ranks. two_block_long has the published figures. Figures and tolerances are in two_block.py.
+# The two-block benchmark: the published configuration on a coarse mesh against the defaults and against AMG alone; on
+# mesh 1 the defaults against MUMPS, and on any number of ranks. two_block_long has the published figures. Figures and
+# tolerances are in two_block.py.
 contact=$AMGF_DIR/bin/contact
 scene=$AMGF_DIR/share/scenes/two_block.yaml
 published=$AMGF_DIR/share/options/published.opts

@@ -1,4 +1,5 @@
-"""A million pairs of facets, random and adversarial, on one rank and on three: tests/contact/contact_clip.c with more pairs than `make check` takes."""
+"""A million pairs of facets, random and adversarial, on one rank and on three: tests/contact/contact_clip.c with more
+pairs than `make check` takes."""
 import os
 import subprocess
 import time
@@ -13,14 +14,18 @@ PAIRS = 1000000
 def compare(ranks):
     launch = ["mpiexec", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
     start = time.time()
-    done = subprocess.run([*launch, PROGRAM, "-pairs", str(PAIRS)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    done = subprocess.run([*launch, PROGRAM, "-pairs", str(PAIRS)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True)
     with open(EXPECTED) as file:
         expected = file.read().splitlines()
     seen = done.stdout.splitlines()
     wrong = [f"{a} instead of {b}" for a, b in zip(seen, expected) if a != b]
     if done.returncode or len(seen) != len(expected):
         wrong.append(f"exit code {done.returncode}, {len(seen)} of {len(expected)} lines")
-    yield {"name": f"{PAIRS:,} pairs, {ranks} ranks", "checks": len(expected), "seconds": time.time() - start, "wrong": wrong, "said": ""}
+    yield {
+        "name": f"{PAIRS:,} pairs, {ranks} ranks", "checks": len(expected), "seconds": time.time() - start,
+        "wrong": wrong, "said": ""
+    }
 
 
 def cases(args):

@@ -1,7 +1,7 @@
 """TAOIPFILTER, TAOTRON and IPOPT on obstacle problems on a grid: tests/stress/grid.md.
 
-The problems are those of tests/tao_ipfilter/ipfilter_grid.h; `make stress STRESS=grid` builds the programs and runs this. What has been run is kept in
-the folder: an interrupted run goes on where it stopped.
+The problems are those of tests/tao_ipfilter/ipfilter_grid.h; `make stress STRESS=grid` builds the programs and runs
+this. What has been run is kept in the folder: an interrupted run goes on where it stopped.
 """
 import argparse
 import json
@@ -20,6 +20,7 @@ HYPRE = ["-tao_ipfilter_pc_type", "hypre"]
 
 
 class Run:
+
     def __init__(self, solver, problem, n, ranks=1):
         self.solver, self.problem, self.n, self.ranks = solver, problem, n, ranks
 
@@ -29,12 +30,20 @@ class Run:
     def command(self, folder):
         if self.solver == "IPOPT":
             return [os.path.join(folder, "ipopt"), self.problem, str(self.n)]
-        options = {"ipfilter": HYPRE, "ipfilter, amgf": [], "ipfilter, rows": ["-rows"], "tron": ["-solver", "tron"], "reference": TIGHT}
+        options = {
+            "ipfilter": HYPRE, "ipfilter, amgf": [], "ipfilter, rows": ["-rows"], "tron": ["-solver", "tron"],
+            "reference": TIGHT
+        }
         mpi = ["mpiexec", "--oversubscribe", "--bind-to", "none", "-n", str(self.ranks)] if self.ranks > 1 else []
-        return [*mpi, os.path.join(folder, "tao"), "-report", "-problem", self.problem, "-n", str(self.n), *options[self.solver]]
+        return [
+            *mpi,
+            os.path.join(folder, "tao"), "-report", "-problem", self.problem, "-n",
+            str(self.n), *options[self.solver]
+        ]
 
 
 class Result:
+
     def __init__(self, line):
         _, status, objective, violation, steps, krylov, wall, processor = line.split("|")
         self.status, self.objective, self.violation = status, float(objective), float(violation)
@@ -68,10 +77,12 @@ def perform(runs, folder, limit):
         if run.key() in lines:
             continue
         try:
-            said = subprocess.run(run.command(folder), capture_output=True, text=True, timeout=limit, check=False).stdout.strip().split("\n")[-1]
+            said = subprocess.run(run.command(folder), capture_output=True, text=True, timeout=limit,
+                                  check=False).stdout.strip().split("\n")[-1]
         except subprocess.TimeoutExpired:
             said = ""
-        lines[run.key()] = said if said.count("|") == 7 else f"{run.problem}|no end in {limit:g} s or an error|nan|nan|0|0|nan|nan"
+        lines[run.key()] = said if said.count(
+            "|") == 7 else f"{run.problem}|no end in {limit:g} s or an error|nan|nan|0|0|nan|nan"
         print(run.key(), lines[run.key()], flush=True)
         with open(path, "w") as file:
             json.dump(lines, file, indent=1)
@@ -91,27 +102,24 @@ def best(runs, results):
 def row(run, result, lowest):
     error = (result.objective - lowest) / abs(lowest)
     mark = " (!)" if not error <= FAR else ""
-    return f"| {run.problem} | {run.n}² | {run.ranks} | {run.solver} | {result.status} | {result.steps} | {result.krylov or ''} | {error:.1e}{mark} | {result.processor:.2f} |"
+    return (f"| {run.problem} | {run.n}² | {run.ranks} | {run.solver} | {result.status} | {result.steps} | "
+            f"{result.krylov or ''} | {error:.1e}{mark} | {result.processor:.2f} |")
 
 
 def page(runs, results):
     found = best(runs, results)
     shown = [run for run in runs if run.solver != "reference" and (run.problem, run.n) in found]
-    lines = ["# Obstacle problems on a grid", "",
-             "`make stress STRESS=grid` makes this page. The problems are those of",
-             "`tests/tao_ipfilter/ipfilter_grid.h`. All start from u = 0, and each solver has its default tolerances.",
-             "",
-             "| solver | settings |",
-             "| --- | --- |",
-             "| ipfilter, tron | hypre as preconditioner |",
-             "| ipfilter, amgf | its default preconditioner |",
-             "| ipfilter, rows | bounds given as inequality constraints, with two sides where there are two bounds |",
-             "",
-             "The error is that of the objective, relative to the lowest objective that any solver found, or",
-             f"`ipfilter` with gatol 1e-13. Errors above {FAR:g} are marked (!). The time is the sum over all ranks.",
-             "",
-             "| problem | unknowns | ranks | solver | end | steps | Krylov iterations | error of the objective | processor time [s] |",
-             "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
+    lines = [
+        "# Obstacle problems on a grid", "", "`make stress STRESS=grid` makes this page. The problems are those of",
+        "`tests/tao_ipfilter/ipfilter_grid.h`. All start from u = 0, and each solver has its default tolerances.", "",
+        "| solver | settings |", "| --- | --- |", "| ipfilter, tron | hypre as preconditioner |",
+        "| ipfilter, amgf | its default preconditioner |",
+        "| ipfilter, rows | bounds given as inequality constraints, with two sides where there are two bounds |", "",
+        "The error is that of the objective, relative to the lowest objective that any solver found, or",
+        f"`ipfilter` with gatol 1e-13. Errors above {FAR:g} are marked (!). The time is the sum over all ranks.", "",
+        ("| problem | unknowns | ranks | solver | end | steps | Krylov iterations | error of the objective | "
+         "processor time [s] |"), "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"
+    ]
     lines += [row(run, results[run.key()], found[run.problem, run.n]) for run in shown]
     return "\n".join(lines) + "\n"
 

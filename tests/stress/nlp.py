@@ -1,7 +1,8 @@
-"""TAOIPFILTER, IPOPT and other solvers of TAO on nonlinear programs whose solutions are known: tests/stress/nlp.md and nlp_profile.png.
+"""TAOIPFILTER, IPOPT and other solvers of TAO on nonlinear programs whose solutions are known: tests/stress/nlp.md and
+nlp_profile.png.
 
-The problems are those of tests/tao_ipfilter/ipfilter_nlp.h and of nlp_problems.py, and, counted by themselves, those of nlp_kinds.py and nlp_textbook.py; `make stress STRESS=nlp` builds
-the programs and runs this.
+The problems are those of tests/tao_ipfilter/ipfilter_nlp.h and of nlp_problems.py, and, counted by themselves, those of
+nlp_kinds.py and nlp_textbook.py; `make stress STRESS=nlp` builds the programs and runs this.
 """
 import argparse
 import itertools
@@ -17,7 +18,8 @@ from nlp_textbook import TEXTBOOK
 HERE = os.path.dirname(os.path.abspath(__file__))
 FAR = 1e-5  # relative error of the objective: more is wrong
 FAR_VIOLATION = 1e-4  # relative to the rows of the Jacobian; IPOPT's own limit, constr_viol_tol
-FAR_DEGENERATE = 1e-2  # of the objective where no multipliers exist: it moves by the square root of what constraints are relaxed by
+# of the objective where no multipliers exist: it moves by the square root of what constraints are relaxed by
+FAR_DEGENERATE = 1e-2
 LOOSE = 1e-6  # more is remarked
 
 
@@ -29,9 +31,12 @@ class Solver:
 
 
 class Result:
-    def __init__(self, status, objective=float("nan"), violation=float("nan"), iterations=0, points=0, seconds=0.0, sentence=""):
+
+    def __init__(self, status, objective=float("nan"), violation=float("nan"), iterations=0, points=0, seconds=0.0,
+                 sentence=""):
         self.status, self.sentence = status, sentence
-        self.objective, self.violation, self.iterations, self.points, self.seconds = float(objective), float(violation), int(iterations), int(points), float(seconds)
+        self.objective, self.violation, self.iterations, self.points, self.seconds = float(objective), float(
+            violation), int(iterations), int(points), float(seconds)
         self.verdict = self.error = None
 
 
@@ -44,16 +49,22 @@ def solvers(folder):
     def bounds_only(problem):
         return not problem.inequalities and not problem.equalities
 
-    return [solver_of_tao("ipfilter", []), solver_of_tao("ipfilter, scaling none", ["-tao_ipfilter_scaling", "none"]), Solver("IPOPT", lambda path, first: [ipopt, path, str(first)]),
-            solver_of_tao("tron", ["-tao_type", "tron"], bounds_only), solver_of_tao("bnls", ["-tao_type", "bnls"], bounds_only),
-            solver_of_tao("almm", ["-tao_type", "almm"], lambda problem: not bounds_only(problem))]
+    return [
+        solver_of_tao("ipfilter", []),
+        solver_of_tao("ipfilter, scaling none", ["-tao_ipfilter_scaling", "none"]),
+        Solver("IPOPT", lambda path, first: [ipopt, path, str(first)]),
+        solver_of_tao("tron", ["-tao_type", "tron"], bounds_only),
+        solver_of_tao("bnls", ["-tao_type", "bnls"], bounds_only),
+        solver_of_tao("almm", ["-tao_type", "almm"], lambda problem: not bounds_only(problem))
+    ]
 
 
 def shipped(folder):
     """The problems of tests/tao_ipfilter/ipfilter_nlp.h"""
     lines = subprocess.run([os.path.join(folder, "tao")], capture_output=True, text=True, check=True).stdout.split("\n")
     for name, optimum, end, others, objective, inequalities, equalities, bounds, start in zip(*[iter(lines)] * 9):
-        yield Problem(name, objective, float(optimum), start, ge=[inequalities], eq=[equalities], bounds=bounds, others=map(float, others.split()), end=DEGENERATE if int(end) == REACHED else int(end))
+        yield Problem(name, objective, float(optimum), start, ge=[inequalities], eq=[equalities], bounds=bounds,
+                      others=map(float, others.split()), end=DEGENERATE if int(end) == REACHED else int(end))
 
 
 def write(path, problems):
@@ -87,7 +98,9 @@ def run(solver, problems, folder, limit):
     path, results = os.path.join(folder, "problems.txt"), []
     write(path, problems)
     while len(results) < len(problems):
-        with open(os.path.join(folder, "said"), "w+") as said, subprocess.Popen(solver.command(path, len(results)), stdout=subprocess.PIPE, stderr=said) as process:
+        with open(os.path.join(folder, "said"),
+                  "w+") as said, subprocess.Popen(solver.command(path, len(results)), stdout=subprocess.PIPE,
+                                                  stderr=said) as process:
             for line in lines_until(process, limit):
                 name, *fields = line.split("|", 7)  # the sentence may hold some, too
                 if len(fields) == 7 and name == problems[len(results)].name:
@@ -96,7 +109,9 @@ def run(solver, problems, folder, limit):
             if len(results) < len(problems):
                 said.seek(0)
                 hung = process.returncode == -9
-                results.append(Result("hung" if hung else "crashed", sentence=f"no end after {limit:g} s" if hung else last_error(said)))
+                results.append(
+                    Result("hung" if hung else "crashed",
+                           sentence=f"no end after {limit:g} s" if hung else last_error(said)))
     return dict(zip((p.name for p in problems), results))
 
 
@@ -107,16 +122,20 @@ def relative_error(objective, optimum):
 
 def judge(problem, result):
     """right; wrong: it claims to have converged, or what is not so; failed: it says so"""
-    result.error = min(relative_error(result.objective, value) for value in (problem.optimum, *problem.others)) if problem.end in (SOLVED, DEGENERATE) else 0.0
+    result.error = min(relative_error(result.objective, value)
+                       for value in (problem.optimum, *problem.others)) if problem.end in (SOLVED, DEGENERATE) else 0.0
     claims = result.status in ("converged", "acceptable")
     if problem.end in (INFEASIBLE, UNBOUNDED):
         said = "infeasible" if problem.end == INFEASIBLE else "unbounded"
-        return "right" if result.status == said else "wrong" if claims or result.status in ("infeasible", "unbounded") else "failed"
+        return "right" if result.status == said else "wrong" if claims or result.status in ("infeasible",
+                                                                                            "unbounded") else "failed"
     if result.status in ("infeasible", "unbounded"):
         return "failed"
-    if not claims and not (result.status == "no multipliers" and problem.end == DEGENERATE and result.error < FAR_DEGENERATE and result.violation < FAR_VIOLATION):
+    if not claims and not (result.status == "no multipliers" and problem.end == DEGENERATE
+                           and result.error < FAR_DEGENERATE and result.violation < FAR_VIOLATION):
         return "failed"
-    return "right" if result.error < (FAR_DEGENERATE if problem.end == DEGENERATE else FAR) and result.violation < FAR_VIOLATION else "wrong"
+    return "right" if result.error < (
+        FAR_DEGENERATE if problem.end == DEGENERATE else FAR) and result.violation < FAR_VIOLATION else "wrong"
 
 
 def cell(result):
@@ -143,15 +162,22 @@ def counts(problems, results):
     for name, all_found in results.items():
         found = {problem: r for problem, r in all_found.items() if problem in names}
         good = [r for r in found.values() if r.verdict == "right"]
-        yield (f"| {name} | {len(found)} | {len(good)} | {sum(r.verdict == 'wrong' for r in found.values())} | {sum(r.verdict == 'failed' for r in found.values())} "
-               f"| {sum(r.error < LOOSE and not r.violation > LOOSE for r in good)} | {sum(r.iterations for r in good)} | {sum(r.points for r in good)} | {sum(r.seconds for r in good):.1f} |")
+        yield (f"| {name} | {len(found)} | {len(good)} | {sum(r.verdict == 'wrong' for r in found.values())} | "
+               f"{sum(r.verdict == 'failed' for r in found.values())} "
+               f"| {sum(r.error < LOOSE and not r.violation > LOOSE for r in good)} | "
+               f"{sum(r.iterations for r in good)} | {sum(r.points for r in good)} | "
+               f"{sum(r.seconds for r in good):.1f} |")
 
 
 def common(problems, results, names):
     """Sums over the problems that all of these solvers have right"""
-    both = [p.name for p in problems if all(p.name in results[name] and results[name][p.name].verdict == "right" for name in names)]
+    both = [
+        p.name for p in problems if all(p.name in results[name] and results[name][p.name].verdict == "right"
+                                        for name in names)
+    ]
     yield f"On the {len(both)} problems that {' and '.join(names)} have right: " + "; ".join(
-        f"{name} {sum(results[name][p].iterations for p in both)} iterations, {sum(results[name][p].points for p in both)} points" for name in names) + "."
+        (f"{name} {sum(results[name][p].iterations for p in both)} iterations, "
+         f"{sum(results[name][p].points for p in both)} points") for name in names) + "."
 
 
 def differences(problems, results, left, right):
@@ -160,11 +186,13 @@ def differences(problems, results, left, right):
         a, b = results[left][p.name], results[right][p.name]
         if a.verdict != "right" and b.verdict == "right":
             sentence = a.sentence.replace("|", "/")
-            yield f"| {p.name} | {a.verdict} | {a.objective:.6e} | {p.optimum:.6e} | {a.violation:.0e} | {a.iterations} | {sentence} |"
+            yield (f"| {p.name} | {a.verdict} | {a.objective:.6e} | {p.optimum:.6e} | {a.violation:.0e} | "
+                   f"{a.iterations} | {sentence} |")
 
 
 def profile(problems, results, path):
-    """Performance profiles (Dolan and More 2002): the share of problems solved within a multiple of what the best solver took"""
+    """Performance profiles (Dolan and More 2002): the share of problems solved within a multiple of what the best
+    solver took"""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -173,11 +201,21 @@ def profile(problems, results, path):
     names = list(results)[:3]
     figure, axes = pyplot.subplots(1, 3, figsize=(13, 4), sharey=True)
     for axis, measure in zip(axes, ("iterations", "points", "seconds")):
-        took = {name: {p: max(getattr(r, measure), 1e-5) for p, r in results[name].items() if r.verdict == "right"} for name in names}
-        best = {p.name: min((took[name][p.name] for name in names if p.name in took[name]), default=None) for p in problems}
+        took = {
+            name: {p: max(getattr(r, measure), 1e-5)
+                   for p, r in results[name].items()
+                   if r.verdict == "right"}
+            for name in names
+        }
+        best = {
+            p.name: min((took[name][p.name] for name in names if p.name in took[name]), default=None)
+            for p in problems
+        }
         for name in names:
             ratios = sorted(value / best[p] for p, value in took[name].items())
-            axis.step([1.0, *ratios, 100.0], [0.0, *((k + 1) / len(problems) for k in range(len(ratios))), len(ratios) / len(problems)], where="post", label=name)
+            axis.step([1.0, *ratios, 100.0],
+                      [0.0, *((k + 1) / len(problems) for k in range(len(ratios))),
+                       len(ratios) / len(problems)], where="post", label=name)
         axis.set(xscale="log", xlim=(1, 100), ylim=(0, 1), xlabel=f"{measure}, multiple of the least")
         axis.grid(alpha=0.3)
     axes[0].set_ylabel(f"share of {len(problems)} problems solved")
@@ -219,7 +257,10 @@ def parse():
 
 def main():
     args = parse()
-    sets = {"The first set": [*shipped(args.folder), *PROBLEMS], "The second set, of other kinds": KINDS, "The third set, from textbooks": TEXTBOOK}
+    sets = {
+        "The first set": [*shipped(args.folder), *PROBLEMS], "The second set, of other kinds": KINDS,
+        "The third set, from textbooks": TEXTBOOK
+    }
     problems, results = list(itertools.chain(*sets.values())), {}
     for solver in solvers(args.folder):
         results[solver.name] = run(solver, [p for p in problems if solver.applies(p)], args.folder, args.limit)
@@ -231,7 +272,10 @@ def main():
     for title, members in sets.items():
         lines += [f"## {title}", "", *counts(members, results), "", *common(members, results, (ours, ipopt)), ""]
     for left, right in ((ours, ipopt), (ipopt, ours)):
-        lines += [f"## {right} has right, {left} not", "", "| problem | | f | optimum | violation | its | said |", "|" + " --- |" * 7, *differences(problems, results, left, right), ""]
+        lines += [
+            f"## {right} has right, {left} not", "", "| problem | | f | optimum | violation | its | said |",
+            "|" + " --- |" * 7, *differences(problems, results, left, right), ""
+        ]
     lines += ["## All", "", *table(problems, results, (ours, none, ipopt))]
     with open(os.path.join(args.out, "nlp.md"), "w") as out:
         out.write("\n".join(lines) + "\n")

@@ -1,4 +1,5 @@
-"""TAOIPFILTER and IPOPT on the nonlinear programs of nlp.py written in other forms: tests/stress/nlp_forms.md. `make stress STRESS=nlp` runs this after nlp.py.
+"""TAOIPFILTER and IPOPT on the nonlinear programs of nlp.py written in other forms: tests/stress/nlp_forms.md. `make
+stress STRESS=nlp` runs this after nlp.py.
 """
 import math
 import os
@@ -7,10 +8,13 @@ from nlp import HERE, KINDS, PROBLEMS, counts, differences, judge, parse, run, s
 from nlp_problems import UNBOUNDED, Problem
 from nlp_textbook import TEXTBOOK
 
-# Minima of these problems beside the known ones, to which other forms lead: the gradient of the Lagrangian vanishes there to 1e-5, and its Hessian is positive
-# definite on the tangent space (HS23, S325: two rows active, both multipliers positive)
-MINIMA = {"HS23": 9.472135955, "HS46": 0.0210889286, "S261": 1.6295575861, "S282": 3.9843950179, "bard": 1.0038205868, "BT5": 952.1424944555,
-          "HS47": 10.0699102841, "S325": 7.4640959077}
+# Minima of these problems beside the known ones, to which other forms lead: the gradient of the Lagrangian vanishes
+# there to 1e-5, and its Hessian is positive definite on the tangent space (HS23, S325: two rows active, both
+# multipliers positive)
+MINIMA = {
+    "HS23": 9.472135955, "HS46": 0.0210889286, "S261": 1.6295575861, "S282": 3.9843950179, "bard": 1.0038205868,
+    "BT5": 952.1424944555, "HS47": 10.0699102841, "S325": 7.4640959077
+}
 
 FUNCTIONS = {name: getattr(math, name) for name in ("exp", "sin", "cos", "cosh", "atan", "sqrt", "log", "tanh", "erf")}
 MOST_UNKNOWNS, MOST_ROWS = 50, 100  # tests/stress/nlp_read.h
@@ -23,7 +27,10 @@ def rows(text):
 def value(formula, start):
     """At the start; 0 where there is none"""
     try:
-        return float(eval(formula.replace("^", "**"), {**FUNCTIONS, **{f"x{i}": float(x) for i, x in enumerate(start.split(), 1)}}))
+        return float(
+            eval(formula.replace("^", "**"),
+                 {**FUNCTIONS, **{f"x{i}": float(x)
+                                  for i, x in enumerate(start.split(), 1)}}))
     except (ArithmeticError, ValueError, TypeError):
         return 0.0
 
@@ -33,7 +40,8 @@ def rewritten(p, start=(), bounds=(), **parts):
     n = len(p.start.split())
     old = (p.bounds.split() + [":"] * n)[:n]
     parts = {"objective": p.objective, "ge": rows(p.inequalities), "eq": rows(p.equalities), **parts}
-    return Problem(p.name, parts.pop("objective"), p.optimum, " ".join([*p.start.split(), *map(repr, start)]), bounds=" ".join([*old, *bounds]),
+    return Problem(p.name, parts.pop("objective"), p.optimum, " ".join([*p.start.split(), *map(repr, start)]),
+                   bounds=" ".join([*old, *bounds]),
                    others=[*p.others, *([MINIMA[p.name]] if p.name in MINIMA else [])], end=p.end, **parts)
 
 
@@ -41,12 +49,14 @@ def slacks(p, zero=False):
     n, ge = len(p.start.split()), rows(p.inequalities)
     if not ge:
         return None
-    return rewritten(p, [0.0 if zero else max(value(row, p.start), 0.0) for row in ge], ["0:"] * len(ge), ge=[], eq=rows(p.equalities) + [f"{row}-x{n + k}" for k, row in enumerate(ge, 1)])
+    return rewritten(p, [0.0 if zero else max(value(row, p.start), 0.0) for row in ge], ["0:"] * len(ge), ge=[],
+                     eq=rows(p.equalities) + [f"{row}-x{n + k}" for k, row in enumerate(ge, 1)])
 
 
 def epigraph(p, zero=False):
     n = len(p.start.split())
-    return rewritten(p, [0.0 if zero else value(p.objective, p.start)], [":"], objective=f"x{n + 1}", ge=[*rows(p.inequalities), f"x{n + 1}-({p.objective})"])
+    return rewritten(p, [0.0 if zero else value(p.objective, p.start)], [":"], objective=f"x{n + 1}",
+                     ge=[*rows(p.inequalities), f"x{n + 1}-({p.objective})"])
 
 
 def twice(p):
@@ -61,11 +71,15 @@ def far(p):
     return rewritten(p, ge=[*rows(p.inequalities), "1e8+x1", f"1e10-x{len(p.start.split())}"])
 
 
-FORMS = {"slacks": slacks, "slacks from zero": lambda p: slacks(p, True), "epigraph": epigraph, "epigraph from zero": lambda p: epigraph(p, True), "twice": twice, "far rows": far}
+FORMS = {
+    "slacks": slacks, "slacks from zero": lambda p: slacks(p, True), "epigraph": epigraph,
+    "epigraph from zero": lambda p: epigraph(p, True), "twice": twice, "far rows": far
+}
 
 
 def fits(p):
-    return p is not None and len(p.start.split()) <= MOST_UNKNOWNS and len(rows(p.inequalities)) + len(rows(p.equalities)) <= MOST_ROWS
+    return p is not None and len(
+        p.start.split()) <= MOST_UNKNOWNS and len(rows(p.inequalities)) + len(rows(p.equalities)) <= MOST_ROWS
 
 
 HEADER = """# Nonlinear programs in other forms: TAOIPFILTER compared with IPOPT
@@ -96,7 +110,10 @@ def main():
                 found[p.name].verdict = judge(p, found[p.name])
         lines += [f"## {form}", "", *counts(problems, results), ""]
         for left, right in (("ipfilter", "IPOPT"), ("IPOPT", "ipfilter")):
-            lines += [f"{right} has right, {left} not:", "", "| problem | | f | optimum | violation | its | said |", "|" + " --- |" * 7, *differences(problems, results, left, right), ""]
+            lines += [
+                f"{right} has right, {left} not:", "", "| problem | | f | optimum | violation | its | said |",
+                "|" + " --- |" * 7, *differences(problems, results, left, right), ""
+            ]
         print(form, *counts(problems, results), sep="\n", flush=True)
     with open(os.path.join(args.out, "nlp_forms.md"), "w") as out:
         out.write("\n".join(lines))

@@ -14,7 +14,6 @@ import together
 import units
 from runner import AMGF_DIR
 
-
 HEADER = """# Stress report
 
 `make stress` makes this page (`tests/stress/run.py`). The two blocks are on mesh 1.
@@ -56,7 +55,8 @@ def last_words(run):
 
 
 class Report:
-    """Markdown, printed line by line and kept in a file; what is wrong is repeated at the end. Cases done are kept apart, to resume."""
+    """Markdown, printed line by line and kept in a file; what is wrong is repeated at the end. Cases done are kept
+    apart, to resume."""
 
     def __init__(self, args):
         self.stream = open(args.report, "w") if args.report else None
@@ -101,7 +101,9 @@ class Report:
             for result in case.run():
                 wrong = result["wrong"]
                 verdict = "**" + "; ".join(wrong) + "**" if wrong else "pass"
-                cells = [*part.cells(result), verdict, result["said"] if "said" in result else last_words(result["run"])]
+                cells = [
+                    *part.cells(result), verdict, result["said"] if "said" in result else last_words(result["run"])
+                ]
                 entry["rows"].append({"cells": cells, "wrong": wrong})
                 self.row(case.title, columns, cells, wrong)
             entry["seconds"] = cpu_seconds() - start
@@ -110,7 +112,9 @@ class Report:
         self.seconds += entry["seconds"]
 
     def end(self):
-        self.say(f"\n{self.rows} rows, {self.seconds / 60:.0f} minutes of processor time; {len(self.bad)} rows are not as they must be")
+        self.say(f"\n"
+                 f"{self.rows} rows, {self.seconds / 60:.0f} minutes of processor time; {len(self.bad)} rows are "
+                 f"not as they must be")
         for line in self.bad:
             self.say(f"- {line}")
         if self.stream:
@@ -131,8 +135,14 @@ def sweep_cells(r):
 
 def barrier_cells(r):
     run = r["run"]
-    return [r["name"], run.status, str(run.newton), " ".join(map(str, run.pcg)), number(r["bound"], ".0f"), number(r["spread"], ".1e"), number(run.last.get("kkt_error"), ".1e"),
-            number(run.last.get("kkt_error_unscaled"), ".1e")]
+    return [
+        r["name"], run.status,
+        str(run.newton), " ".join(map(str, run.pcg)),
+        number(r["bound"], ".0f"),
+        number(r["spread"], ".1e"),
+        number(run.last.get("kkt_error"), ".1e"),
+        number(run.last.get("kkt_error_unscaled"), ".1e")
+    ]
 
 
 def unit_cells(r):
@@ -141,7 +151,14 @@ def unit_cells(r):
 
 def step_cells(r):
     run = r["run"]
-    return [r["name"], str(r["steps"]), str(r["updates"]), run.status, *counts(run), gap(run), number(r["displacement"], ".1e"), number(r["energy"], ".1e")]
+    return [
+        r["name"],
+        str(r["steps"]),
+        str(r["updates"]), run.status, *counts(run),
+        gap(run),
+        number(r["displacement"], ".1e"),
+        number(r["energy"], ".1e")
+    ]
 
 
 def clip_cells(r):
@@ -155,10 +172,18 @@ def kill_cells(r):
 COUNTS = ["status", "Newton", "PCG mean", "PCG max"]
 PARTS = {
     "sweeps": Part(sweeps.cases, ["case", *COUNTS, "true gap", "energy", "difference in energy"], sweep_cells),
-    "barrier": Part(barrier.cases, ["case", "status", "Newton", "PCG of each Newton system", "bound", "D_max/D_min", "KKT error", "unscaled"], barrier_cells),
+    "barrier": Part(
+        barrier.cases,
+        ["case", "status", "Newton", "PCG of each Newton system", "bound", "D_max/D_min", "KKT error", "unscaled"],
+        barrier_cells),
     "units": Part(units.cases, ["scene", "units", *COUNTS, "largest difference", "of"], unit_cells),
-    "steps": Part(steps.cases, ["scene", "load steps", "contact updates allowed", *COUNTS, "true gap", "difference in displacement", "difference in energy"], step_cells),
-    "kill": Part(kill.cases, ["after", "ranks that go on", "times", "went on", "before a checkpoint", "had ended", "off by"], kill_cells),
+    "steps": Part(steps.cases, [
+        "scene", "load steps", "contact updates allowed", *COUNTS, "true gap", "difference in displacement",
+        "difference in energy"
+    ], step_cells),
+    "kill": Part(kill.cases,
+                 ["after", "ranks that go on", "times", "went on", "before a checkpoint", "had ended", "off by"],
+                 kill_cells),
     "together": Part(together.cases, ["effects", "known", "run", "refused"], lambda r: [r["name"], *r["counts"]]),
     "clip": Part(clip.cases, ["case", "checks", "time [s]"], clip_cells),
 }
@@ -166,13 +191,17 @@ PARTS = {
 
 def parse():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("parts", nargs="*", default=list(PARTS), metavar="PART", help=f"of {', '.join(PARTS)}; default all")
-    parser.add_argument("--quick", action="store_true", help="the rows that make check runs, and only whether they are as they should be")
+    parser.add_argument("parts", nargs="*", default=list(PARTS), metavar="PART",
+                        help=f"of {', '.join(PARTS)}; default all")
+    parser.add_argument("--quick", action="store_true",
+                        help="the rows that make check runs, and only whether they are as they should be")
     parser.add_argument("--resume", action="store_true", help="do not run again what is in --folder already")
     parser.add_argument("--only", default="*", help="cases whose name matches this pattern")
-    parser.add_argument("--refine", type=int, default=1, help="of the two blocks in the sweeps; 1 is the published mesh 1")
+    parser.add_argument("--refine", type=int, default=1,
+                        help="of the two blocks in the sweeps; 1 is the published mesh 1")
     parser.add_argument("--limit", type=int, default=600, help="of one run [CPU s]")
-    parser.add_argument("--folder", default=os.path.join(AMGF_DIR, "build", "stress"), help="for scenes, summaries and fields")
+    parser.add_argument("--folder", default=os.path.join(AMGF_DIR, "build", "stress"),
+                        help="for scenes, summaries and fields")
     parser.add_argument("--report", help="file for the tables")
     return parser.parse_args()
 

@@ -15,7 +15,8 @@ SCENES = os.path.join(AMGF_DIR, "share", "scenes")
 
 
 class Case:
-    """What is run at once: run() yields its results, dictionaries that hold at least the run and what is wrong with it."""
+    """What is run at once: run() yields its results, dictionaries that hold at least the run and what is wrong with
+    it."""
 
     def __init__(self, title, name, run):
         self.title, self.name, self.run = title, name, run
@@ -74,12 +75,14 @@ class Run:
         """Point fields of the body meshes and of the contact surface, by name."""
         fields = {}
         with h5py.File(f"{self.base}_{step:04d}.h5", "r") as file:
-            file.visititems(lambda name, item: fields.update({name: item[...]}) if isinstance(item, h5py.Dataset) else None)
+            file.visititems(lambda name, item: fields.update({name: item[...]})
+                            if isinstance(item, h5py.Dataset) else None)
         return fields
 
 
 def solve(folder, name, scene, options=(), limit=60, write=False):
-    """scene: a dict, written as JSON, which is YAML; or the path of a file. limit: CPU seconds; ten times as many by the clock."""
+    """scene: a dict, written as JSON, which is YAML; or the path of a file. limit: CPU seconds; ten times as many by
+    the clock."""
     os.makedirs(folder, exist_ok=True)
     base = os.path.join(folder, name)
     path = scene

@@ -2,20 +2,27 @@
 
 
 def box(name, lower, upper, cells, young, poisson, **more):
-    return {name: {"shape": "box", "lower": list(lower), "upper": list(upper), "cells": list(cells), "young": young, "poisson": poisson, **more}}
+    return {
+        name: {
+            "shape": "box", "lower": list(lower), "upper": list(upper), "cells": list(cells), "young": young,
+            "poisson": poisson, **more
+        }
+    }
 
 
-def two_block(poisson=0.499, slab_young=1.0, block_young=1000.0, element="full", material="linear", slab_cells=(20, 6, 3), block_cells=(4, 4, 4),
-              slab_lower=(-4.5, -2, -4.5), slab_upper=(4.5, 2, -1.5), block_x=(-3.5, -2.5), block_y=(-0.5, 0.5), height=1.0, lift=0.0,
-              push=-5 / 7, steps=2, pair=None, **top):
+def two_block(poisson=0.499, slab_young=1.0, block_young=1000.0, element="full", material="linear",
+              slab_cells=(20, 6, 3), block_cells=(4, 4, 4), slab_lower=(-4.5, -2, -4.5), slab_upper=(4.5, 2, -1.5),
+              block_x=(-3.5, -2.5), block_y=(-0.5, 0.5), height=1.0, lift=0.0, push=-5 / 7, steps=2, pair=None, **top):
     """share/scenes/two_block.yaml; `lift` is the gap between the two at the start, `push` what the top is moved by."""
     floor = slab_upper[2] + lift
     return {
         "bodies": [
             box("slab", slab_lower, slab_upper, slab_cells, slab_young, poisson, element=element, material=material),
-            box("block", (block_x[0], block_y[0], floor), (block_x[1], block_y[1], floor + height), block_cells, block_young, 0, material=material),
+            box("block", (block_x[0], block_y[0], floor), (block_x[1], block_y[1], floor + height), block_cells,
+                block_young, 0, material=material),
         ],
-        "displacements": [{"bottom": {"face": "slab.zmin", "value": [0, 0, 0]}}, {"top": {"face": "block.zmax", "value": [0, 0, push]}}],
+        "displacements": [{"bottom": {"face": "slab.zmin", "value": [0, 0, 0]}},
+                          {"top": {"face": "block.zmax", "value": [0, 0, push]}}],
         "contact": [{"blocks": {"mortar": "slab.zmax", "nonmortar": "block.zmin", **(pair or {})}}],
         "load": {"steps": steps},
         **top,
@@ -41,8 +48,9 @@ def lost():
     return two_block(slab_lower=(-4.5, -2, -136.5), height=100, push=-32)
 
 
-def rubbing(law, force=(0.0,), moves=None, pressure=300.0, height=0.5, lift=0.0, wedge=False):
-    """A block on a plate, under a pressure, pushed by forces or moved by its top, a load step an entry; `wedge`: squeezed by a second plate in place of the pressure."""
+def rubbing(law, force=(0.0, ), moves=None, pressure=300.0, height=0.5, lift=0.0, wedge=False):
+    """A block on a plate, under a pressure, pushed by forces or moved by its top, a load step an entry; `wedge`:
+    squeezed by a second plate in place of the pressure."""
     factors = {"factors": [1] * len(moves or force)}
     scene = {
         "bodies": [
@@ -62,10 +70,13 @@ def rubbing(law, force=(0.0,), moves=None, pressure=300.0, height=0.5, lift=0.0,
             scene["ramps"].append({axis: {"factors": [move[c] for move in moves]}})
     else:
         scene["pressures"] = [{"press": {"face": "block.zmax", "value": pressure}}]
-        scene["forces"] = [{"push": {"face": "block.zmin" if height < 1 else "block.zmax", "value": [1, 0, 0], "ramp": "across"}}]
+        scene["forces"] = [{
+            "push": {"face": "block.zmin" if height < 1 else "block.zmax", "value": [1, 0, 0], "ramp": "across"}
+        }]
         scene["ramps"].append({"across": {"factors": list(force)}})
     if wedge:
-        scene["bodies"].append(box("lid", (-0.5, -0.5, lift + height), (2.5, 1.5, lift + height + 0.5), (7, 4, 2), 1e5, 0.3))
+        scene["bodies"].append(
+            box("lid", (-0.5, -0.5, lift + height), (2.5, 1.5, lift + height + 0.5), (7, 4, 2), 1e5, 0.3))
         scene["displacements"].append({"down": {"face": "lid.zmax", "value": [0, 0, -0.005]}})
         scene["contact"].append({"lid": {"mortar": "lid.zmin", "nonmortar": "block.zmax", **law}})
         del scene["pressures"]
@@ -74,7 +85,8 @@ def rubbing(law, force=(0.0,), moves=None, pressure=300.0, height=0.5, lift=0.0,
 
 
 def stack(cells, gap=0.0, held=True, young=(100.0, 1000.0, 100.0), weight=1.0, **top):
-    """Blocks of unit height on each other, on a fixed one, under gravity alone. `held`: their sides cannot slide away."""
+    """Blocks of unit height on each other, on a fixed one, under gravity alone. `held`: their sides cannot slide
+    away."""
     bodies, contact, symmetry = [], [], []
     for k, n in enumerate(cells):
         name, floor, half = f"b{k}", k * (1 + gap), 1 - 0.15 * k
@@ -96,7 +108,7 @@ def stack(cells, gap=0.0, held=True, young=(100.0, 1000.0, 100.0), weight=1.0, *
 
 def stack_weight(cells, weight=1.0):
     """What rests on the fixed block, and what the sum of all contact forces is."""
-    volume = [(1 - 0.15 * k) ** 2 for k in range(len(cells))]
+    volume = [(1 - 0.15 * k)**2 for k in range(len(cells))]
     return sum(weight * sum(volume[k:]) for k in range(1, len(cells)))
 
 
@@ -142,7 +154,8 @@ def plate(thickness):
 
 
 def gmsh_box(file, name, cells, position, faces):
-    """Writes a box of hexahedra as Gmsh 2.2, its vertices moved by position(x, y, z) of the unit cube; faces: names of zmin, zmax."""
+    """Writes a box of hexahedra as Gmsh 2.2, its vertices moved by position(x, y, z) of the unit cube; faces: names of
+    zmin, zmax."""
     nx, ny, nz = cells
 
     def vertex(i, j, k):
@@ -154,11 +167,24 @@ def gmsh_box(file, name, cells, position, faces):
         for i in range(nx):
             quads.append((1, [vertex(i, j, 0), vertex(i, j + 1, 0), vertex(i + 1, j + 1, 0), vertex(i + 1, j, 0)]))
             quads.append((2, [vertex(i, j, nz), vertex(i + 1, j, nz), vertex(i + 1, j + 1, nz), vertex(i, j + 1, nz)]))
-    hexes = [[vertex(i, j, k), vertex(i + 1, j, k), vertex(i + 1, j + 1, k), vertex(i, j + 1, k),
-              vertex(i, j, k + 1), vertex(i + 1, j, k + 1), vertex(i + 1, j + 1, k + 1), vertex(i, j + 1, k + 1)]
-             for k in range(nz) for j in range(ny) for i in range(nx)]
-    lines = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "3", f'2 1 "{faces[0]}"', f'2 2 "{faces[1]}"', f'3 3 "{name}"', "$EndPhysicalNames"]
-    lines += ["$Nodes", str(len(points)), *(f"{n + 1} {x!r} {y!r} {z!r}" for n, (x, y, z) in enumerate(points)), "$EndNodes"]
+    hexes = [[
+        vertex(i, j, k),
+        vertex(i + 1, j, k),
+        vertex(i + 1, j + 1, k),
+        vertex(i, j + 1, k),
+        vertex(i, j, k + 1),
+        vertex(i + 1, j, k + 1),
+        vertex(i + 1, j + 1, k + 1),
+        vertex(i, j + 1, k + 1)
+    ] for k in range(nz) for j in range(ny) for i in range(nx)]
+    lines = [
+        "$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", "3", f'2 1 "{faces[0]}"', f'2 2 "{faces[1]}"',
+        f'3 3 "{name}"', "$EndPhysicalNames"
+    ]
+    lines += [
+        "$Nodes",
+        str(len(points)), *(f"{n + 1} {x!r} {y!r} {z!r}" for n, (x, y, z) in enumerate(points)), "$EndNodes"
+    ]
     lines += ["$Elements", str(len(quads) + len(hexes))]
     lines += [f"{n + 1} 3 2 {tag} {tag} " + " ".join(map(str, quad)) for n, (tag, quad) in enumerate(quads)]
     lines += [f"{n + 1 + len(quads)} 5 2 3 3 " + " ".join(map(str, cell)) for n, cell in enumerate(hexes)]
@@ -171,14 +197,18 @@ def tip(width, depth, lower, shift=(0.0, 0.0), turned=False):
     """Position of a wedge or spike of unit height: its section shrinks to width x depth towards the tip at z = lower.
 
     Towards the top if `turned`."""
+
     def position(x, y, z):
         t = 1 - z if turned else z
-        return (shift[0] + (x - 0.5) * (width + (1 - width) * t), shift[1] + (y - 0.5) * (depth + (1 - depth) * t), lower + z)
+        return (shift[0] + (x - 0.5) * (width + (1 - width) * t), shift[1] + (y - 0.5) * (depth + (1 - depth) * t),
+                lower + z)
+
     return position
 
 
 def pointed(folder, width, depth, target="slab", push=-0.1, nonmortar="tip", shift=(0.0, 0.0), young=100.0):
-    """A wedge (depth 1) or spike (depth = width) pressed tip first on a slab, or on another one that points up, turned by 90 degrees."""
+    """A wedge (depth 1) or spike (depth = width) pressed tip first on a slab, or on another one that points up, turned
+    by 90 degrees."""
     gmsh_box(f"{folder}/down.msh", "down", (3, 3, 4), tip(width, depth, 0.0, shift), ("low", "high"))
     below = box("base", (-1, -1, -1), (1, 1, 0), (6, 6, 3), 10, 0.3)
     rest, on = "base.zmin", "base.zmax"
@@ -188,8 +218,12 @@ def pointed(folder, width, depth, target="slab", push=-0.1, nonmortar="tip", shi
         rest, on = "base.low", "base.high"
     return {
         "bodies": [below, {"top": {"mesh": "down.msh", "volume": "down", "young": young, "poisson": 0.3}}],
-        "displacements": [{"ground": {"face": rest, "value": [0, 0, 0]}}, {"press": {"face": "top.high", "value": [0, 0, push]}}],
-        "contact": [{"point": {"mortar": on, "nonmortar": "top.low"} if nonmortar == "tip" else {"mortar": "top.low", "nonmortar": on}}],
+        "displacements": [{"ground": {"face": rest, "value": [0, 0, 0]}},
+                          {"press": {"face": "top.high", "value": [0, 0, push]}}],
+        "contact": [{
+            "point": {"mortar": on, "nonmortar": "top.low"}
+            if nonmortar == "tip" else {"mortar": "top.low", "nonmortar": on}
+        }],
         "load": {"steps": 2},
         "contact_updates": 3,
     }

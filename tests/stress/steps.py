@@ -14,7 +14,8 @@ def compare(args, name):
     for updates in (60, 1):
         for steps in STEPS:
             options = ["-refine", 0, "-load_steps", steps, "-contact_updates", updates, "-contact_update_tol", 1e-9]
-            run = solve(folder, f"{name}_{steps}_{updates}", os.path.join(SCENES, name + ".yaml"), options, args.limit, write=True)
+            run = solve(folder, f"{name}_{steps}_{updates}", os.path.join(SCENES, name + ".yaml"), options, args.limit,
+                        write=True)
             base = base or run
             wrong, displacement, energy = [], None, None
             if not run.converged:
@@ -24,7 +25,10 @@ def compare(args, name):
                 displacement, energy = np.abs(a - b).max() / np.abs(b).max(), run.energy / base.energy - 1
                 if updates > 1 and not displacement <= TOLERANCE:
                     wrong.append(f"displacement differs by {displacement:.1e}")
-            yield {"name": name, "steps": steps, "updates": updates, "run": run, "displacement": displacement, "energy": energy, "wrong": wrong}
+            yield {
+                "name": name, "steps": steps, "updates": updates, "run": run, "displacement": displacement,
+                "energy": energy, "wrong": wrong
+            }
 
 
 def cases(args):

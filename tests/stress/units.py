@@ -7,7 +7,9 @@ import yaml
 from runner import DIRECT, SCENES, Case, solve
 
 # factors of length and pressure; powers of two change no digit, so that nothing at all may differ
-UNITS = {"m, Pa": (1.0, 1.0), "mm, MPa": (1e3, 1e-6), "lengths x 1e-6": (1e-6, 1.0), "powers of two": (2.0**-20, 2.0**10)}
+UNITS = {
+    "m, Pa": (1.0, 1.0), "mm, MPa": (1e3, 1e-6), "lengths x 1e-6": (1e-6, 1.0), "powers of two": (2.0**-20, 2.0**10)
+}
 
 # What keeps a run within seconds
 OPTIONS = {
@@ -18,16 +20,27 @@ OPTIONS = {
     "beam_sphere_neo_hookean": ["-load_steps", 6, "-contact_updates", 1, "-contact_quadrature", 8],
 }
 
-LENGTHS = {"lower", "upper", "center", "radii", "radius", "inner_radius", "outer_radius", "extent", "semi_axes", "distance", "interference", "inner_center", "outer_center", "cap_center",
-           "cap_radius", "point", "points", "tip", "size", "outside", "section_radius"}
+LENGTHS = {
+    "lower", "upper", "center", "radii", "radius", "inner_radius", "outer_radius", "extent", "semi_axes", "distance",
+    "interference", "inner_center", "outer_center", "cap_center", "cap_radius", "point", "points", "tip", "size",
+    "outside", "section_radius"
+}
 PRESSURES = {"young", "c10", "c01", "bulk", "yield", "hardening", "kinematic", "saturation", "yield_stresses"}
-FIELDS = {"displacement": (1, 0), "contact_gap": (1, 0), "contact_pressure": (0, 1), "contact_area": (2, 0), "contact_force": (2, 1), "stress": (0, 1)}  # powers of length and pressure
+# powers of length and pressure
+FIELDS = {
+    "displacement": (1, 0), "contact_gap": (1, 0), "contact_pressure": (0, 1), "contact_area": (2, 0),
+    "contact_force": (2, 1), "stress": (0, 1)
+}
 TOLERANCE = 1e-9
-# Two runs agree to rounding only where they take the same steps: the inexact solver stops at other PCG iterations after another rounding,
-# MUMPS with a prescribed sequence of mu does not. This tolerance is tight enough: the last steps to a tighter one multiply rounding
-# by D. One linearization: where the next one is placed by secants of the last two, their quotients multiply rounding. And a quadrature whose
-# error is of its size: where corners of an overlap coincide, rounding chooses the one that its triangles begin at
-EXACT = ["-options_file", DIRECT, "-tao_ipfilter_subspace", "false", "-tao_ipfilter_barrier", "monotone", "-tao_ipfilter_tol", 1e-4, "-elasticity_ksp_rtol", 1e-12, "-contact_updates", 1, "-contact_quadrature", 8]
+# Two runs agree to rounding only where they take the same steps: the inexact solver stops at other PCG iterations after
+# another rounding, MUMPS with a prescribed sequence of mu does not. This tolerance is tight enough: the last steps to a
+# tighter one multiply rounding by D. One linearization: where the next one is placed by secants of the last two, their
+# quotients multiply rounding. And a quadrature whose error is of its size: where corners of an overlap coincide,
+# rounding chooses the one that its triangles begin at
+EXACT = [
+    "-options_file", DIRECT, "-tao_ipfilter_subspace", "false", "-tao_ipfilter_barrier", "monotone",
+    "-tao_ipfilter_tol", 1e-4, "-elasticity_ksp_rtol", 1e-12, "-contact_updates", 1, "-contact_quadrature", 8
+]
 
 
 def value_of(text):
@@ -51,7 +64,10 @@ def scaled(value, factor):
 def scale_lengths(item, length):
     """Every length in a body or face, however deep."""
     if isinstance(item, dict):
-        return {key: scaled(value, length) if key in LENGTHS else scale_lengths(value, length) for key, value in item.items()}
+        return {
+            key: scaled(value, length) if key in LENGTHS else scale_lengths(value, length)
+            for key, value in item.items()
+        }
     return item
 
 
@@ -79,7 +95,9 @@ def in_units(shipped, folder, length, pressure):
     with open(os.path.join(SCENES, shipped + ".yaml")) as file:
         scene = yaml.safe_load(file)
     for key in ("bodies", "faces", "contact"):
-        scene[key] = [{name: scale_lengths(values, length) for name, values in item.items()} for item in scene.get(key, [])]
+        scene[key] = [{name: scale_lengths(values, length)
+                       for name, values in item.items()}
+                      for item in scene.get(key, [])]
         if not scene[key]:
             del scene[key]
     for body in scene["bodies"]:
@@ -96,7 +114,8 @@ def in_units(shipped, folder, length, pressure):
 
 
 def difference(run, base, length, pressure):
-    """Largest difference of any field in any step after scaling back, relative to the field's largest value, and which."""
+    """Largest difference of any field in any step after scaling back, relative to the field's largest value, and
+    which."""
     worst = (0.0, "")
     for step in range(1, len(base.steps) + 1):
         ours, theirs = run.fields(step), base.fields(step)
@@ -104,7 +123,8 @@ def difference(run, base, length, pressure):
             if name not in theirs:
                 continue
             a, b = np.nan_to_num(ours[name] / (length**of_length * pressure**of_pressure)), np.nan_to_num(theirs[name])
-            size = np.nanmax(np.abs(theirs["displacement" if name == "contact_gap" else name]))  # a closed gap has no size of its own
+            # a closed gap has no size of its own
+            size = np.nanmax(np.abs(theirs["displacement" if name == "contact_gap" else name]))
             if size > 0:
                 worst = max(worst, (np.abs(a - b).max() / size, f"{name}, step {step}"))
     return worst
@@ -135,7 +155,8 @@ def compare(args, name, units=UNITS):
 
 
 def quick(args):
-    """Two scenes in one other unit, with a decision on a limit that their meshes meet but for rounding, and mesh lines through vertices."""
+    """Two scenes in one other unit, with a decision on a limit that their meshes meet but for rounding, and mesh lines
+    through vertices."""
     for name in ("two_block", "beam_sphere_linear"):
         yield list(compare(args, name, ("m, Pa", "lengths x 1e-6")))[1]
 

@@ -1,5 +1,7 @@
-"""Judges the runs of filtered_subspace.sh: the same energies and forces as the interior point method's, whatever the ranks, for little more than CG takes without contact;
-with MUMPS in place of AMG, for one factorization a run and a solve with it where Newton's method takes a factorization."""
+"""Judges the runs of filtered_subspace.sh: the same energies and forces as the interior point method's, whatever the
+ranks, for little more than CG takes without contact;
+with MUMPS in place of AMG, for one factorization a run and a solve with it where Newton's method takes a
+factorization."""
 import json
 import os
 import re
@@ -38,7 +40,8 @@ def verdict(what, value, limit):
 
 
 def spared(name, run):
-    print("  the interior point method was", "not needed" if not any(step["linear"]["subspaces"] for step in run) else "NEEDED")
+    print("  the interior point method was",
+          "not needed" if not any(step["linear"]["subspaces"] for step in run) else "NEEDED")
     print("  the AMG filter was", "not in use" if not filters(name) else "SAID TO BE IN USE")
 
 
@@ -52,11 +55,11 @@ for scene, ranks, cost in ("beam_sphere", (1, 3), (1.5, 1.2)), ("ironing", (1, 5
         verdict("  energy against the interior point method's", energy, 1e-8)
         verdict("  forces", force, 1e-7)
         verdict("  energy and forces against those of one rank", max(difference(run, alone)), 1e-9)
-        verdict("  AMG applications of the first load step by those without contact", run[0]["amg_applications"] / free, cost[0])
+        verdict("  AMG applications of the first load step by those without contact", run[0]["amg_applications"] / free,
+                cost[0])
         verdict("  of a later one", max(step["amg_applications"] for step in run[1:]) / free, cost[1])
         print("  the AMG was set up", "once" if sum(step["amg_setups"] for step in run) == 1 else "MORE THAN ONCE")
         spared(f"{scene}_{n}", run)
-
 
 for n in 1, 3:
     run, interior = steps(f"neo_hookean_{n}")[0], steps("neo_hookean")[0]
@@ -65,7 +68,8 @@ for n in 1, 3:
     verdict("  energy against the interior point method's", energy, 1e-8)
     verdict("  forces", force, 1e-7)
     verdict("  energy and forces against those of one rank", max(difference(run, steps("neo_hookean_1")[0])), 1e-9)
-    verdict("  AMG applications by those of the interior point method", sum(step["amg_applications"] for step in run) / sum(step["amg_applications"] for step in interior), 0.5)
+    verdict("  AMG applications by those of the interior point method",
+            sum(step["amg_applications"] for step in run) / sum(step["amg_applications"] for step in interior), 0.5)
     spared(f"neo_hookean_{n}", run)
 
 
@@ -84,8 +88,11 @@ def judge_factored(name, scene, setups):
 for n in ran("beam_sphere_direct", 1, 2):
     print(f"beam_sphere with a factorization, {n} ranks")
     with open(f"beam_sphere_direct_{n}.log") as file:
-        judge_factored(f"beam_sphere_direct_{n}", "beam_sphere", int(re.search(r"^PCSetUp +(\d+)", file.read(), re.M)[1]))
+        judge_factored(f"beam_sphere_direct_{n}", "beam_sphere",
+                       int(re.search(r"^PCSetUp +(\d+)", file.read(), re.M)[1]))
 for n in ran("ironing_chosen", 1, 3):
     print(f"ironing, which chooses a factorization, {n} ranks")
-    print("  the summary says so:", "yes" if all(step["factored"] for step in steps(f"ironing_chosen_{n}")[0]) else "NO")
-    judge_factored(f"ironing_chosen_{n}", "ironing", sum(step["amg_setups"] for step in steps(f"ironing_chosen_{n}")[0]))
+    print("  the summary says so:",
+          "yes" if all(step["factored"] for step in steps(f"ironing_chosen_{n}")[0]) else "NO")
+    judge_factored(f"ironing_chosen_{n}", "ironing",
+                   sum(step["amg_setups"] for step in steps(f"ironing_chosen_{n}")[0]))

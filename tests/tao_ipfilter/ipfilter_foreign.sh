@@ -1,6 +1,6 @@
-# -tao_type ipfilter in PETSc's own constrained tutorials, not recompiled for it: ex1 (with and without its equality) and
-# maros with its HS21 data, to the solutions that almm, pdipm and ipm find. PDIPM runs on one rank only, where it ends, and
-# not in maros, where PETSc 3.18's crashes; ipm is the solver that maros is written for.
+# -tao_type ipfilter in PETSc's own constrained tutorials, not recompiled for it: ex1 (with and without its equality)
+# and maros with its HS21 data, to the solutions that almm, pdipm and ipm find. PDIPM runs on one rank only, where it
+# ends, and not in maros, where PETSc 3.18's crashes; ipm is the solver that maros is written for.
 set -u
 plugin=$AMGF_DIR/lib/libpetscamgf.so
 prefix=$(pkg-config --variable=prefix PETSc)
@@ -9,7 +9,8 @@ for folder in "$prefix/share/petsc/examples" "$prefix" "${PETSC_DIR:-/nonexisten
   [ -f "$tutorials/ex1.c" ] && break
 done
 for tutorial in ex1 maros; do
-  mpicc $(pkg-config --cflags PETSc) "$tutorials/$tutorial.c" -o $tutorial $(pkg-config --libs PETSc) ${LDFLAGS:-} -Wl,-rpath,"$(pkg-config --variable=libdir PETSc)" -lm || exit 1
+  mpicc $(pkg-config --cflags PETSc) "$tutorials/$tutorial.c" -o $tutorial $(pkg-config --libs PETSc) ${LDFLAGS:-} \
+    -Wl,-rpath,"$(pkg-config --variable=libdir PETSc)" -lm || exit 1
 done
 
 # objective NAME RANKS PROGRAM...: the line of the run, and its objective in $value; almm views its inner solver first
@@ -50,7 +51,8 @@ if grep -qs 'define PETSC_USE_64BIT_INDICES' "$(pkg-config --variable=includedir
   "$PYTHON" "$AMGF_DIR/tests/build/indices64.py" HS21/*
 fi
 # maros asks for SuperLU, which Debian has for 32-bit integers alone
-grep -qs 'define PETSC_HAVE_SUPERLU 1' "$(pkg-config --variable=includedir PETSc)/petscconf.h" || ipm+=(-pc_factor_mat_solver_type mumps)
+grep -qs 'define PETSC_HAVE_SUPERLU 1' "$(pkg-config --variable=includedir PETSc)/petscconf.h" ||
+  ipm+=(-pc_factor_mat_solver_type mumps)
 objective "maros HS21, ipm" 1 ./maros "${ipm[@]}"
 reference=$value
 objective "maros HS21, ipfilter" 1 ./maros "${ipfilter[@]}"

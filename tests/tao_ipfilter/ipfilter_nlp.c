@@ -344,7 +344,8 @@ int main(int argc, char **argv)
       suffix: zigzag
       args: -problems zigzag -tao_max_it 400
 
-   # where no direction is found, the restoration starts from the violation of the present iterate, not of the last line search
+   # where no direction is found, the restoration starts from the violation of the present iterate, not of
+   # the last line search
    test:
       suffix: no_direction
       args: -problems circles,HS31 -tao_ipfilter_delta_max 1e-10

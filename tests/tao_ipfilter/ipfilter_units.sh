@@ -1,4 +1,5 @@
-# To the end of double precision: steps that are rounding have no curvature to be shifted for, in metres, millimetres and lengths x 1e-6;
+# To the end of double precision: steps that are rounding have no curvature to be shifted for, in metres, millimetres
+# and lengths x 1e-6;
 # slacks that all but vanish on the way neither make a positive definite system look indefinite nor keep PCG busy.
 "$PYTHON" - <<'PY'
 import json
@@ -14,7 +15,10 @@ from units import UNITS, in_units
 def solve(shipped, length=1.0, pressure=1.0):
     with open("scene.yaml", "w") as file:
         json.dump(in_units(shipped, ".", length, pressure), file)
-    subprocess.run([os.path.join(top, "bin", "contact"), "scene.yaml", "-quiet", "-tao_ipfilter_tol", "1e-11", "-summary", "run.json"], check=True, timeout=200)
+    subprocess.run([
+        os.path.join(top, "bin", "contact"), "scene.yaml", "-quiet", "-tao_ipfilter_tol", "1e-11", "-summary",
+        "run.json"
+    ], check=True, timeout=200)
     with open("run.json") as file:
         return json.load(file)["steps"][0]
 

@@ -1,9 +1,11 @@
-# The load steps of the two-block problem by an optimizer that no one here wrote, TAO's PDIPM with MUMPS on the whole KKT matrix:
+# The load steps of the two-block problem by an optimizer that no one here wrote, TAO's PDIPM with MUMPS on the whole
+# KKT matrix:
 # the same energy and contact force
 for name in ours theirs; do
   options=; [ $name = ours ] || options="-options_file $AMGF_DIR/share/options/pdipm.opts"
   # shellcheck disable=SC2086
-  "$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/two_block.yaml" -refine 0 -quiet -error_estimate 0 -summary $name.json -tao_gatol 1e-10 $options || echo "$name: exit code $?"
+  "$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/two_block.yaml" -refine 0 -quiet -error_estimate 0 \
+    -summary $name.json -tao_gatol 1e-10 $options || echo "$name: exit code $?"
 done
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'PY'
 from summaries import each, load, say, within

@@ -15,7 +15,8 @@ from references import richardson  # noqa: E402
 from runs import Runs  # noqa: E402
 
 # Ironing ends after the second load step of its sliding
-SHORTER = (("steps: 10", "steps: 5"), ("1/3, 2/3, 1, 1, 1, 1, 1, 1, 1, 1", "1/3, 2/3, 1, 1, 1"), ("0, 0, 0, 1/7, 2/7, 3/7, 4/7, 5/7, 6/7, 1", "0, 0, 0, 1/7, 2/7"))
+SHORTER = (("steps: 10", "steps: 5"), ("1/3, 2/3, 1, 1, 1, 1, 1, 1, 1, 1", "1/3, 2/3, 1, 1, 1"),
+           ("0, 0, 0, 1/7, 2/7, 3/7, 4/7, 5/7, 6/7, 1", "0, 0, 0, 1/7, 2/7"))
 PUNCH = """bodies:
   - slab: {lower: [0, 0, -2], upper: [3, 0.2, 0], cells: [12, 1, 8], young: 1, poisson: 0.3}
   - punch: %s
@@ -36,9 +37,18 @@ SHARP = "{lower: [0, 0, 0], upper: [1, 0.2, 1], cells: [6, 1, 6], young: 1000, p
 ROUND = "{mesh: %s, volume: punch, young: 1000, poisson: 0}"
 LEVELS = {1: (0, 1, 2, 3), 2: (0, 1, 2)}  # refinements by order
 # problem: the same for a mesh that is finer from the start
-LESS = {"two_block linear": {1: (0, 1, 2), 2: (0, 1)}, "two_block": {1: (0, 1, 2), 2: (0, 1)}, "ironing": {1: (0, 1), 2: (0,)}}
-LARGEST = {("two_block", 1): (3,), ("two_block", 2): (2,), ("ironing", 1): (2,), ("ironing", 2): (1,)}  # 699,486 and 89,370 unknowns
-TITLES = {"two_block linear": "two_block, gap linearized once, one load step", "two_block": "two_block, consistent gap, two load steps", "sharp punch": "flat punch with a sharp edge, plane strain", "rounded punch": "flat punch with a rounded edge, plane strain", "ironing": "ironing, pressed and slid by 2/7"}
+LESS = {
+    "two_block linear": {1: (0, 1, 2), 2: (0, 1)}, "two_block": {1: (0, 1, 2), 2: (0, 1)},
+    "ironing": {1: (0, 1), 2: (0, )}
+}
+# 699,486 and 89,370 unknowns
+LARGEST = {("two_block", 1): (3, ), ("two_block", 2): (2, ), ("ironing", 1): (2, ), ("ironing", 2): (1, )}
+TITLES = {
+    "two_block linear": "two_block, gap linearized once, one load step",
+    "two_block": "two_block, consistent gap, two load steps",
+    "sharp punch": "flat punch with a sharp edge, plane strain",
+    "rounded punch": "flat punch with a rounded edge, plane strain", "ironing": "ironing, pressed and slid by 2/7"
+}
 
 
 def example(name):
@@ -49,7 +59,7 @@ def example(name):
 def rounded(factor, path):
     """An Abaqus deck of the punch: half of it, 1 wide, flat to 0.6, then an arc of radius 0.8"""
     nx, nz, radius, flat = 6 * factor, 6 * factor, 0.8, 0.6
-    bottom = lambda x: 0.0 if x <= flat else radius - (radius**2 - (x - flat) ** 2) ** 0.5  # noqa: E731
+    bottom = lambda x: 0.0 if x <= flat else radius - (radius**2 - (x - flat)**2)**0.5  # noqa: E731
     number = lambda i, j, k: 1 + i + (nx + 1) * (j + 2 * k)  # noqa: E731
     lines, sets = ["*NODE"], {"xmin": [], "ymin": [], "ymax": [], "zmin": [], "zmax": []}
     for k in range(nz + 1):
@@ -61,7 +71,10 @@ def rounded(factor, path):
     for k in range(nz):
         for i in range(nx):
             e = 1 + i + nx * k
-            corners = [number(i + a, b, k + c) for a, b, c in ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))]
+            corners = [
+                number(i + a, b, k + c)
+                for a, b, c in ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
+            ]
             lines.append(", ".join(map(str, (e, *corners))))
             sets["ymin"].append((e, 3))
             sets["ymax"].append((e, 5))
@@ -100,9 +113,12 @@ def scene(problem, order, level, folder):
 
 
 def run(problem, order, level, runs):
-    """Unknowns, vertical force, contact updates of the last load step, user seconds, exit code; in their place why there is no answer"""
-    record = runs.get(f"{problem}, {order}, {level}", scene(problem, order, level, runs.folder), () if problem == "two_block linear" else ("-contact_updates", "40"))
-    return record["failed"] or (record["unknowns"], abs(record["forces"][2]), record["updates"], record["seconds"], record["code"])
+    """Unknowns, vertical force, contact updates of the last load step, user seconds, exit code; in their place why
+    there is no answer"""
+    record = runs.get(f"{problem}, {order}, {level}", scene(problem, order, level, runs.folder),
+                      () if problem == "two_block linear" else ("-contact_updates", "40"))
+    return record["failed"] or (record["unknowns"], abs(
+        record["forces"][2]), record["updates"], record["seconds"], record["code"])
 
 
 def limit_of(found):
@@ -146,7 +162,9 @@ def figure(results, path):
     fig, axes = plt.subplots(1, len(problems), figsize=(3.4 * len(problems), 3.2), squeeze=False)
     for name, axis in zip(problems, axes[0]):
         for order, style in ((1, "o-"), (2, "D-")):
-            points = [(0.5**level, entry[1]) for level, entry in results.get((name, order), {}).items() if not isinstance(entry, str)]
+            points = [(0.5**level, entry[1])
+                      for level, entry in results.get((name, order), {}).items()
+                      if not isinstance(entry, str)]
             if points:
                 axis.semilogx(*zip(*points), style, label=f"order {order}", base=2)
         axis.set_title(TITLES[name].replace(", ", ",\n", 1), fontsize=9)
@@ -166,13 +184,15 @@ def page(results, loads):
     yield ""
     yield WORDS
     yield "![force against cell size](sharp.png)\n"
-    yield "| problem | order | refinement | unknowns | force | contact updates, last load step | user time [s] | exit code | limit of the force |"
+    yield ("| problem | order | refinement | unknowns | force | contact updates, last load step | user time [s] | "
+           "exit code | limit of the force |")
     yield "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"
     for (problem, order), found in results.items():
         limit = limit_of(list(found.values()))
         for level, entry in found.items():
             ending = f"{limit:.4g}" if limit and level == max(found) else ""
-            cells = f"{entry.replace('|', '/')} | | | | " if isinstance(entry, str) else f"{entry[0]:,} | {entry[1]:.5g} | {entry[2]} | {entry[3]:.2f} | {entry[4]}"
+            cells = f"{entry.replace('|', '/')} | | | | " if isinstance(
+                entry, str) else f"{entry[0]:,} | {entry[1]:.5g} | {entry[2]} | {entry[3]:.2f} | {entry[4]}"
             yield f"| {TITLES[problem]} | {order} | {level} | {cells} | {ending} |"
 
 
@@ -189,7 +209,10 @@ def main():
     for problem in (name for name in TITLES if arguments.only in name):
         for order in (1, 2):
             levels = LESS.get(problem, LEVELS)[order] + (LARGEST.get((problem, order), ()) if arguments.largest else ())
-            results[problem, order] = {level: run(problem, order, level, runs) for level in levels if level <= arguments.finest}
+            results[problem,
+                    order] = {level: run(problem, order, level, runs)
+                              for level in levels
+                              if level <= arguments.finest}
     folder = os.path.join(arguments.folder, "pages", "elements")
     os.makedirs(folder, exist_ok=True)
     figure(results, os.path.join(folder, "sharp.png"))

@@ -1,6 +1,7 @@
 """Reads the files that contact -output BASE wrote.
 
-BASE.xmf names the bodies, the units and the load steps. BASE.h5 holds the mesh, and BASE_0001.h5, ... one load step each.
+BASE.xmf names the bodies, the units and the load steps. BASE.h5 holds the mesh, and BASE_0001.h5, ... one load step
+each.
 """
 import os
 import re
@@ -54,7 +55,7 @@ class Files:
         numbers, cells, at = mesh["mixed_cells"][:].ravel(), [], 0
         while at < len(numbers):
             n = KINDS[numbers[at]]
-            cells.append(numbers[at + 1 : at + 1 + n])
+            cells.append(numbers[at + 1:at + 1 + n])
             at += 1 + n
         return cells
 
@@ -63,7 +64,8 @@ class Files:
         if number is None:
             return max(self.files)
         if number not in self.files:
-            raise ContactError(f"{self.base}.xmf has no load step {number}: it has {min(self.files)} to {max(self.files)}")
+            raise ContactError(
+                f"{self.base}.xmf has no load step {number}: it has {min(self.files)} to {max(self.files)}")
         return number
 
     def body_numbers(self, text):

@@ -34,7 +34,8 @@ def read_table(path):
 
 class Table(dict):
     """{column: array}. A name without its first words serves if only one column ends in it: force_z for block.force_z.
-    A name without _x, _y, _z gives the three columns as vectors: force for block.force_x, block.force_y, block.force_z"""
+    A name without _x, _y, _z gives the three columns as vectors: force for block.force_x, block.force_y,
+    block.force_z"""
 
     def __missing__(self, name):
         if name + "_x" in self:
@@ -71,7 +72,8 @@ class Run:
         """One line: scene, size, how the run ended"""
         summary = self.summary
         steps = [step for step in summary["steps"] if step["converged"]]
-        return f"<run of {summary['problem']}: {summary['dofs']:,} unknowns, {len(steps)} load steps done, exit code {self.exit_code}, {len(self.warnings)} warnings>"
+        return (f"<run of {summary['problem']}: {summary['dofs']:,} unknowns, {len(steps)} load steps done, exit "
+                f"code {self.exit_code}, {len(self.warnings)} warnings>")
 
     @property
     def summary(self):
@@ -83,7 +85,8 @@ class Run:
             with open(self.base + ".json", encoding="utf-8") as file:
                 return json.load(file)
         except (OSError, ValueError):
-            raise ContactError(f"there is no readable summary {self.base}.json; run contact with -summary {self.base}.json") from None
+            raise ContactError(
+                f"there is no readable summary {self.base}.json; run contact with -summary {self.base}.json") from None
 
     @property
     def exit_code(self):
@@ -102,7 +105,7 @@ class Run:
     def lines(self):
         """{name: table} of the probes along lines"""
         names = sorted(glob.glob(glob.escape(self.base) + "_*.csv"))
-        return {name[len(self.base) + 1 : -4]: Table(read_table(name)) for name in names}
+        return {name[len(self.base) + 1:-4]: Table(read_table(name)) for name in names}
 
     @property
     def files(self):
@@ -123,7 +126,8 @@ class Run:
         return self.files.cells
 
     def field(self, name, step=None):
-        """One number for each vertex or cell in a load step, the last by default: run.field("von_mises"), run.field("displacement_z")"""
+        """One number for each vertex or cell in a load step, the last by default: run.field("von_mises"),
+        run.field("displacement_z")"""
         return self.files.field(self.files.step(step), FIELDS.get(name, name))
 
     def displacement(self, step=None):
@@ -137,7 +141,8 @@ class Run:
 
         step = self.files.step(step)
         cells = np.concatenate([[len(cell), *cell] for cell in self.cells])
-        grid = pyvista.UnstructuredGrid(cells, np.array([vtu.VTK_CELLS[len(cell)] for cell in self.cells], np.uint8), self.points)
+        grid = pyvista.UnstructuredGrid(cells, np.array([vtu.VTK_CELLS[len(cell)] for cell in self.cells], np.uint8),
+                                        self.points)
         with h5py.File(self.files.files[step], "r") as file:
             for name, values in file.items():
                 if len(values) in (grid.n_points, grid.n_cells):
@@ -150,13 +155,16 @@ class Run:
         return vtu.write(self.files, os.fspath(path or self.base + ".pvd"))
 
     def plot(self, field, picture=None, step=None, **options):
-        """Draws a field on the deformed bodies and returns the picture's file: options are those of share/plot/draw.py, only="slab" """
+        """Draws a field on the deformed bodies and returns the picture's file: options are those of share/plot/draw.py,
+        only="slab" """
         picture = picture or f"{self.base}_{field}.png"
         words = [word for key, value in options.items() for word in (f"--{key.replace('_', '-')}", str(value))]
         if step is not None:
             words += ["--step", str(step)]
         script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "plot", "draw.py")
-        done = subprocess.run([sys.executable, "-B", script, self.base, picture, "--field", FIELDS.get(field, field), *words], capture_output=True, text=True)
+        done = subprocess.run(
+            [sys.executable, "-B", script, self.base, picture, "--field",
+             FIELDS.get(field, field), *words], capture_output=True, text=True)
         if done.returncode:
             raise ContactError((done.stderr.strip().splitlines() or ["the picture failed"])[-1])
         return picture
@@ -165,7 +173,7 @@ class Run:
 def load(base):
     """The results that contact -output BASE wrote"""
     base = os.fspath(base)
-    base = base[: -len(".xmf")] if base.endswith(".xmf") else base
+    base = base[:-len(".xmf")] if base.endswith(".xmf") else base
     if not any(os.path.exists(base + ending) for ending in (".xmf", ".csv", ".json")):
         raise ContactError(f"there are no results {base}.xmf, {base}.csv or {base}.json")
     return Run(base)

@@ -11,7 +11,10 @@ from .results import Run
 def program():
     """$CONTACT, else the program beside this package, in the sources or installed, else the one in the path"""
     here = os.path.dirname(os.path.abspath(__file__))
-    places = [os.environ.get("CONTACT"), *(os.path.join(here, *[".."] * up, "bin", "contact") for up in (3, 4)), shutil.which("contact")]
+    places = [
+        os.environ.get("CONTACT"), *(os.path.join(here, *[".."] * up, "bin", "contact") for up in (3, 4)),
+        shutil.which("contact")
+    ]
     for place in places:
         if place and os.access(place, os.X_OK):
             return os.path.normpath(place)
@@ -43,6 +46,7 @@ def run(scene, output=None, ranks=1, check=True, **options):
         command = ["mpiexec", "-n", str(ranks), *command]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode and (check or done.returncode not in (2, 3, 4)):
-        said = [line for line in done.stderr.splitlines() if line.startswith("contact: ")] or done.stderr.strip().splitlines()[-1:]
+        said = [line for line in done.stderr.splitlines() if line.startswith("contact: ")
+                ] or done.stderr.strip().splitlines()[-1:]
         raise ContactError(f"{scene} ended with exit code {done.returncode}: " + " ".join(said))
     return Run(os.fspath(base))

@@ -1,5 +1,5 @@
-"""Writes results as files of VTK: one .vtu a load step, and a .pvd that lists them with their times. ParaView, PyVista, meshio and VTK
-read them without HDF5."""
+"""Writes results as files of VTK: one .vtu a load step, and a .pvd that lists them with their times. ParaView, PyVista,
+meshio and VTK read them without HDF5."""
 import base64
 import os
 from xml.sax.saxutils import quoteattr
@@ -19,7 +19,8 @@ def array(name, values):
     values = np.ascontiguousarray(values)
     width = f' NumberOfComponents="{values.shape[1]}"' if values.ndim > 1 else ""
     data = np.uint64(values.nbytes).tobytes() + values.tobytes()
-    return f'<DataArray type="{TYPES[values.dtype.kind]}" Name={quoteattr(name)}{width} format="binary">{base64.b64encode(data).decode()}</DataArray>\n'
+    return (f'<DataArray type="{TYPES[values.dtype.kind]}" Name={quoteattr(name)}{width} '
+            f'format="binary">{base64.b64encode(data).decode()}</DataArray>\n')
 
 
 def fields_of(path, n):
@@ -38,10 +39,15 @@ def write_step(files, step, path):
     points, cells = len(files.vertices), len(sizes)
     kinds = np.array([VTK_CELLS[n] for n in sizes], np.uint8)
     with open(path, "w", encoding="ascii") as out:
-        out.write('<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<UnstructuredGrid>\n')
+        out.write('<?xml version="1.0"?>\n'
+                  '<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n'
+                  '<UnstructuredGrid>\n')
         out.write(f'<Piece NumberOfPoints="{points}" NumberOfCells="{cells}">\n<Points>\n')
         out.write(array("Points", files.vertices.astype(np.float64)) + "</Points>\n<Cells>\n")
-        out.write(array("connectivity", np.concatenate(files.cells).astype(np.int64)) + array("offsets", np.cumsum(sizes)) + array("types", kinds))
+        out.write(
+            array("connectivity",
+                  np.concatenate(files.cells).astype(np.int64)) + array("offsets", np.cumsum(sizes)) +
+            array("types", kinds))
         out.write('</Cells>\n<PointData Vectors="displacement">\n')
         out.writelines(array(*field) for field in fields_of(files.files[step], points))
         out.write("</PointData>\n<CellData>\n" + array("body", files.body.astype(np.int64)))
@@ -62,6 +68,7 @@ def write(files, path):
         os.replace(name + ".part", name)
         lines.append(f'<DataSet timestep="{files.times[step]!r}" file={quoteattr(os.path.basename(name))}/>\n')
     with open(path + ".part", "w", encoding="utf-8") as out:
-        out.write('<?xml version="1.0"?>\n<VTKFile type="Collection" version="1.0">\n<Collection>\n' + "".join(lines) + "</Collection>\n</VTKFile>\n")
+        out.write('<?xml version="1.0"?>\n<VTKFile type="Collection" version="1.0">\n<Collection>\n' + "".join(lines) +
+                  "</Collection>\n</VTKFile>\n")
     os.replace(path + ".part", path)
     return path

@@ -1,5 +1,5 @@
-"""contact-mesh IN OUT turns a mesh into a Gmsh file, or results BASE.xmf into files of VTK, OUT.pvd; contact-mesh IN -check says what is
-in a mesh, and -picture FILE.png draws it."""
+"""contact-mesh IN OUT turns a mesh into a Gmsh file, or results BASE.xmf into files of VTK, OUT.pvd; contact-mesh IN
+-check says what is in a mesh, and -picture FILE.png draws it."""
 import argparse
 import os
 import sys
@@ -15,18 +15,21 @@ from .quality import cell_volumes, facet_areas, scaled_jacobian
 
 def report(path, mesh, left):
     size = mesh.points.max(axis=0) - mesh.points.min(axis=0)
-    yield f"{path}: {len(mesh.points):,} nodes, {sum(len(cells) for _, cells in mesh.blocks):,} cells, {' x '.join(f'{length:.6g}' for length in size)}"
+    yield (f"{path}: {len(mesh.points):,} nodes, {sum(len(cells) for _, cells in mesh.blocks):,} cells, "
+           f"{' x '.join(f'{length:.6g}' for length in size)}")
     yield f"{'volume':<32} {'cells':>9} {'kind':<14} {'volume':>13}  worst scaled Jacobian"
     for name, rows in mesh.volumes.items():
         tables = [(mesh.blocks[block][0], mesh.blocks[block][1][these]) for block, these in rows.items()]
         volume = sum(cell_volumes(kind, cells, mesh.points).sum() for kind, cells in tables)
         worst = min(scaled_jacobian(kind, cells, mesh.points).min() for kind, cells in tables)
         kinds = ", ".join(sorted({kind for kind, _ in tables}))
-        yield f"{name:<32} {sum(len(cells) for _, cells in tables):>9,} {kinds:<14} {volume:>13.6g}  {worst:.3f}" + ("  inverted or flat cells" if worst <= 0 else "")
+        yield f"{name:<32} {sum(len(cells) for _, cells in tables):>9,} {kinds:<14} {volume:>13.6g}  {worst:.3f}" + (
+            "  inverted or flat cells" if worst <= 0 else "")
     yield f"{'face':<32} {'facets':>9} {'kind':<14} {'area':>13}"
     for name, tables in mesh.faces.items():
         area = sum(facet_areas(facets, FACETS[kind], mesh.points).sum() for kind, facets in tables)
-        yield f"{name:<32} {sum(len(facets) for _, facets in tables):>9,} {', '.join(kind for kind, _ in tables):<14} {area:>13.6g}"
+        yield (f"{name:<32} {sum(len(facets) for _, facets in tables):>9,} "
+               f"{', '.join(kind for kind, _ in tables):<14} {area:>13.6g}")
     if left:
         yield "sets of nodes that hold no whole facet, left out: " + ", ".join(left)
 
@@ -36,7 +39,9 @@ def check(mesh):
     for name in mesh.volumes:
         kinds = mesh.kinds_of(name)
         if len({KINDS[kind].ncorners for kind in kinds}) > 1:
-            raise MeshError(f"the volume \"{name}\" has cells of the kinds {' and '.join(kinds)}; make two volumes of it and tie them")
+            raise MeshError(
+                f"the volume \"{name}\" has cells of the kinds {' and '.join(kinds)}; make two volumes of it "
+                f"and tie them")
     if not np.isfinite(mesh.points).all():
         raise MeshError("a coordinate is not a number")
 
@@ -46,8 +51,15 @@ def draw(mesh, path, picture):
     sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), *[os.pardir] * 3, "plot"))
     from mesh import draw_mesh
 
-    corners = {name: [cell for block, these in rows.items() for cell in mesh.blocks[block][1][these, : KINDS[mesh.blocks[block][0]].ncorners]] for name, rows in mesh.volumes.items()}
-    draw_mesh(mesh.points, corners, picture, f"{os.path.basename(path)}: {sum(len(cells) for cells in corners.values()):,} cells")
+    corners = {
+        name: [
+            cell for block, these in rows.items()
+            for cell in mesh.blocks[block][1][these, :KINDS[mesh.blocks[block][0]].ncorners]
+        ]
+        for name, rows in mesh.volumes.items()
+    }
+    draw_mesh(mesh.points, corners, picture,
+              f"{os.path.basename(path)}: {sum(len(cells) for cells in corners.values()):,} cells")
 
 
 def write_results(source, target):
@@ -59,12 +71,16 @@ def write_results(source, target):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="contact-mesh", description=__doc__, epilog=f"Reads {formats.READ}. Writes .msh, .inp and .vtu.")
+    parser = argparse.ArgumentParser(prog="contact-mesh", description=__doc__,
+                                     epilog=f"Reads {formats.READ}. Writes .msh, .inp and .vtu.")
     parser.add_argument("input")
     parser.add_argument("output", nargs="?")
-    parser.add_argument("-scale", "--scale", type=float, default=1.0, help="factor of all coordinates: 1e-3 takes mm to m")
-    parser.add_argument("-check", "--check", action="store_true", help="prints volumes, faces, sizes and the quality of the cells")
-    parser.add_argument("-picture", "--picture", metavar="FILE.png", help="draws the volumes with the edges of their cells; needs VTK")
+    parser.add_argument("-scale", "--scale", type=float, default=1.0,
+                        help="factor of all coordinates: 1e-3 takes mm to m")
+    parser.add_argument("-check", "--check", action="store_true",
+                        help="prints volumes, faces, sizes and the quality of the cells")
+    parser.add_argument("-picture", "--picture", metavar="FILE.png",
+                        help="draws the volumes with the edges of their cells; needs VTK")
     parser.add_argument("-quiet", "--quiet", action="store_true", help="prints nothing where all is well")
     given = parser.parse_args()
     if given.output is None and not given.check and not given.picture:

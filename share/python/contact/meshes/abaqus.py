@@ -1,4 +1,5 @@
-"""Input decks of Abaqus and CalculiX: nodes, solid elements, sets and surfaces. Parts and instances keep their names."""
+"""Input decks of Abaqus and CalculiX: nodes, solid elements, sets and surfaces. Parts and instances keep their
+names."""
 import os
 import re
 
@@ -6,7 +7,10 @@ import numpy as np
 
 from .model import FACETS, KINDS, Mesh, MeshError
 
-SOLIDS = {"C3D4": "tetra", "C3D10": "tetra10", "C3D8": "hexahedron", "C3D20": "hexahedron20", "C3D27": "hexahedron27", "C3D6": "wedge", "C3D15": "wedge15", "C3D5": "pyramid"}
+SOLIDS = {
+    "C3D4": "tetra", "C3D10": "tetra10", "C3D8": "hexahedron", "C3D20": "hexahedron20", "C3D27": "hexahedron27",
+    "C3D6": "wedge", "C3D15": "wedge15", "C3D5": "pyramid"
+}
 SHELLS = {"3": "triangle", "4": "quad", "6": "triangle6", "8": "quad8", "9": "quad9"}
 SHELL_TYPES = re.compile(r"(?:S|CPS|CPE|CAX|STRI|M3D|SFM3D|R3D|CGAX)(\d)\d?[A-Z]*\d?$")
 NUMBER_OF_NODES = {"wedge": 6, "triangle": 3, "quad": 4, "triangle6": 6, "quad8": 8, "quad9": 9}
@@ -176,7 +180,8 @@ class Deck:
 
     def read_instance_set(self, where, keyword, parameters, data):
         """A set of an assembly belongs to the part of its instance, under a name of its own"""
-        name = next((part for instance, part, _ in self.instances if instance.upper() == parameters["INSTANCE"].upper()), None)
+        name = next(
+            (part for instance, part, _ in self.instances if instance.upper() == parameters["INSTANCE"].upper()), None)
         part = named(self.parts, name) if name is not None else None
         if part is None:
             raise MeshError(f"{where}: there is no instance \"{parameters['INSTANCE']}\"")
@@ -255,7 +260,8 @@ def add_surface(mesh, part, name, sides, place):
         if numbers is None:
             raise MeshError(f"{where}: the surface \"{name}\" has an element set \"{element}\", which is not given")
         if not re.fullmatch(r"S[1-6]", side):
-            raise MeshError(f"{where}: the surface \"{name}\" has \"{side or 'no side'}\" where a side S1 to S6 is expected")
+            raise MeshError(
+                f"{where}: the surface \"{name}\" has \"{side or 'no side'}\" where a side S1 to S6 is expected")
         for number in numbers:
             block, rows, copies = place.get(number, (None, (), 1))
             if block is None:
@@ -318,15 +324,17 @@ def write(path, mesh):
             file.write(f"*ELEMENT, TYPE={names[kind]}\n")
             for row, cell in enumerate(cells):
                 numbers = [start + row + 1, *(cell + 1)]
-                file.write("".join(", ".join(map(str, numbers[i : i + 16])) + (",\n" if i + 16 < len(numbers) else "\n") for i in range(0, len(numbers), 16)))
+                file.write("".join(", ".join(map(str, numbers[i:i + 16])) + (",\n" if i + 16 < len(numbers) else "\n")
+                                   for i in range(0, len(numbers), 16)))
         for name, rows in mesh.volumes.items():
             numbers = np.concatenate([first[block] + these + 1 for block, these in rows.items()])
-            file.write(f"*ELSET, ELSET={name}\n" + "".join(", ".join(map(str, numbers[i : i + 16])) + "\n" for i in range(0, len(numbers), 16)))
+            file.write(f"*ELSET, ELSET={name}\n" + "".join(", ".join(map(str, numbers[i:i + 16])) + "\n"
+                                                           for i in range(0, len(numbers), 16)))
         for name, tables in mesh.faces.items():
             file.write(f"*SURFACE, NAME={name}, TYPE=ELEMENT\n")
             for kind, facets in tables:
                 for facet in facets:
-                    ends = sorted([-1] * (4 - FACETS[kind]) + [int(node) for node in facet[: FACETS[kind]]])
+                    ends = sorted([-1] * (4 - FACETS[kind]) + [int(node) for node in facet[:FACETS[kind]]])
                     if tuple(ends) not in key:
                         raise MeshError(f"the face \"{name}\" has a facet that is no side of one cell on the boundary")
                     block, row, side = key[tuple(ends)]

@@ -36,12 +36,13 @@ def read(path):
     except (MeshError, MemoryError, KeyboardInterrupt):
         raise
     except ModuleNotFoundError as error:
-        raise MeshError(f"this format needs the Python module {error.name} (Debian: python3-{error.name.lower()})") from None
+        raise MeshError(
+            f"this format needs the Python module {error.name} (Debian: python3-{error.name.lower()})") from None
     except (Exception, SystemExit) as error:  # readers of meshio end by whatever a damaged file leads to
         reason = "" if isinstance(error, SystemExit) else f" ({str(error).strip() or type(error).__name__})"
         raise MeshError(f"meshio cannot read it as a file of that format{reason}") from None
     points = np.zeros((len(source.points), 3))
-    points[:, : source.points.shape[1]] = source.points
+    points[:, :source.points.shape[1]] = source.points
     mesh, numbers, facets = Mesh(points), {}, {}
     for at, block in enumerate(source.cells):
         cells = np.asarray(block.data)
@@ -67,26 +68,41 @@ def read(path):
 
 
 def named_cells(source, suffix):
-    """(name, {block: rows}) of sets of cells, of MED's families, of physical names, and of the integers of a VTU file"""
+    """(name, {block: rows}) of sets of cells, of MED's families, of physical names, and of the integers of a VTU
+    file"""
     for name, rows in source.cell_sets.items():
         if not name.startswith("gmsh:"):
-            yield name, {at: np.asarray(these, int) for at, these in enumerate(rows) if these is not None and len(these)}
+            yield name, {
+                at: np.asarray(these, int)
+                for at, these in enumerate(rows)
+                if these is not None and len(these)
+            }
     families = getattr(source, "cell_tags", None) or {}
     if families and "cell_tags" in source.cell_data:
         names = sorted({name for group in families.values() for name in group})
         for name in names:
             members = [tag for tag, group in families.items() if name in group]
-            yield name, {at: np.flatnonzero(np.isin(tags, members)) for at, tags in enumerate(source.cell_data["cell_tags"])}
+            yield name, {
+                at: np.flatnonzero(np.isin(tags, members))
+                for at, tags in enumerate(source.cell_data["cell_tags"])
+            }
     tags = source.cell_data.get("gmsh:physical")
     if tags is not None and not any(not name.startswith("gmsh:") for name in source.cell_sets):
         dims = {at: block.dim for at, block in enumerate(source.cells)}
         for name, (tag, dim) in source.field_data.items():
-            yield name, {at: np.flatnonzero(np.asarray(these) == tag) for at, these in enumerate(tags) if dims[at] == dim}
+            yield name, {
+                at: np.flatnonzero(np.asarray(these) == tag)
+                for at, these in enumerate(tags)
+                if dims[at] == dim
+            }
     if suffix in (".vtu", ".vtk"):
         for name, values in source.cell_data.items():
             if all(np.issubdtype(np.asarray(these).dtype, np.integer) for these in values):
                 for value in sorted({int(one) for these in values for one in np.unique(these)}):
-                    yield f"{name}_{value}", {at: np.flatnonzero(np.asarray(these).ravel() == value) for at, these in enumerate(values)}
+                    yield f"{name}_{value}", {
+                        at: np.flatnonzero(np.asarray(these).ravel() == value)
+                        for at, these in enumerate(values)
+                    }
                 break
 
 
@@ -104,6 +120,7 @@ def add_exodus_names(mesh, path, numbers):
     import netCDF4
 
     with netCDF4.Dataset(path) as file:
+
         def names(variable, count, word):
             table = file.variables[variable][:] if variable in file.variables else []
             given = ["".join(letter.decode() for letter in np.ma.filled(row, b"")).strip("\0 ") for row in table]
@@ -153,4 +170,7 @@ def write_vtu(path, mesh):
     for tag, rows in reversed(list(enumerate(mesh.volumes.values(), 1))):
         for block, these in rows.items():
             number[block][these] = tag
-    meshio.write(path, meshio.Mesh(mesh.points, [(kind, to_vtk(kind, cells)) for kind, cells in mesh.blocks], cell_data={"volume": number}), binary=True)
+    meshio.write(
+        path,
+        meshio.Mesh(mesh.points, [(kind, to_vtk(kind, cells)) for kind, cells in mesh.blocks],
+                    cell_data={"volume": number}), binary=True)

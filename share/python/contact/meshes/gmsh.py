@@ -4,7 +4,10 @@ import numpy as np
 from .model import FACETS
 
 # Gmsh's number of a kind, and its nodes as places in Abaqus' order
-KIND_NUMBERS = {"tetra": 4, "tetra10": 11, "hexahedron": 5, "hexahedron20": 17, "hexahedron27": 12, "triangle": 2, "triangle6": 9, "quad": 3, "quad8": 16, "quad9": 10}
+KIND_NUMBERS = {
+    "tetra": 4, "tetra10": 11, "hexahedron": 5, "hexahedron20": 17, "hexahedron27": 12, "triangle": 2, "triangle6": 9,
+    "quad": 3, "quad8": 16, "quad9": 10
+}
 EDGES_20 = [8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14]
 ORDERS = {
     "tetra10": [*range(8), 9, 8],
@@ -37,7 +40,7 @@ def face_groups(mesh, first):
     for tag, tables in enumerate(mesh.faces.values(), first):
         for kind, table in tables:
             for facet in table:
-                key = (kind, tuple(np.sort(facet[: FACETS[kind]])))
+                key = (kind, tuple(np.sort(facet[:FACETS[kind]])))
                 facets.setdefault(key, facet)
                 names.setdefault(key, []).append(tag)
     groups = {}
@@ -56,7 +59,9 @@ def write(path, mesh):
     names = [(3, name) for name in mesh.volumes] + [(2, name) for name in mesh.faces]
     with open(path, "w") as file:
         file.write("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n")
-        file.write(f"$PhysicalNames\n{len(names)}\n" + "".join(f"{dim} {tag} \"{name}\"\n" for tag, (dim, name) in enumerate(names, 1)) + "$EndPhysicalNames\n")
+        file.write(f"$PhysicalNames\n{len(names)}\n" +
+                   "".join(f"{dim} {tag} \"{name}\"\n" for tag, (dim, name) in enumerate(names, 1)) +
+                   "$EndPhysicalNames\n")
         file.write(f"$Entities\n0 0 {len(faces)} {len(volumes)}\n")
         box = " ".join(f"{x:.17g}" for x in (*mesh.points.min(axis=0), *mesh.points.max(axis=0)))
         for groups in (faces, volumes):

@@ -63,7 +63,8 @@ class Mesh:
         if kind == "wedge":
             kind, cells = "tetra", split_wedges(cells)
         if kind not in KINDS:
-            raise MeshError(f"it has cells of type {kind}; tetrahedra of 4 or 10 nodes, hexahedra of 8, 20 or 27 and wedges of 6 are read")
+            raise MeshError(f"it has cells of type {kind}; tetrahedra of 4 or 10 nodes, hexahedra of 8, 20 or 27 and "
+                            f"wedges of 6 are read")
         self.blocks.append((kind, cells))
         return len(self.blocks) - 1
 
@@ -87,16 +88,20 @@ class Mesh:
         self.add_face(name, KINDS[kind].facet, cells[np.asarray(rows, int)][:, KINDS[kind].sides[side]])
 
     def boundary(self):
-        """[(block, row, side)] of the sides of one cell, or of two cells that are in unlike volumes, and the corners of each"""
+        """[(block, row, side)] of the sides of one cell, or of two cells that are in unlike volumes, and the corners of
+        each"""
         first, corners, owners = [], [], []
         labels, _ = self.volume_labels()
         for block, (kind, cells) in enumerate(self.blocks):
             for side, nodes in enumerate(KINDS[kind].sides):
-                ends = cells[:, nodes[: FACETS[KINDS[kind].facet]]]
+                ends = cells[:, nodes[:FACETS[KINDS[kind].facet]]]
                 padded = np.full((len(cells), 4), -1)
-                padded[:, : ends.shape[1]] = ends
+                padded[:, :ends.shape[1]] = ends
                 corners.append(np.sort(padded, axis=1))
-                first.append(np.column_stack([np.full(len(cells), block), np.arange(len(cells)), np.full(len(cells), side)]))
+                first.append(
+                    np.column_stack([np.full(len(cells), block),
+                                     np.arange(len(cells)),
+                                     np.full(len(cells), side)]))
                 owners.append(labels[block])
         if not first:
             return np.zeros((0, 3), int), np.zeros((0, 4), int)
@@ -113,13 +118,14 @@ class Mesh:
         for number, rows in enumerate(self.volumes.values()):
             for block, these in rows.items():
                 for row in these:
-                    sets[block][row] += (number,)
+                    sets[block][row] += (number, )
         known = {}
         numbers = [np.array([known.setdefault(label, len(known)) for label in labels], int) for labels in sets]
         return numbers, list(known)
 
     def add_node_sets(self, sets):
-        """A set of nodes is a face where it holds all corners of sides on the boundary. Returns the names of those that do not"""
+        """A set of nodes is a face where it holds all corners of sides on the boundary. Returns the names of those that
+        do not"""
         sides, corners = self.boundary() if sets else (None, None)
         left = []
         for name, nodes in sets.items():
@@ -159,7 +165,10 @@ def corner_volumes(kind, cells, points):
         edges = [x[:, corner] - x[:, 0] for corner in (1, 2, 3)]
     else:
         sides = (((1, 2, 5, 6), (0, 3, 4, 7)), ((2, 3, 6, 7), (0, 1, 4, 5)), ((4, 5, 6, 7), (0, 1, 2, 3)))
-        edges = [x[:, up].mean(axis=1) - x[:, down].mean(axis=1) for up, down in map(lambda pair: (list(pair[0]), list(pair[1])), sides)]
+        edges = [
+            x[:, up].mean(axis=1) - x[:, down].mean(axis=1)
+            for up, down in map(lambda pair: (list(pair[0]), list(pair[1])), sides)
+        ]
     return np.einsum("ci,ci->c", np.cross(edges[0], edges[1]), edges[2])
 
 
@@ -179,9 +188,11 @@ def turned(kind, cells, points):
 
 
 def split_wedges(cells):
-    """Three tetrahedra for each wedge. The diagonal of a quadrilateral begins at its smallest node, so that neighbours agree"""
+    """Three tetrahedra for each wedge. The diagonal of a quadrilateral begins at its smallest node, so that neighbours
+    agree"""
     tetrahedra = []
-    turns = ((0, 1, 2, 3, 4, 5), (1, 2, 0, 4, 5, 3), (2, 0, 1, 5, 3, 4), (3, 5, 4, 0, 2, 1), (4, 3, 5, 1, 0, 2), (5, 4, 3, 2, 1, 0))
+    turns = ((0, 1, 2, 3, 4, 5), (1, 2, 0, 4, 5, 3), (2, 0, 1, 5, 3, 4), (3, 5, 4, 0, 2, 1), (4, 3, 5, 1, 0, 2),
+             (5, 4, 3, 2, 1, 0))
     for cell in cells:
         a, b, c, d, e, f = cell[list(turns[int(np.argmin(cell))])]
         if min(b, f) < min(c, e):

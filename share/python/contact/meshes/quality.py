@@ -15,7 +15,9 @@ def scaled_jacobian(kind, cells, points):
         rows = [[x[:, b] - x[:, a] for b in ends] for a, ends in enumerate(NEIGHBOURS)]
         factor = 1.0
     else:
-        rows = [[x[:, b] - x[:, a] for b in ends] for a, ends in enumerate(((1, 2, 3), (2, 0, 3), (0, 1, 3), (2, 1, 0)))]
+        rows = [[x[:, b] - x[:, a]
+                 for b in ends]
+                for a, ends in enumerate(((1, 2, 3), (2, 0, 3), (0, 1, 3), (2, 1, 0)))]
         factor = np.sqrt(2.0)
     worst = np.full(len(cells), np.inf)
     for u, v, w in rows:
