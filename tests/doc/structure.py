@@ -158,9 +158,11 @@ def written():
 
 
 def wide_lines():
-    for path in written():
+    """The arguments of a test cannot be broken: PETSc's harness reads them from one line"""
+    tests = [os.path.relpath(path, TOP) for path in sorted(glob.glob(os.path.join(TOP, "tests", "*", "*.[ch]")))]
+    for path in written() + tests:
         for number, line in enumerate(text(path).splitlines(), 1):
-            if len(line) > COLUMNS:
+            if len(line) > COLUMNS and not line.lstrip().startswith("args:"):
                 yield f"{path}:{number}: {len(line)} columns, more than {COLUMNS}"
 
 

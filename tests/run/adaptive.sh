@@ -28,7 +28,9 @@ run cantilever cantilever -accuracy 1e-2
 run energy cantilever -accuracy 1e-2 -accuracy_of energy
 run tool tool -accuracy 5e-2
 run shrink shrink -accuracy 3e-3 2> /dev/null
-sed '/element: full/d; s/^refine: 1/refine: 0/; s/lower: \[-4.5, -2, /lower: [-4.5, 0, /; s/lower: \[-3.5, -0.5, /lower: [-3.5, 0, /; s/cells: \[20, 6, 3\]/cells: [20, 3, 3]\n      element: bbar/; s/cells: \[4, 4, 4\]/cells: [4, 2, 4]/' "$AMGF_DIR/share/scenes/two_block.yaml" > edge.yaml
+sed '/element: full/d; s/^refine: 1/refine: 0/; s/lower: \[-4.5, -2, /lower: [-4.5, 0, /
+  s/lower: \[-3.5, -0.5, /lower: [-3.5, 0, /; s/cells: \[20, 6, 3\]/cells: [20, 3, 3]\n      element: bbar/
+  s/cells: \[4, 4, 4\]/cells: [4, 2, 4]/' "$AMGF_DIR/share/scenes/two_block.yaml" > edge.yaml
 echo 'symmetry: [slab.ymin, block.ymin]' >> edge.yaml
 run edge edge -accuracy 1e-2 -accuracy_of energy -contact_updates 1 -accuracy_max_dofs $edge 2> /dev/null
 PYTHONPATH=$AMGF_DIR/share/scenes:$AMGF_DIR/tests/lib "$PYTHON" "$AMGF_DIR/tests/run/adaptive.py" judge

@@ -57,6 +57,7 @@ sed 's/near: touch, levels: 2, distance: 0.2/lower: [2, -2, -2], upper: [3, 2, 4
 try "misspelt" "distance: 0.2" "distanse: 0.2"
 try "no such body" "near: touch" "lower: [0, 0, 0], upper: [1, 1, 1], body: bass"
 try "order 2" "young: 10," "young: 10, order: 2,"
-sed 's/near: top.zmin/near: top.zmin, levels: 1}\n  - spot: {lower: [0, 0, 1], upper: [0.5, 0.5, 1.1], body: top/; s/near: top.zmin, levels: 1/near: top.zmax, levels: 1/' tied.yaml > other.yaml
+sed 's/near: top.zmin/near: top.zmin, levels: 1}\n  - spot: {lower: [0, 0, 1], upper: [0.5, 0.5, 1.1], body: top/
+  s/near: top.zmin, levels: 1/near: top.zmax, levels: 1/' tied.yaml > other.yaml
 echo "tied where it hangs: $("$contact" other.yaml -quiet 2>&1 || echo "exit code $?")"
 mpiexec --oversubscribe -n 3 "$contact" other.yaml -quiet 2>&1 | grep -c "contact: error"

@@ -4,8 +4,8 @@ scaled ones.\n\
   -mode NAME        solver options by their name below, for which steps and evaluations are held\n\
   -problems A,B     some problems only\n\
   -relaxed          tell also whether the solver says that it has relaxed the constraints\n\
-  -print_counts     the rows of tests/tao_ipfilter/ipfilter_nlp_counts.inc anew; `make -f tests/makefile nlp-counts` puts\n\
-them in place\n\n";
+  -print_counts     the rows of tests/tao_ipfilter/ipfilter_nlp_counts.inc anew; `make -f tests/makefile\n\
+nlp-counts` puts them in place\n\n";
 
 #include "ipfilter_problem.h"
 #include "ipfilter_formulas.h"
