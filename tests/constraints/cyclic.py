@@ -8,8 +8,7 @@ LINEAR = "young: 1000, poisson: 0.3"
 FINITE = LINEAR + ", material: neohookean"
 TWIST = """problem: twist
 bodies:
-  - tube: {{shape: tube_arc, axis: z, center: [3, -1, 0], radii: [1, 2], angles: [{angles}], extent: [0, 3],
-           cells: [2, {cells}, 3], {material}}}
+  - tube: {{shape: tube_arc, axis: z, center: [3, -1, 0], radii: [1, 2], angles: [{angles}], extent: [0, 3], cells: [2, {cells}, 3], {material}}}
 displacements:
   - foot: {{face: tube.lmin, value: [0, 0, 0]}}
   - top: {{face: tube.lmax, value: [0, 0, 0.05], rotation: [0, 0, 20], center: [3, -1, 0]}}
@@ -19,8 +18,7 @@ CUT = "cyclic:\n  - cut: {from: tube.amin, to: tube.amax, axis: [0, 0, 2], cente
 # A solid shaft: a half and a quarter, both with nodes on the axis
 SHAFT = """problem: shaft
 bodies:
-  - shaft: {{shape: half_ellipse, axis: x, depth: y, {half}semi_axes: [1, 1], extent: [0, 2], patches: [2, 2, 2],
-            layers: 3, {material}}}
+  - shaft: {{shape: half_ellipse, axis: x, depth: y, {half}semi_axes: [1, 1], extent: [0, 2], patches: [2, 2, 2], layers: 3, {material}}}
 faces:
   - left: {{of: shaft.flat, upper: [inf, inf, 0]}}
   - right: {{of: shaft.flat, lower: [-inf, -inf, 0]}}
@@ -32,8 +30,7 @@ cyclic:
 """
 PULL = """problem: pull
 bodies:
-  - bar: {shape: wedge, axis: z, corners: [0, 0, 2, 0, 1, 1.7320508075688772], extent: [0, 3], side_cells: 2,
-          length_cells: 2, young: 1000, poisson: 0.3}
+  - bar: {shape: wedge, axis: z, corners: [0, 0, 2, 0, 1, 1.7320508075688772], extent: [0, 3], side_cells: 2, length_cells: 2, young: 1000, poisson: 0.3}
 displacements:
   - foot: {face: bar.lmin, value: [free, free, 0]}
   - end: {face: bar.lmax, value: [free, free, 0.03]}
@@ -43,10 +40,8 @@ cyclic:
 """
 FIT = """problem: fit
 bodies:
-  - shaft: {{shape: tube_arc, axis: z, radii: [0.5, 1.005], angles: [{angles}], extent: [0, 1],
-            cells: [2, {shaft}, 2], {material}}}
-  - ring: {{shape: tube_arc, axis: z, radii: [1, 2], angles: [{angles}], extent: [0, 1],
-           cells: [3, {ring}, 2], {material}}}
+  - shaft: {{shape: tube_arc, axis: z, radii: [0.5, 1.005], angles: [{angles}], extent: [0, 1], cells: [2, {shaft}, 2], {material}}}
+  - ring: {{shape: tube_arc, axis: z, radii: [1, 2], angles: [{angles}], extent: [0, 1], cells: [3, {ring}, 2], {material}}}
 load_steps: 2
 ramps:
   - turn: {{factors: [0, 1]}}

@@ -17,14 +17,9 @@ load: {steps: 4}
 YAML
 cat > wood.yaml <<'YAML'
 bodies:
-  - full: {lower: [0, 0, 0], upper: [2, 1, 1], cells: [2, 1, 1], material: orthotropic, young: [12, 1, 0.7],
-           poisson: [0.35, 0.4, 0.3], shear: [0.8, 0.1, 0.6], first_axis: [0, 0, 1], second_axis: [1, 0, 0]}
-  - bbar: {lower: [0, 2, 0], upper: [2, 3, 1], cells: [2, 1, 1], element: bbar, material: orthotropic,
-           young: [12, 1, 0.7], poisson: [0.35, 0.4, 0.3], shear: [0.8, 0.1, 0.6], first_axis: [0, 0, 1],
-           second_axis: [1, 0, 0]}
-  - modes: {lower: [0, 4, 0], upper: [2, 5, 1], cells: [2, 1, 1], element: incompatible, material: orthotropic,
-            young: [12, 1, 0.7], poisson: [0.35, 0.4, 0.3], shear: [0.8, 0.1, 0.6], first_axis: [0, 0, 1],
-            second_axis: [1, 0, 0]}
+  - full: {lower: [0, 0, 0], upper: [2, 1, 1], cells: [2, 1, 1], material: orthotropic, young: [12, 1, 0.7], poisson: [0.35, 0.4, 0.3], shear: [0.8, 0.1, 0.6], first_axis: [0, 0, 1], second_axis: [1, 0, 0]}
+  - bbar: {lower: [0, 2, 0], upper: [2, 3, 1], cells: [2, 1, 1], element: bbar, material: orthotropic, young: [12, 1, 0.7], poisson: [0.35, 0.4, 0.3], shear: [0.8, 0.1, 0.6], first_axis: [0, 0, 1], second_axis: [1, 0, 0]}
+  - modes: {lower: [0, 4, 0], upper: [2, 5, 1], cells: [2, 1, 1], element: incompatible, material: orthotropic, young: [12, 1, 0.7], poisson: [0.35, 0.4, 0.3], shear: [0.8, 0.1, 0.6], first_axis: [0, 0, 1], second_axis: [1, 0, 0]}
 symmetry: [full.xmin, full.ymin, full.zmin, bbar.xmin, bbar.ymin, bbar.zmin, modes.xmin, modes.ymin, modes.zmin]
 pressures:
   - full: {face: full.zmax, value: -0.12}
