@@ -1,5 +1,6 @@
-"""Runs of scenes that are given as text: what the front page and the pages of elements are made from. A run is known by its scene, its
-options and the version of the sources. Each is kept in a file when it ends, so that an interrupted bench goes on where it stopped."""
+"""Runs of scenes that are given as text: what the front page and the pages of elements are made from. A run is known by
+its scene, its options and the version of the sources. Each is kept in a file when it ends, so that an interrupted bench
+goes on where it stopped."""
 import hashlib
 import json
 import os
@@ -50,15 +51,24 @@ class Runs:
         seconds, spent = limit, 0
         while spent == 0 or (spent < SHORT and not limited):
             before = user_seconds()
-            code, said, limited = execute([CONTACT, base + ".yaml", "-quiet", *estimate, *options, "-summary", base + ".json"], limit)
+            code, said, limited = execute(
+                [CONTACT, base + ".yaml", "-quiet", *estimate, *options, "-summary", base + ".json"], limit)
             spent += user_seconds() - before
             seconds = min(seconds, user_seconds() - before)
         summary = read_summary(base)
         steps = summary["steps"] if summary else []
         said = last_words(said).replace(base + ".yaml: ", "").replace("contact: error: ", "")
-        failed = f"time limit {limit:g} s" if limited else "" if code in ANSWERS and steps else f"{'refused' if code == 1 else f'exit code {code}'}: {said}"
-        record = {"failed": failed, "code": code, "seconds": seconds, "load": os.getloadavg()[0], "unknowns": summary["dofs"] if summary else 0}
+        failed = f"time limit {limit:g} s" if limited else "" if code in ANSWERS and steps else (
+            f"{'refused' if code == 1 else f'exit code {code}'}: "
+            f"{said}")
+        record = {
+            "failed": failed, "code": code, "seconds": seconds, "load": os.getloadavg()[0],
+            "unknowns": summary["dofs"] if summary else 0
+        }
         if not failed:
             forces = steps[-1]["contact_force"]
-            record |= {"energy": steps[-1]["energy"], "forces": forces, "force": sum(f**2 for f in forces) ** 0.5, "updates": steps[-1]["contact_updates"]}
+            record |= {
+                "energy": steps[-1]["energy"], "forces": forces, "force": sum(f**2 for f in forces)**0.5,
+                "updates": steps[-1]["contact_updates"]
+            }
         return record

@@ -1,4 +1,5 @@
-# Load steps that end before the faces meet: nothing presses, a body that is moved as a whole has no forces but rounding, and no optimizer makes anything else of it
+# Load steps that end before the faces meet: nothing presses, a body that is moved as a whole has no forces but
+# rounding, and no optimizer makes anything else of it
 cat > approach.yaml << 'SCENE'
 bodies:
   - low: {lower: [0, 0, -1], upper: [2, 2, 0], cells: [3, 2, 1], young: 10, poisson: 0.3}
@@ -20,7 +21,8 @@ for scene in approach finite loaded rigid limited; do
   "$AMGF_DIR/bin/contact" $scene.yaml -quiet -summary $scene.json || echo "$scene: exit code $?"
 done
 for scene in approach finite loaded; do
-  "$AMGF_DIR/bin/contact" $scene.yaml -quiet -summary ${scene}_interior.json -tao_ipfilter_subspace false || echo "$scene, interior point: exit code $?"
+  "$AMGF_DIR/bin/contact" $scene.yaml -quiet -summary ${scene}_interior.json -tao_ipfilter_subspace false ||
+    echo "$scene, interior point: exit code $?"
 done
 "$PYTHON" - << 'CHECK'
 import json
@@ -29,13 +31,18 @@ for name in "approach", "finite", "loaded", "rigid", "limited", "approach_interi
     with open(name + ".json") as file:
         steps = json.load(file)["steps"]
     open_, closed = steps[0], steps[-1]
-    good = all(step["balance"] < 1e-7 and step["equilibrium"] < 1e-7 for step in steps) and open_["pairs"][0]["normal_force"] < 1e-7 and closed["pairs"][0]["normal_force"] > 0.01
-    errors = [max(step["algebraic_error"], step["error_estimate"] ** 2) for step in steps]
+    good = all(
+        step["balance"] < 1e-7 and step["equilibrium"] < 1e-7
+        for step in steps) and open_["pairs"][0]["normal_force"] < 1e-7 and closed["pairs"][0]["normal_force"] > 0.01
+    errors = [max(step["algebraic_error"], step["error_estimate"]**2) for step in steps]
     good = good and max(errors) < 0.5  # what is relative to the energy of a body without stress would be anything
-    print(name + ":", "open, then closed, in balance" if good else "NO, " + str(([(s["balance"], s["equilibrium"], s["pairs"][0]["normal_force"]) for s in steps], errors)))
+    print(
+        name + ":", "open, then closed, in balance" if good else "NO, " + str(
+            ([(s["balance"], s["equilibrium"], s["pairs"][0]["normal_force"]) for s in steps], errors)))
 CHECK
 # With friction and nothing but rounding for forces: no warning of forces or of works
-sed 's/nonmortar: up.zmin/&, friction: 0.3/; s/value: \[0.01, 0, -0.04\]/value: [0.01, 0, -0.01]/' approach.yaml > apart.yaml
+sed 's/nonmortar: up.zmin/&, friction: 0.3/; s/value: \[0.01, 0, -0.04\]/value: [0.01, 0, -0.01]/' approach.yaml \
+  > apart.yaml
 sed 's/ 0.025\]/ 0]/; s/-0.01\]/0]/' apart.yaml > touching.yaml
 for scene in apart touching; do
   "$AMGF_DIR/bin/contact" $scene.yaml -quiet 2>&1 | sed "s/^/$scene: /"

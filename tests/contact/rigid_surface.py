@@ -1,4 +1,5 @@
-"""Rigid surfaces without facets: Hertz's sphere, Sneddon's cone, a plane that presses and is driven by a force, a cylinder in rubber.
+"""Rigid surfaces without facets: Hertz's sphere, Sneddon's cone, a plane that presses and is driven by a force, a
+cylinder in rubber.
 
 python3 rigid_surface.py scenes writes the scenes; python3 rigid_surface.py [exact] judges the runs.
 """
@@ -39,8 +40,14 @@ contact:
   - touch: {mortar: tool.surface, nonmortar: block.zmax}
 """
 # The cube that carries the plane's motion gives gaps of 1e-48 at the start
-BESIDE = DRIVEN.replace("cells: [8, 8, 4], young: 1000, poisson: 0.3", "cells: [6, 6, 3], young: 1000, poisson: 0").replace("point: [0, 0, 1]", "point: [0.3, 0.2, 1]").replace("center: [0, 0, 1]", "center: [0.3, 0.2, 1]")
-BOTTOM = "displacements:\n  - bottom: {face: block.zmin, value: [free, free, 0]}\n  - pin: {point: [-1, -1, 0], body: block, value: [0, 0, 0]}\n  - line: {point: [1, -1, 0], body: block, value: [free, 0, 0]}\n"
+BESIDE = DRIVEN.replace("cells: [8, 8, 4], young: 1000, poisson: 0.3",
+                        "cells: [6, 6, 3], young: 1000, poisson: 0").replace("point: [0, 0, 1]",
+                                                                             "point: [0.3, 0.2, 1]").replace(
+                                                                                 "center: [0, 0, 1]",
+                                                                                 "center: [0.3, 0.2, 1]")
+BOTTOM = ("displacements:\n  - bottom: {face: block.zmin, value: [free, free, 0]}\n"
+          "  - pin: {point: [-1, -1, 0], body: block, value: [0, 0, 0]}\n"
+          "  - line: {point: [1, -1, 0], body: block, value: [free, 0, 0]}\n")
 RUBBER = """problem: rubber
 bodies:
   - block: {{lower: [-1, 0, 0], upper: [1, 0.5, 1], cells: [16, 1, 8], material: neohookean, young: 1, poisson: 0.4, element: full, order: {order}}}
@@ -73,7 +80,8 @@ probes:
   - two: {{body: outer, point: [2, 0, 0]}}
 """
 # The same plane as a profile of one line, and a corner of a profile beside the block
-PROFILE = "shape: rigid_extruded, center: [0, 0, 1.1], direction: [0, 3, 0], across: [-1, 0.5, 0], points: [-1.5, 0, 1.5, 0, 1.5, 2], outside: 0.1"
+PROFILE = ("shape: rigid_extruded, center: [0, 0, 1.1], direction: [0, 3, 0], across: [-1, 0.5, 0], points: [-1.5, "
+           "0, 1.5, 0, 1.5, 2], outside: 0.1")
 RADIUS, APPROACH, ANGLE, CONTACT = 1000, 1e-4, 89.9, 0.316
 DEPTH = CONTACT * math.pi / 2 / math.tan(math.radians(ANGLE))
 MODULUS = 1000 / (1 - 0.3**2)
@@ -94,7 +102,8 @@ def grading():
 SPHERE = f"shape: rigid_sphere, center: [0, 0, {RADIUS}], radius: {RADIUS}"
 CONE = f"shape: rigid_cone, tip: [0, 0, 0], direction: [0, 0, 3], half_angle: {ANGLE}"
 CYLINDER = "shape: rigid_cylinder, center: [0, 0, 1.5], direction: [0, 1, 0], radius: 0.5"
-TUBE = "shape: tube_arc, axis: y, center: [0, 0, 1.5], radii: [0.4, 0.5], angles: [110, 250], extent: [0, 0.5], cells: [1, 96, 1]"
+TUBE = ("shape: tube_arc, axis: y, center: [0, 0, 1.5], radii: [0.4, 0.5], angles: [110, 250], extent: [0, 0.5], "
+        "cells: [1, 96, 1]")
 SCENES = {
     "sphere": HALF_SPACE.format(name="sphere", tool=SPHERE, press=-APPROACH, grading=grading(), inverse=1 / grading()),
     "cone": HALF_SPACE.format(name="cone", tool=CONE, press=-DEPTH, grading=grading(), inverse=1 / grading()),
@@ -102,7 +111,8 @@ SCENES = {
     "pressed": FLAT.format(rest=BOTTOM + "  - press: {body: tool, value: [0, 0, -0.01]}"),
     "driven": DRIVEN,
     "punch": PUNCH.format(inward=1 / 60, down=1 / 90000),
-    "profile": FLAT.format(rest=BOTTOM + "  - press: {body: tool, value: [0, 0, -0.01]}").replace("shape: rigid_plane, point: [0.3, 0.2, 1], normal: [0, 0, -2]", PROFILE),
+    "profile": FLAT.format(rest=BOTTOM + "  - press: {body: tool, value: [0, 0, -0.01]}").replace(
+        "shape: rigid_plane, point: [0.3, 0.2, 1], normal: [0, 0, -2]", PROFILE),
     "rubber_1": RUBBER.format(order=1, tool=CYLINDER, face="surface"),
     "rubber_2": RUBBER.format(order=2, tool=CYLINDER, face="surface"),
     "rubber_mesh": RUBBER.format(order=1, tool=TUBE, face="outer"),
@@ -127,26 +137,37 @@ elif sys.argv[1:] == ["exact"]:
     sneddon = MODULUS * math.tan(math.radians(ANGLE)) * DEPTH**2 / (2 * math.pi)
     for name, force, energy in ("sphere", hertz, 0.4 * hertz * APPROACH), ("cone", sneddon, sneddon * DEPTH / 3):
         seen = (-pair(name)["force"][2] / force - 1, load(name)["steps"][-1]["energy"] / energy - 1)
-        say(f"{name}: force within 0.5 % of the closed form, energy within 0.2 %", abs(seen[0]) < 5e-3 and abs(seen[1]) < 2e-3, seen)
+        say(f"{name}: force within 0.5 % of the closed form, energy within 0.2 %",
+            abs(seen[0]) < 5e-3 and abs(seen[1]) < 2e-3, seen)
     same_on_three_ranks(2)
     punch = 2 * MODULUS * 1e-3 * 10 / 360
-    seen = (-sum(one["force"][2] for one in load("punch")["steps"][-1]["pairs"]) / punch - 1, load("punch")["steps"][-1]["probes"][0]["displacement"][2] / (-2e-3 / math.pi * math.asin(0.5)) - 1)
-    say("flat punch: force, and Boussinesq's surface beside it, within 0.3 %", abs(seen[0]) < 3e-3 and abs(seen[1]) < 3e-3, seen)
+    seen = (-sum(one["force"][2] for one in load("punch")["steps"][-1]["pairs"]) / punch - 1,
+            load("punch")["steps"][-1]["probes"][0]["displacement"][2] / (-2e-3 / math.pi * math.asin(0.5)) - 1)
+    say("flat punch: force, and Boussinesq's surface beside it, within 0.3 %",
+        abs(seen[0]) < 3e-3 and abs(seen[1]) < 3e-3, seen)
 else:
     seen = pair("pressed")
-    say("plane: uniform pressure of 10", within(seen["pressure"], 10, 1e-8) and within(-seen["force"][2], 40, 1e-8), seen)
+    say("plane: uniform pressure of 10",
+        within(seen["pressure"], 10, 1e-8) and within(-seen["force"][2], 40, 1e-8), seen)
     seen = pair("profile")
-    say("a plane as a profile that is extruded: the same", within(seen["pressure"], 10, 1e-8) and within(-seen["force"][2], 40, 1e-8), seen)
+    say("a plane as a profile that is extruded: the same",
+        within(seen["pressure"], 10, 1e-8) and within(-seen["force"][2], 40, 1e-8), seen)
     place = load("pressed")["steps"][-1]["rigid_bodies"][0]["position"]
-    say("plane: its position is that of its point", all(abs(a - b) < 1e-12 for a, b in zip(place, (0.3, 0.2, 0.99))), place)
+    say("plane: its position is that of its point", all(abs(a - b) < 1e-12 for a, b in zip(place, (0.3, 0.2, 0.99))),
+        place)
     seen = pair("driven")
-    say("plane that a force and a moment drive: they are carried", within(-seen["force"][2], 4, 1e-8) and within(seen["moment"][1], 0.4, 5e-3), seen)
+    say("plane that a force and a moment drive: they are carried",
+        within(-seen["force"][2], 4, 1e-8) and within(seen["moment"][1], 0.4, 5e-3), seen)
     seen = pair("beside")
     say("the same beside its middle", within(-seen["force"][2], 4, 1e-8), seen)
     mesh = load("rubber_mesh")["steps"][-1]
     for order in 1, 2:
         one = load(f"rubber_{order}")["steps"][-1]
-        say(f"cylinder in rubber, order {order}: within 1 % of a cylinder with facets", within(one["pairs"][0]["force"][2], mesh["pairs"][0]["force"][2], 1e-2) and within(one["energy"], mesh["energy"], 5e-3), (one, mesh))
-        say(f"cylinder in rubber, order {order}: no vertex is inside", one["pairs"][0]["penetration"] < 1e-8, one["pairs"])
+        say(
+            f"cylinder in rubber, order {order}: within 1 % of a cylinder with facets",
+            within(one["pairs"][0]["force"][2], mesh["pairs"][0]["force"][2], 1e-2)
+            and within(one["energy"], mesh["energy"], 5e-3), (one, mesh))
+        say(f"cylinder in rubber, order {order}: no vertex is inside", one["pairs"][0]["penetration"] < 1e-8,
+            one["pairs"])
         if order == 1:
             same_on_three_ranks(order)

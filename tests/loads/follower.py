@@ -25,7 +25,8 @@ pressures:
 probes:
   - inside: {point: [1, 0, 0]}
 """
-BAR = CUBE.replace("  - px: {face: cube.xmax, value: 0.3, follows: true}\n  - py: {face: cube.ymax, value: 0.3, follows: true}\n", "")
+BAR = CUBE.replace(
+    "  - px: {face: cube.xmax, value: 0.3, follows: true}\n  - py: {face: cube.ymax, value: 0.3, follows: true}\n", "")
 PRESS = """bodies:
   - low: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [2, 2, 2], material: neohookean, young: 1, poisson: 0.3}
   - top: {lower: [0, 0, 1], upper: [1, 1, 2], cells: [3, 3, 2], material: neohookean, young: 1, poisson: 0.3}
@@ -51,7 +52,8 @@ contact:
 """
 SCENES = {
     "cube": CUBE,
-    "free": CUBE.replace("symmetry: [cube.xmin, cube.ymin, cube.zmin]", "weak_springs: true").replace("probes:", OTHER_SIDES + "probes:"),
+    "free": CUBE.replace("symmetry: [cube.xmin, cube.ymin, cube.zmin]",
+                         "weak_springs: true").replace("probes:", OTHER_SIDES + "probes:"),
     "bar": BAR,
     "sphere": SPHERE,
     "press": PRESS,
@@ -71,7 +73,7 @@ def root(function, a, b):
 def stresses(radial, hoop):
     """Nominal stress of the law by principal stretches, two of which are the same"""
     J, square = radial * hoop**2, radial**2 + 2 * hoop**2
-    stress = lambda stretch: MU * J ** (-2 / 3) * (stretch - square / (3 * stretch)) + KAPPA * (J - 1) * J / stretch
+    stress = lambda stretch: MU * J**(-2 / 3) * (stretch - square / (3 * stretch)) + KAPPA * (J - 1) * J / stretch
     return stress(radial), stress(hoop)
 
 
@@ -107,30 +109,43 @@ def blown(pressure, n=60):
 def column(pressure):
     """Stretches along and across of a block under a pressure at its ends alone"""
     across = lambda along: root(lambda hoop: stresses(along, hoop)[1], 0.5, 2)
-    along = root(lambda stretch: stresses(stretch, across(stretch))[0] + pressure * across(stretch) ** 2, 0.3, 1)
+    along = root(lambda stretch: stresses(stretch, across(stretch))[0] + pressure * across(stretch)**2, 0.3, 1)
     return along, across(along)
 
 
 def judge(title, end, inside):
     steps = {name: load(name + end)["steps"] for name in SCENES}
     for name in ("cube", "free"):
-        energies = [3 * KAPPA / 2 * (p / KAPPA) ** 2 for p in (0.15, 0.3)]  # of the volume 3
-        good = all(abs(step["energy"] - e) < 1e-6 * e and abs(step["probes"][0]["stress_zz"] + p) < 1e-6 * p for step, e, p in zip(steps[name], energies, (0.15, 0.3)))
-        say(title + name + ": the pressure inside is that outside, the energy that of the law", good, [step["energy"] for step in steps[name]])
+        energies = [3 * KAPPA / 2 * (p / KAPPA)**2 for p in (0.15, 0.3)]  # of the volume 3
+        good = all(
+            abs(step["energy"] - e) < 1e-6 * e and abs(step["probes"][0]["stress_zz"] + p) < 1e-6 * p
+            for step, e, p in zip(steps[name], energies, (0.15, 0.3)))
+        say(title + name + ": the pressure inside is that outside, the energy that of the law", good,
+            [step["energy"] for step in steps[name]])
     along, across = column(0.3)
     exact = [across - 1, 1.5 * (across - 1), 2 * (along - 1)]
     for name in ("bar", "fine"):
         moved = steps[name][1]["probes"][0]["displacement"]
-        say(title + name + ": stretches along and across", max(abs(a - b) for a, b in zip(moved, exact)) < 1e-7, (moved, exact))
+        say(title + name + ": stretches along and across",
+            max(abs(a - b) for a, b in zip(moved, exact)) < 1e-7, (moved, exact))
     along, across = column(0.1)
     for name in ("press", "glued"):
         moved, force = steps[name][0]["probes"][0]["displacement"][2], steps[name][0]["faces"][2]["reaction"][2]
-        say(title + name + ": two blocks, the force of the stretched face", abs(moved - 2 * (along - 1)) < 1e-6 and abs(force - 0.1 * across**2) < 1e-7, (moved, force))
+        say(title + name + ": two blocks, the force of the stretched face",
+            abs(moved - 2 * (along - 1)) < 1e-6 and abs(force - 0.1 * across**2) < 1e-7, (moved, force))
     its = [step["ip_iterations"] for step in steps["free"]]
-    say(title + "free: at most 40 Newton steps in a load step, although a body on weak springs turns about almost without force", max(its) <= 40, its)
+    say(
+        title + ("free: at most 40 Newton steps in a load step, although a body on weak springs turns about almost "
+                 "without force"),
+        max(its) <= 40, its)
     moved = steps["sphere"][0]["probes"][0]["displacement"][0]
     say(title + "sphere: as the radial problem has it, to 0.2 %", abs(moved - inside) < 2e-3 * inside, (moved, inside))
-    say(title + "in equilibrium and in balance", all(step["equilibrium"] < 1e-7 and (step["balance"] < 1e-7 or name == "free") for name in steps for step in steps[name]), {name: [(s["equilibrium"], s["balance"]) for s in steps[name]] for name in steps})
+    say(
+        title + "in equilibrium and in balance",
+        all(step["equilibrium"] < 1e-7 and (step["balance"] < 1e-7 or name == "free")
+            for name in steps
+            for step in steps[name]), {name: [(s["equilibrium"], s["balance"]) for s in steps[name]]
+                                       for name in steps})
 
 
 if sys.argv[1] == "write":

@@ -1,10 +1,14 @@
-"""Shallow ironing with friction 0.3: a block with a round lower face is pressed into a foundation and slid along it, both neo-Hookean in plane strain, against published forces.
+"""Shallow ironing with friction 0.3: a block with a round lower face is pressed into a foundation and slid along it,
+both neo-Hookean in plane strain, against published forces.
 
-python3 friction_ironing.py scenes writes mesh and scene; python3 friction_ironing.py judges the run that friction_ironing.sh has made.
+python3 friction_ironing.py scenes writes mesh and scene; python3 friction_ironing.py judges the run that
+friction_ironing.sh has made.
 
-K. A. Fischer and P. Wriggers, Comput. Methods Appl. Mech. Engrg. 195, 2006, have set the problem; forces on 1 mm of thickness [N] at the end of the pressing from Code_Aster's SSNP153 and from S. Hartmann
-et al., Comput. Methods Appl. Mech. Engrg. 198, 2009 (curves as the solid-benchmarks of solids4foam have digitized them). Others have up to 16 % less; the ratio of both forces while it slides is 0.30 to 0.53 in the
-literature, 0.34 in Code_Aster, and 0.30 to 0.32 in the three newest.
+K. A. Fischer and P. Wriggers, Comput. Methods Appl. Mech. Engrg. 195, 2006, have set the problem; forces on 1 mm of
+thickness [N] at the end of the pressing from Code_Aster's SSNP153 and from S. Hartmann et al., Comput. Methods Appl.
+Mech. Engrg. 198, 2009 (curves as the solid-benchmarks of solids4foam have digitized them). Others have up to 16 % less;
+the ratio of both forces while it slides is 0.30 to 0.53 in the literature, 0.34 in Code_Aster, and 0.30 to 0.32 in the
+three newest.
 """
 import math
 import sys
@@ -34,13 +38,21 @@ class Mesh:
 
         for i in range(nx):
             for k in range(nz):
-                self.elements.append((5, tag, [node(i + a, k + b, s) for b in (0, 1) for a, s in ((0, 0), (1, 0), (1, 1), (0, 1))]))
-                self.elements += [(3, 10 * tag + s, [node(i, k, s), node(i + 1, k, s), node(i + 1, k + 1, s), node(i, k + 1, s)]) for s in (0, 1)]
-            self.elements += [(3, 10 * tag + 2 + h, [node(i, k, 0), node(i + 1, k, 0), node(i + 1, k, 1), node(i, k, 1)]) for h, k in ((0, 0), (1, nz))]
+                self.elements.append(
+                    (5, tag, [node(i + a, k + b, s) for b in (0, 1) for a, s in ((0, 0), (1, 0), (1, 1), (0, 1))]))
+                self.elements += [(3, 10 * tag + s,
+                                   [node(i, k, s),
+                                    node(i + 1, k, s),
+                                    node(i + 1, k + 1, s),
+                                    node(i, k + 1, s)]) for s in (0, 1)]
+            self.elements += [(3, 10 * tag + 2 + h,
+                               [node(i, k, 0), node(i + 1, k, 0),
+                                node(i + 1, k, 1), node(i, k, 1)]) for h, k in ((0, 0), (1, nz))]
 
     def write(self, file):
         with open(file, "w") as out:
-            print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames", len(self.names), *self.names, "$EndPhysicalNames\n$Nodes", len(self.nodes), sep="\n", file=out)
+            print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames", len(self.names), *self.names,
+                  "$EndPhysicalNames\n$Nodes", len(self.nodes), sep="\n", file=out)
             for i, (x, z, y) in enumerate(self.nodes):
                 print(i + 1, "%.15g %.15g %.15g" % (x, y, z), file=out)
             print("$EndNodes\n$Elements", len(self.elements), sep="\n", file=out)
@@ -56,7 +68,9 @@ def block(x, z):
 
 
 def scene():
-    fronts = "".join(f"  - {body}_{side}: {{face: {body}.{body}_{side}, normal: y}}\n" for body in ("foundation", "block") for side in ("front", "back"))
+    fronts = "".join(f"  - {body}_{side}: {{face: {body}.{body}_{side}, normal: y}}\n" for body in ("foundation",
+                                                                                                    "block")
+                     for side in ("front", "back"))
     down, along = [(k + 1) / DOWN for k in range(DOWN)], [(k + 1) / ALONG for k in range(ALONG)]
     return f"""problem: shallow_ironing
 bodies:
@@ -86,8 +100,11 @@ if sys.argv[1:] == ["scenes"]:
 else:
     run = load("ironing")
     force = [step["pairs"][0]["force"] for step in run["steps"]]
-    say("every step converges, none is cut", run["converged"] and not sum(each(run, "cuts")), (run["reason"], each(run, "cuts")))
+    say("every step converges, none is cut", run["converged"] and not sum(each(run, "cuts")),
+        (run["reason"], each(run, "cuts")))
     for name in NORMAL:
-        say(f"pressed: forces down and across within 3 and 4 % of those of {name}", within(force[DOWN - 1][2], NORMAL[name], 0.03) and within(-force[DOWN - 1][0], ACROSS[name], 0.04), force[DOWN - 1])
+        say(f"pressed: forces down and across within 3 and 4 % of those of {name}",
+            within(force[DOWN - 1][2], NORMAL[name], 0.03) and within(-force[DOWN - 1][0], ACROSS[name], 0.04),
+            force[DOWN - 1])
     ratio = -force[-1][0] / force[-1][2]
     say("slid: ratio of the forces as in the literature, 0.30 to 0.34", 0.30 <= ratio <= 0.34, ratio)

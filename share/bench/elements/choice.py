@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Compares the element that auto chooses with all others, on scenes that were not used for its rule: {choice,second,third}.md
+"""Compares the element that auto chooses with all others, on scenes that were not used for its rule:
+{choice,second,third}.md
 
     share/bench/elements/choice.py [--only NAME] [--limit SECONDS] [--folder build/bench]
 """
@@ -15,8 +16,11 @@ import second  # noqa: E402
 import third  # noqa: E402
 from runs import Runs  # noqa: E402
 
-ELEMENTS = {"auto": "", "full": "element: full", "bbar": "element: bbar", "incompatible": "element: incompatible", "order 2": "element: full, order: 2", "order 2, bbar": "element: bbar, order: 2"}
-LEVELS = {1: (0, 1), 2: (0,)}  # refinements by order
+ELEMENTS = {
+    "auto": "", "full": "element: full", "bbar": "element: bbar", "incompatible": "element: incompatible",
+    "order 2": "element: full, order: 2", "order 2, bbar": "element: bbar, order: 2"
+}
+LEVELS = {1: (0, 1), 2: (0, )}  # refinements by order
 REFERENCE = 1  # refinements of the runs by order 2 whose mean is the reference
 PUNCH = """bodies:
   - slab: {lower: [0, 0, -2], upper: [3, 0.2, 0], cells: [12, 1, 8], young: 1, poisson: %s}
@@ -61,7 +65,9 @@ displacements:
   - top: {face: block.zmax, value: [0, 0, -0.05]}
 load: {steps: 2}
 """),
-    "rubber strip on a roller, nu 0.45": ("force", second.STRIP % ("material: neohookean, young: 1, poisson: 0.45", 0.2) + "load: {steps: 2}\n"),
+    "rubber strip on a roller, nu 0.45": ("force",
+                                          second.STRIP % ("material: neohookean, young: 1, poisson: 0.45", 0.2) +
+                                          "load: {steps: 2}\n"),
     "shrunk ring, nu 0.3": ("energy", """bodies:
   - hub: {shape: tube_arc, axis: z, radii: [0.6, 1.001], angles: [0, 90], extent: [0, 0.3], cells: [4, 10, 2], young: 1000, poisson: 0.3, E}
   - ring: {shape: tube_arc, axis: z, radii: [0.999, 1.4], angles: [0, 90], extent: [0, 0.2], cells: [4, 12, 2], young: 1000, poisson: 0.3, E}
@@ -109,8 +115,8 @@ ties:
 """),
 }
 
-
-SETS = {"choice": (SCENES, ""), "second": (second.SCENES, second.WORDS), "third": (third.SCENES, third.WORDS)}  # page: scenes, and what it says of them
+# page: scenes, and what it says of them
+SETS = {"choice": (SCENES, ""), "second": (second.SCENES, second.WORDS), "third": (third.SCENES, third.WORDS)}
 
 
 def run(title, element, level, runs):
@@ -125,11 +131,19 @@ def results(titles, runs):
     """title: (reference, its uncertainty, {(element, refinement): (unknowns, error, seconds) or a sentence})"""
     found = {}
     for title in titles:
-        entries = {(element, level): run(title, element, level, runs) for element in ELEMENTS for level in LEVELS[2 if "order 2" in element else 1]}
-        finest = [entry[1] for element in ("order 2", "order 2, bbar") if not isinstance(entry := run(title, element, REFERENCE, runs), str)]
+        entries = {(element, level): run(title, element, level, runs)
+                   for element in ELEMENTS for level in LEVELS[2 if "order 2" in element else 1]}
+        finest = [
+            entry[1]
+            for element in ("order 2", "order 2, bbar")
+            if not isinstance(entry := run(title, element, REFERENCE, runs), str)
+        ]
         mean = sum(finest) / len(finest) if finest else math.nan
         uncertain = abs(finest[0] - finest[-1]) / abs(mean) if finest else math.nan
-        found[title] = mean, uncertain, {key: entry if isinstance(entry, str) else (entry[0], abs(entry[1] / mean - 1), entry[2]) for key, entry in entries.items()}
+        found[title] = mean, uncertain, {
+            key: entry if isinstance(entry, str) else (entry[0], abs(entry[1] / mean - 1), entry[2])
+            for key, entry in entries.items()
+        }
     return found
 
 
@@ -140,7 +154,8 @@ def answers(entries):
 
 def best_of_mesh(entries, level):
     """Whether the error of auto is at most 1.2 times the least of order 1 on the same mesh"""
-    return entries["auto", level][1] <= 1.2 * min(entry[1] for (element, at), entry in entries.items() if at == level and "order 2" not in element)
+    return entries["auto", level][1] <= 1.2 * min(
+        entry[1] for (element, at), entry in entries.items() if at == level and "order 2" not in element)
 
 
 def on_front(entries, level):
@@ -172,7 +187,8 @@ If `auto` is not on the front, order 2 on a coarser mesh is better. The scene mu
 
 
 def cell(entry):
-    return entry.split(":")[0] if isinstance(entry, str) else f"{100 * entry[1]:.2g} %, {entry[2]:.2g} s" if entry else ""
+    return entry.split(":")[0] if isinstance(entry,
+                                             str) else f"{100 * entry[1]:.2g} %, {entry[2]:.2g} s" if entry else ""
 
 
 def page(name, found, words, loads):
@@ -189,10 +205,13 @@ def page(name, found, words, loads):
     yield "| refinement | best of order 1 | on the front | scenes |"
     yield "| --- | --- | --- | --- |"
     for level in LEVELS[1]:
-        both = [(best_of_mesh(known, level), on_front(known, level)) for _, _, entries in found.values() if ("auto", level) in (known := answers(entries))]
+        both = [(best_of_mesh(known, level), on_front(known, level))
+                for _, _, entries in found.values()
+                if ("auto", level) in (known := answers(entries))]
         yield f"| {level} | {sum(a for a, _ in both)} | {sum(b for _, b in both)} | {len(both)} |"
     yield "\nError and time of each run:\n"
-    yield "| scene | reference uncertain by | refinement | unknowns | " + " | ".join(ELEMENTS) + " | best of order 1 | on the front |"
+    yield "| scene | reference uncertain by | refinement | unknowns | " + " | ".join(
+        ELEMENTS) + " | best of order 1 | on the front |"
     yield "| --- | --- | --- | --- |" + " --- |" * (len(ELEMENTS) + 2)
     for title, (_, uncertain, entries) in found.items():
         known = answers(entries)
@@ -200,7 +219,8 @@ def page(name, found, words, loads):
             cells = [cell(entries.get((element, level))) for element in ELEMENTS]
             mine = known.get(("auto", level))
             ours = (answer(best_of_mesh(known, level)), answer(on_front(known, level))) if mine else ("", "")
-            yield f"| {title} | {50 * uncertain:.2g} % | {level} | {f'{mine[0]:,}' if mine else ''} | " + " | ".join((*cells, *ours)) + " |"
+            yield f"| {title} | {50 * uncertain:.2g} % | {level} | {f'{mine[0]:,}' if mine else ''} | " + " | ".join(
+                (*cells, *ours)) + " |"
     yield ""
     yield from ratios(found)
 
@@ -214,12 +234,17 @@ def figure(found, path):
 
     fig, axis = plt.subplots(figsize=(6.5, 4))
     for index, element in enumerate(list(ELEMENTS)[1:]):
-        points = [(known[element, 0][2] / known["auto", 0][2], max(known[element, 0][1], 1e-7) / max(known["auto", 0][1], 1e-7)) for _, _, entries in found.values() if {(element, 0), ("auto", 0)} <= set(known := answers(entries))]
+        points = [(known[element, 0][2] / known["auto", 0][2],
+                   max(known[element, 0][1], 1e-7) / max(known["auto", 0][1], 1e-7))
+                  for _, _, entries in found.values()
+                  if {(element, 0), ("auto", 0)} <= set(known := answers(entries))]
         if points:
-            axis.loglog(*zip(*points), "os^Dv"[index], color=f"C{index}", label=element, markersize=5, linestyle="none", alpha=0.8)
+            axis.loglog(*zip(*points), "os^Dv"[index], color=f"C{index}", label=element, markersize=5, linestyle="none",
+                        alpha=0.8)
     axis.axhline(1, color="k", linewidth=0.8)
     axis.axvline(1, color="k", linewidth=0.8)
-    axis.set(xlabel="user time relative to auto", ylabel="error relative to auto", title="One point a scene, refinement 0")
+    axis.set(xlabel="user time relative to auto", ylabel="error relative to auto",
+             title="One point a scene, refinement 0")
     axis.grid(alpha=0.3)
     axis.legend(fontsize=8)
     fig.tight_layout()
@@ -232,10 +257,14 @@ def ratios(found):
     yield "| compared with `auto` on the same mesh, geometric mean | runs | ratio of errors | ratio of times |"
     yield "| --- | --- | --- | --- |"
     for element in list(ELEMENTS)[1:]:
-        pairs = [(known[element, level], known["auto", level]) for _, _, entries in found.values() for level in LEVELS[1] if {(element, level), ("auto", level)} <= set(known := answers(entries))]
+        pairs = [(known[element, level], known["auto", level])
+                 for _, _, entries in found.values()
+                 for level in LEVELS[1]
+                 if {(element, level), ("auto", level)} <= set(known := answers(entries))]
         logs = [[math.log(max(theirs[k], 1e-9) / max(ours[k], 1e-9)) for theirs, ours in pairs] for k in (1, 2)]
         if pairs:
-            yield f"| `{element}` | {len(pairs)} | " + " | ".join(f"{math.exp(sum(values) / len(values)):.2g}" for values in logs) + " |"
+            yield f"| `{element}` | {len(pairs)} | " + " | ".join(f"{math.exp(sum(values) / len(values)):.2g}"
+                                                                  for values in logs) + " |"
 
 
 def main():

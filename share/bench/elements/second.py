@@ -24,7 +24,9 @@ displacements:
   - end: {face: beam.xmax, value: [free, free, -0.6]}
 load: {steps: 2}
 """),
-    "foam block under a roller, finite strain, nu 0.2": ("force", STRIP % ("material: neohookean, young: 1, poisson: 0.2", 0.2) + "load: {steps: 2}\n"),
+    "foam block under a roller, finite strain, nu 0.2": ("force",
+                                                         STRIP % ("material: neohookean, young: 1, poisson: 0.2", 0.2) +
+                                                         "load: {steps: 2}\n"),
     "bar in torsion, nu 0.3": ("energy", """bodies:
   - bar: {lower: [0, 0, 0], upper: [4, 1, 1], cells: [8, 3, 3], young: 1000, poisson: 0.3, E}
 displacements:
@@ -87,7 +89,8 @@ pressures:
 load: {steps: 2}
 """),
     "wheel of finite strain on a plate, coarse, nu 0.3": ("force", """bodies:
-  - wheel: {shape: tube_arc, axis: y, center: [0, 0, 1], radii: [0.3, 1], angles: [90, 180], extent: [0, 0.1], cells: [5, 16, 1], """ + LAW % 0.3 + """
+  - wheel: {shape: tube_arc, axis: y, center: [0, 0, 1], radii: [0.3, 1], angles: [90, 180], extent: [0, 0.1], cells: [5, 16, 1], """
+                                                          + LAW % 0.3 + """
   - plate: {lower: [0, 0, -0.2], upper: [0.6, 0.1, 0], cells: [1, 1, 1], material: rigid}
 symmetry: [wheel.lmin, wheel.lmax, wheel.amax]
 displacements:
