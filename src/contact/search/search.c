@@ -49,8 +49,9 @@ static PetscBool PrismMeetsBox(const Prism *p, const PetscReal box[6])
   return PETSC_TRUE;
 }
 
-/* Counts the facets whose boxes meet the prism. Stores their numbers in `found` unless it is NULL. */
-static PetscInt SearchTree(const ContactTree *t, const Prism *prism, PetscInt found[])
+/* Counts the facets whose boxes meet the prism. Stores their numbers in `found` unless it is NULL. The number of boxes
+   that were tested is added to *tested. */
+static PetscInt SearchTree(const ContactTree *t, const Prism *prism, PetscInt found[], PetscInt *tested)
 {
   PetscInt stack[CONTACT_TREE_DEPTH], depth = 0, n = 0;
 
@@ -59,12 +60,14 @@ static PetscInt SearchTree(const ContactTree *t, const Prism *prism, PetscInt fo
     const PetscInt         self = stack[--depth];
     const ContactTreeNode *node = &t->node[self];
 
+    ++*tested;
     if (!PrismMeetsBox(prism, node->box)) continue;
     if (node->second) {
       stack[depth++] = node->second;
       stack[depth++] = self + 1;
       continue;
     }
+    *tested += node->last - node->first;
     for (PetscInt i = node->first; i < node->last; ++i) {
       if (!PrismMeetsBox(prism, &t->box[6 * t->order[i]])) continue;
       if (found) found[n] = t->order[i];
@@ -81,6 +84,7 @@ PetscErrorCode ContactSearch(const ContactSurface *s, PetscReal distance, PetscR
 {
   ContactTree tree;
   Prism       prism;
+  PetscInt    tested = 0;
 
   PetscFunctionBegin;
   PetscCall(ContactTreeCreate(mortar, &tree));
@@ -90,12 +94,13 @@ PetscErrorCode ContactSearch(const ContactSurface *s, PetscReal distance, PetscR
   for (PetscInt pass = 0; pass < 2; ++pass) {
     for (PetscInt f = 0; f < s->nfacets; ++f) {
       const PetscBool has = PrismCreate(&s->x[12 * f], distance, depth, &prism);
-      const PetscInt  n   = has ? SearchTree(&tree, &prism, pass ? near->facet + near->offset[f] : NULL) : 0;
+      const PetscInt  n   = has ? SearchTree(&tree, &prism, pass ? near->facet + near->offset[f] : NULL, &tested) : 0;
 
       near->offset[f + 1] = near->offset[f] + n;
     }
     if (!pass) PetscCall(PetscMalloc1(near->offset[s->nfacets], &near->facet));
   }
+  PetscCall(PetscLogFlops(6.0 * tested));
   PetscCall(ContactTreeDestroy(&tree));
   PetscFunctionReturn(0);
 }

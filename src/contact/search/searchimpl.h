@@ -33,8 +33,9 @@ typedef struct {
   PetscInt         nnodes;
   ContactTreeNode *node;
   /* [n] numbers of the facets in the order of the leaves */
-  PetscInt  *order;
-  PetscReal *box; /* [6 n] boxes of the facets */
+  PetscInt      *order;
+  PetscReal     *box;  /* [6 n] boxes of the facets */
+  PetscLogDouble work; /* number of comparisons that building the tree took */
 } ContactTree;
 PETSC_INTERN PetscErrorCode ContactTreeCreate(const ContactCandidates *, ContactTree *);
 PETSC_INTERN PetscErrorCode ContactTreeDestroy(ContactTree *);

@@ -21,6 +21,7 @@ static void TreeSelectMedian(ContactTree *t, PetscInt axis, PetscInt lo, PetscIn
     while (i <= j) {
       while (TreeCentre(t, t->order[i], axis) < pivot) ++i;
       while (TreeCentre(t, t->order[j], axis) > pivot) --j;
+      t->work += 2.0;
       if (i <= j) {
         const PetscInt swap = t->order[i];
 
@@ -44,6 +45,7 @@ static void TreeBuild(ContactTree *t, PetscInt first, PetscInt last)
   ContactTreeNode *node = &t->node[self];
 
   *node = (ContactTreeNode){.first = first, .last = last, .second = 0};
+  t->work += 12.0 * (last - first);
   for (PetscInt c = 0; c < 3; ++c) {
     lower[c] = upper[c] = TreeCentre(t, t->order[first], c);
     node->box[c]        = t->box[6 * t->order[first] + c];
@@ -72,12 +74,14 @@ PetscErrorCode ContactTreeCreate(const ContactCandidates *facets, ContactTree *t
 {
   PetscFunctionBegin;
   t->nnodes = 0;
+  t->work   = 0.0;
   PetscCall(PetscMalloc3(2 * facets->n, &t->node, facets->n, &t->order, 6 * facets->n, &t->box));
   for (PetscInt f = 0; f < facets->n; ++f) {
     t->order[f] = f;
     ContactFacetBox(&facets->x[12 * f], &t->box[6 * f]);
   }
   if (facets->n) TreeBuild(t, 0, facets->n);
+  PetscCall(PetscLogFlops(t->work));
   PetscFunctionReturn(0);
 }
 
