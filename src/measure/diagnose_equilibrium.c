@@ -138,21 +138,62 @@ static PetscErrorCode ConeGetRay(const FreeMotions *m, ContactLinearization lin,
   PetscFunctionReturn(0);
 }
 
-/* Computes left = load + the sum of the rays */
-static void ConeSubtract(const ContactCone *cone, const PetscReal load[], PetscReal left[])
-{
-  for (PetscInt i = 0; i < cone->n; ++i) {
-    left[i] = load[i];
-    for (PetscInt k = 0; k < cone->nrays; ++k) left[i] += cone->amount[k] * cone->ray[cone->n * k + i];
-  }
-}
-
 static PetscReal ConeDot(PetscInt n, const PetscReal a[], const PetscReal b[])
 {
   PetscReal sum = 0.0;
 
   for (PetscInt i = 0; i < n; ++i) sum += a[i] * b[i];
   return sum;
+}
+
+#define CONE_BLOCK 4 /* number of columns that are multiplied together, which is faster than one by one */
+
+/* Computes the scalar products of x and some columns of n numbers each */
+static void ConeDots(PetscInt n, PetscInt columns, const PetscReal A[], const PetscReal x[], PetscReal product[])
+{
+  PetscInt k = 0;
+
+  for (; k + CONE_BLOCK <= columns; k += CONE_BLOCK) {
+    const PetscReal *a  = &A[n * k];
+    PetscReal        s0 = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0;
+
+    for (PetscInt i = 0; i < n; ++i) {
+      s0 += a[i] * x[i];
+      s1 += a[n + i] * x[i];
+      s2 += a[2 * n + i] * x[i];
+      s3 += a[3 * n + i] * x[i];
+    }
+    product[k]     = s0;
+    product[k + 1] = s1;
+    product[k + 2] = s2;
+    product[k + 3] = s3;
+  }
+  for (; k < columns; ++k) product[k] = ConeDot(n, &A[n * k], x);
+}
+
+/* Adds a multiple of the sum of factor[k] times column k, of n numbers each, to y */
+static void ConeAdd(PetscInt n, PetscInt columns, const PetscReal A[], PetscReal alpha, const PetscReal factor[],
+  PetscReal y[])
+{
+  PetscInt k = 0;
+
+  for (; k + CONE_BLOCK <= columns; k += CONE_BLOCK) {
+    const PetscReal *a = &A[n * k], f0 = alpha * factor[k], f1 = alpha * factor[k + 1], f2 = alpha * factor[k + 2],
+                    f3 = alpha * factor[k + 3];
+
+    for (PetscInt i = 0; i < n; ++i) y[i] += f0 * a[i] + f1 * a[n + i] + f2 * a[2 * n + i] + f3 * a[3 * n + i];
+  }
+  for (; k < columns; ++k)
+    for (PetscInt i = 0; i < n; ++i) y[i] += alpha * factor[k] * A[n * k + i];
+}
+
+/* Computes left = load + the sum of the rays */
+static PetscErrorCode ConeSubtract(const ContactCone *cone, const PetscReal load[], PetscReal left[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(left, load, cone->n));
+  ConeAdd(cone->n, cone->nrays, cone->ray, 1.0, cone->amount, left);
+  PetscFunctionReturn(0);
 }
 
 static PetscReal *ConeColumn(const ContactCone *cone, PetscInt ray)
@@ -164,7 +205,8 @@ static PetscReal *ConeColumn(const ContactCone *cone, PetscInt ray)
 static PetscErrorCode ConeOrthogonalize(ContactCone *cone)
 {
   const PetscInt  n         = cone->n;
-  const PetscReal dependent = 1e-12;
+  const PetscReal dependent = 1e-12, again = 0.01;
+  PetscReal      *along;
 
   PetscFunctionBegin;
   if (cone->ncap < cone->nrays) {
@@ -172,20 +214,26 @@ static PetscErrorCode ConeOrthogonalize(ContactCone *cone)
     PetscCall(PetscRealloc(sizeof(PetscReal) * (size_t)(n * cone->ncap), &cone->Q));
     PetscCall(PetscRealloc(sizeof(PetscReal) * (size_t)(cone->ncap * (cone->ncap + 1) / 2), &cone->R));
   }
+  PetscCall(PetscMalloc1(cone->nrays, &along));
   for (; cone->nfactored < cone->nrays; ++cone->nfactored) {
     const PetscInt k = cone->nfactored;
     PetscReal     *q = &cone->Q[n * k], *R = ConeColumn(cone, k), whole, remainder;
 
     PetscCall(PetscArraycpy(q, &cone->ray[n * k], n));
     whole = ConeDot(n, q, q);
-    for (PetscInt j = 0; j < k; ++j) {
-      R[j] = ConeDot(n, q, &cone->Q[n * j]);
-      for (PetscInt i = 0; i < n; ++i) q[i] -= R[j] * cone->Q[n * j + i];
+    PetscCall(PetscArrayzero(R, k));
+    remainder = whole;
+    for (PetscInt pass = 0; pass < 2; ++pass) { /* the second pass removes the rounding errors of a small remainder */
+      if (pass && remainder > again * whole) break;
+      ConeDots(n, k, cone->Q, q, along);
+      ConeAdd(n, k, cone->Q, -1.0, along, q);
+      for (PetscInt j = 0; j < k; ++j) R[j] += along[j];
+      remainder = ConeDot(n, q, q);
     }
-    remainder = ConeDot(n, q, q);
-    R[k]      = remainder > dependent * whole ? PetscSqrtReal(remainder) : 0.0;
+    R[k] = remainder > dependent * whole ? PetscSqrtReal(remainder) : 0.0;
     for (PetscInt i = 0; i < n; ++i) q[i] = R[k] > 0.0 ? q[i] / R[k] : 0.0;
   }
+  PetscCall(PetscFree(along));
   PetscFunctionReturn(0);
 }
 
@@ -194,12 +242,13 @@ static PetscErrorCode ConeSolve(ContactCone *cone, const PetscReal load[], Petsc
 {
   PetscFunctionBegin;
   PetscCall(ConeOrthogonalize(cone));
+  ConeDots(cone->n, cone->nrays, cone->Q, load, amount);
+  for (PetscInt k = 0; k < cone->nrays; ++k) amount[k] = -amount[k];
   for (PetscInt k = cone->nrays - 1; k >= 0; --k) {
-    const PetscReal own = ConeColumn(cone, k)[k];
+    const PetscReal *R = ConeColumn(cone, k);
 
-    amount[k] = -ConeDot(cone->n, load, &cone->Q[cone->n * k]);
-    for (PetscInt j = k + 1; j < cone->nrays; ++j) amount[k] -= ConeColumn(cone, j)[k] * amount[j];
-    amount[k] = own > 0.0 ? amount[k] / own : 0.0;
+    amount[k] = R[k] > 0.0 ? amount[k] / R[k] : 0.0;
+    for (PetscInt j = 0; j < k; ++j) amount[j] -= R[j] * amount[k];
   }
   PetscFunctionReturn(0);
 }
@@ -273,7 +322,7 @@ static PetscErrorCode ConeProject(PetscReal time, const FreeMotions *m, PetscInt
 
     PetscCall(InterruptTest(m->sim, &stop));
     if (stop) break;
-    ConeSubtract(cone, load, left);
+    PetscCall(ConeSubtract(cone, load, left));
     if (PetscSqrtReal(ConeDot(n, left, left)) <= negligible * size) break;
     PetscCall(FreeMotionsDisplace(m, left, w));
     for (PetscInt l = 0; l < nlins; ++l) {
