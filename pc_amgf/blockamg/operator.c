@@ -41,30 +41,76 @@ static void OperatorKeep(const BlockRows *rows, const PetscReal root[], PetscInt
   }
 }
 
-/* Copies the entries of a matrix of type SEQAIJ that are not tiny. i is NULL if less than a tenth of them is tiny. */
-static PetscErrorCode OperatorDropTiny(Mat A, PetscInt **i, PetscInt **j, PetscScalar **a)
+/* The entries of this rank's rows that are kept: in columns of this rank, and of other ranks, with global numbers */
+typedef struct {
+  PetscInt    *i, *j, *oi, *oj;
+  PetscScalar *a, *oa;
+} OperatorKept;
+
+/*
+   Copies the entries in columns of other ranks, all of them: the diagonal entries of these columns are not known here.
+   MATMPIAIJ needs them in global numbers.
+*/
+static PetscErrorCode OperatorCopyOffRank(const BlockRows *rows, OperatorKept *kept)
 {
-  BlockRows  rows;
-  PetscReal *root;
+  const PetscInt n = rows->n ? rows->oia[rows->n] : 0; /* a rank without rows may have no arrays */
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(rows->n + 1, &kept->oi, n, &kept->oj, n, &kept->oa));
+  kept->oi[0] = 0;
+  if (rows->n) PetscCall(PetscArraycpy(kept->oi, rows->oia, rows->n + 1));
+  PetscCall(PetscArraycpy(kept->oa, rows->oa, n));
+  for (PetscInt k = 0; k < n; k++) kept->oj[k] = rows->ghosts[rows->oja[k]];
+  PetscFunctionReturn(0);
+}
+
+/* Copies the entries that are not tiny. kept->i is NULL if less than a tenth of them is tiny, over all ranks. */
+static PetscErrorCode OperatorDropTiny(Mat A, OperatorKept *kept)
+{
+  BlockRows      rows;
+  PetscReal     *root;
+  PetscLogDouble count[2];
 
   PetscFunctionBegin;
   PetscCall(BlockRowsGet_Private(A, &rows));
   PetscCall(OperatorGetRoots(&rows, &root));
-  PetscCall(PetscMalloc1(rows.n + 1, i));
-  OperatorKeep(&rows, root, *i, NULL, NULL);
-  if ((*i)[rows.n] > 0.9 * (PetscReal)rows.ia[rows.n]) PetscCall(PetscFree(*i));
+  PetscCall(PetscMalloc1(rows.n + 1, &kept->i));
+  OperatorKeep(&rows, root, kept->i, NULL, NULL);
+  count[0] = (double)kept->i[rows.n];
+  count[1] = rows.n ? (double)rows.ia[rows.n] : 0.0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, count, 2, MPI_DOUBLE, MPI_SUM, PetscObjectComm((PetscObject)A)));
+  if (count[0] > 0.9 * count[1]) PetscCall(PetscFree(kept->i));
   else {
-    PetscCall(PetscMalloc1((*i)[rows.n], j));
-    PetscCall(PetscMalloc1((*i)[rows.n], a));
-    OperatorKeep(&rows, root, *i, *j, *a);
+    PetscCall(PetscMalloc2(kept->i[rows.n], &kept->j, kept->i[rows.n], &kept->a));
+    OperatorKeep(&rows, root, kept->i, kept->j, kept->a);
+    if (rows.off) PetscCall(OperatorCopyOffRank(&rows, kept));
   }
   PetscCall(PetscFree(root));
   PetscCall(BlockRowsRestore_Private(&rows));
   PetscFunctionReturn(0);
 }
 
+/* Replaces A by a matrix of the kept entries, which refers to their arrays */
+static PetscErrorCode OperatorReplace(Mat *A, const OperatorKept *kept)
+{
+  MPI_Comm comm = PetscObjectComm((PetscObject)*A);
+  PetscInt m, n, M, N;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetLocalSize(*A, &m, &n));
+  PetscCall(MatGetSize(*A, &M, &N));
+  PetscCall(PetscCommDuplicate(comm, &comm, NULL)); /* A may be the last object that holds it */
+  PetscCall(MatDestroy(A));
+  if (kept->oi)
+    PetscCall(
+      MatCreateMPIAIJWithSplitArrays(comm, m, n, M, N, kept->i, kept->j, kept->a, kept->oi, kept->oj, kept->oa, A));
+  else PetscCall(MatCreateSeqAIJWithArrays(comm, m, n, kept->i, kept->j, kept->a, A));
+  PetscCall(PetscCommDestroy(&comm));
+  PetscFunctionReturn(0);
+}
+
 /*
-   BlockConvertToHypre_Private - gets a copy in hypre's format, on one rank without tiny entries
+   BlockConvertToHypre_Private - gets a copy in hypre's format without tiny entries in columns of the same rank
 
    Input Parameters:
    + A  - the operator, of type AIJ; it is destroyed, which frees its memory unless the caller has another reference
@@ -75,25 +121,16 @@ static PetscErrorCode OperatorDropTiny(Mat A, PetscInt **i, PetscInt **j, PetscS
 */
 PetscErrorCode BlockConvertToHypre_Private(Mat *A, PetscInt bs, Mat *hypre)
 {
-  MPI_Comm     comm;
-  PetscInt     n, *i = NULL, *j = NULL;
-  PetscScalar *a = NULL;
-  PetscBool    sequential;
+  OperatorKept kept = {NULL, NULL, NULL, NULL, NULL, NULL};
 
   PetscFunctionBegin;
-  PetscCall(PetscObjectBaseTypeCompare((PetscObject)*A, MATSEQAIJ, &sequential));
-  if (sequential) PetscCall(OperatorDropTiny(*A, &i, &j, &a));
-  if (i) {
-    PetscCall(MatGetLocalSize(*A, &n, NULL));
-    PetscCall(PetscObjectGetComm((PetscObject)*A, &comm));
-    PetscCall(MatDestroy(A));
-    PetscCall(MatCreateSeqAIJWithArrays(comm, n, n, i, j, a, A));
-  }
+  PetscCall(OperatorDropTiny(*A, &kept));
+  if (kept.i) PetscCall(OperatorReplace(A, &kept));
   PetscCall(MatConvert(*A, MATHYPRE, MAT_INITIAL_MATRIX, hypre));
   PetscCall(MatSetBlockSize(*hypre, bs));
   PetscCall(MatDestroy(A));
-  PetscCall(PetscFree(i));
-  PetscCall(PetscFree(j));
-  PetscCall(PetscFree(a));
+  PetscCall(PetscFree3(kept.oi, kept.oj, kept.oa));
+  PetscCall(PetscFree2(kept.j, kept.a));
+  PetscCall(PetscFree(kept.i));
   PetscFunctionReturn(0);
 }
