@@ -58,10 +58,31 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
   PetscFunctionReturn(0);
 }
 
+/* Adds the neighbours of the unknowns `filter`, and the neighbours of these as well if W remains small */
+static PetscErrorCode FilteredAddNeighbours(Tao tao, IS filter, IS *W)
+{
+  const Mat       K        = ((TAO_IPFILTER *)tao->data)->hess->H;
+  const PetscReal fraction = 0.1;
+  PetscInt        n, all;
+  IS              more;
+
+  PetscFunctionBegin;
+  PetscCall(IPSubspaceGrow(tao, K, filter, W));
+  PetscCall(IPSubspaceGrow(tao, K, *W, &more));
+  PetscCall(ISGetSize(more, &n));
+  PetscCall(VecGetSize(tao->solution, &all));
+  if (n > fraction * all) PetscCall(ISDestroy(&more));
+  else {
+    PetscCall(ISDestroy(W));
+    *W = more;
+  }
+  PetscFunctionReturn(0);
+}
+
 /*
-   Chooses W: the unknowns of the constraints, their neighbours, and W of earlier solves with the same K. With the
-   neighbours, W and its factors need not change when the contact area moves. They are left out if there are too many of
-   them, or if K may be indefinite there.
+   Chooses W: the unknowns of the constraints, one or two layers of neighbours, and W of earlier solves with the same K.
+   With the neighbours, W and its factors need not change when the contact area moves. They are left out if there are
+   too many of them, or if K may be indefinite there.
 */
 static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt most, IS *W)
 {
@@ -83,7 +104,7 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt
     *W = before->W;
     PetscFunctionReturn(0);
   }
-  PetscCall(IPSubspaceGrow(tao, ip->hess->H, filter, W));
+  PetscCall(FilteredAddNeighbours(tao, filter, W));
   PetscCall(ISGetSize(*W, &n));
   if (n > most || IPFilteredOf(tao)->newton || ip->terms->n) {
     PetscCall(ISDestroy(W));

@@ -127,25 +127,32 @@ static void FacetInverseTriangle(const PetscReal q[4][2], const PetscReal y[2], 
   xi[1] = PetscClipInterval(2.0 * third - 1.0, -1.0, 1.0);
 }
 
-/*
-   Computes the parameters xi of the point y of a plane facet with the vertices q. For a quadrilateral Newton's method
-   solves the bilinear map; one step suffices for a parallelogram. The result is clipped to [-bound, bound] for a
-   quadrilateral and to [-1, 1] for a triangle, because rounding may place y slightly outside, and because the map may
-   be degenerate.
-*/
-void ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal bound, PetscReal xi[2])
+/* Prepares ContactInverseMap() for a plane facet with the vertices q */
+void ContactBilinearCreate(const PetscReal q[4][2], ContactBilinear *map)
 {
-  PetscReal c[4][2]; /* position as a function of the parameters: y = c0 + c1 xi + c2 eta + c3 xi eta */
-
-  if (q[2][0] == q[3][0] && q[2][1] == q[3][1]) {
-    FacetInverseTriangle(q, y, xi);
-    return;
-  }
+  map->triangle = (PetscBool)(q[2][0] == q[3][0] && q[2][1] == q[3][1]);
   for (PetscInt d = 0; d < 2; ++d) {
-    c[0][d] = 0.25 * (q[0][d] + q[1][d] + q[2][d] + q[3][d]);
-    c[1][d] = 0.25 * (-q[0][d] + q[1][d] + q[2][d] - q[3][d]);
-    c[2][d] = 0.25 * (-q[0][d] - q[1][d] + q[2][d] + q[3][d]);
-    c[3][d] = 0.25 * (q[0][d] - q[1][d] + q[2][d] - q[3][d]);
+    for (PetscInt a = 0; a < 4; ++a) map->q[a][d] = q[a][d];
+    map->c[0][d] = 0.25 * (q[0][d] + q[1][d] + q[2][d] + q[3][d]);
+    map->c[1][d] = 0.25 * (-q[0][d] + q[1][d] + q[2][d] - q[3][d]);
+    map->c[2][d] = 0.25 * (-q[0][d] - q[1][d] + q[2][d] + q[3][d]);
+    map->c[3][d] = 0.25 * (q[0][d] - q[1][d] + q[2][d] - q[3][d]);
+  }
+}
+
+/*
+   Computes the parameters xi of the point y of a plane facet. For a quadrilateral Newton's method solves the bilinear
+   map; one step suffices for a parallelogram. After a step below 1e-9 the error is rounding error, since convergence is
+   quadratic. The result is clipped to [-bound, bound] for a quadrilateral and to [-1, 1] for a triangle, because
+   rounding may place y slightly outside, and because the map may be degenerate.
+*/
+void ContactInverseMap(const ContactBilinear *map, const PetscReal y[2], PetscReal bound, PetscReal xi[2])
+{
+  const PetscReal(*c)[2] = map->c, small = 1e-9;
+
+  if (map->triangle) {
+    FacetInverseTriangle(map->q, y, xi);
+    return;
   }
   xi[0] = xi[1] = 0.0;
   for (PetscInt it = 0; it < 25; ++it) {
@@ -158,9 +165,10 @@ void ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal 
     }
     det = J[0][0] * J[1][1] - J[0][1] * J[1][0];
     if (det == 0.0) break;
-    step[0] = (J[1][1] * r[0] - J[0][1] * r[1]) / det;
-    step[1] = (J[0][0] * r[1] - J[1][0] * r[0]) / det;
+    det     = 1.0 / det;
+    step[0] = (J[1][1] * r[0] - J[0][1] * r[1]) * det;
+    step[1] = (J[0][0] * r[1] - J[1][0] * r[0]) * det;
     for (PetscInt d = 0; d < 2; ++d) xi[d] = PetscClipInterval(xi[d] + step[d], -bound, bound);
-    if (PetscAbsReal(step[0]) + PetscAbsReal(step[1]) < 16.0 * PETSC_MACHINE_EPSILON) break;
+    if (PetscAbsReal(step[0]) + PetscAbsReal(step[1]) < small) break;
   }
 }

@@ -32,7 +32,14 @@ PETSC_INTERN void      ContactFacetAreaVector(const PetscReal x[12], PetscReal a
 PETSC_INTERN void      ContactFacetTurn(const PetscReal x[12], const PetscReal moment[3], PetscReal by_x[12]);
 PETSC_INTERN void ContactFacetTangents(const PetscReal x[12], const PetscReal xi[2], PetscReal t1[3], PetscReal t2[3]);
 PETSC_INTERN PetscReal ContactFacetMass(const PetscReal x[12], PetscReal mass[4]);
-PETSC_INTERN void ContactInverseMap(const PetscReal q[4][2], const PetscReal y[2], PetscReal bound, PetscReal xi[2]);
+
+/* The map of a plane facet, y = c0 + c1 xi + c2 eta + c3 xi eta, and its vertices q */
+typedef struct {
+  PetscReal q[4][2], c[4][2];
+  PetscBool triangle;
+} ContactBilinear;
+PETSC_INTERN void ContactBilinearCreate(const PetscReal q[4][2], ContactBilinear *);
+PETSC_INTERN void ContactInverseMap(const ContactBilinear *, const PetscReal y[2], PetscReal bound, PetscReal xi[2]);
 
 /* frame.c: the plane onto which a nonmortar facet is projected. axis[0] and axis[1] span the plane; axis[2] is its unit
    normal. */

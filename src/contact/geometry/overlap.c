@@ -145,12 +145,13 @@ static PetscInt OverlapNearestVertex(PetscInt n, const PetscReal polygon[][2], c
    Adds the quadrature points of the triangles that connect one vertex of the polygon, the apex, with the edges of the
    polygon. Their weights are multiplied by `sign`. If the mortar facet is extended beyond its border (bound > 1), the
    apex is the vertex nearest to a nonmortar vertex, because rounding would otherwise decide which vertex comes first.
-   first: number of the polygon's first corner in the overlap; bound: bound of the parameters on the mortar facet
+   first: number of the polygon's first corner in the overlap; map1, map2: the facets; bound: bound of the parameters on
+   the mortar facet
 */
 static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt n, const PetscReal polygon[][2],
-  PetscInt first, const PetscReal p1[4][2], const PetscReal p2[4][2], PetscReal bound, ContactOverlap *o)
+  PetscInt first, const ContactBilinear *map1, const ContactBilinear *map2, PetscReal bound, ContactOverlap *o)
 {
-  const PetscInt apex = bound > 1.0 ? OverlapNearestVertex(n, polygon, p1[0]) : 0;
+  const PetscInt apex = bound > 1.0 ? OverlapNearestVertex(n, polygon, map1->q[0]) : 0;
 
   for (PetscInt t = 1; t + 1 < n; ++t) {
     const PetscInt  i = (apex + t) % n, j = (apex + t + 1) % n;
@@ -171,8 +172,8 @@ static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt 
         for (PetscInt d = 0; d < 2; ++d) y[d] += rule->barycentric[q][v] * tri[v][d];
       }
       o->weight[o->n] = area * rule->weight[q];
-      ContactInverseMap(p1, y, 1.0, o->xi1[o->n]);
-      ContactInverseMap(p2, y, bound, o->xi2[o->n]);
+      ContactInverseMap(map1, y, 1.0, o->xi1[o->n]);
+      ContactInverseMap(map2, y, bound, o->xi2[o->n]);
       ++o->n;
     }
   }
@@ -221,11 +222,12 @@ static PetscBool OverlapPutMortar(const PetscReal p1[4][2], PetscInt border1, Pe
 PetscBool ContactOverlapFindAtBorder(const PetscReal x1[12], PetscInt border1, const PetscReal x2[12], PetscInt border2,
   const ContactOverlapLimits *limits, const ContactRule *rule, ContactOverlap *o)
 {
-  const PetscInt nmortar = ContactFacetIsTriangle(x2) ? 3 : 4;
-  PetscReal      n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], sign[2], smaller;
-  PetscInt       size[2], vertex[2][4], nparts;
-  PetscReal      bound = 1.0;
-  ContactFrame   frame;
+  const PetscInt  nmortar = ContactFacetIsTriangle(x2) ? 3 : 4;
+  PetscReal       n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], sign[2], smaller;
+  PetscInt        size[2], vertex[2][4], nparts;
+  PetscReal       bound = 1.0;
+  ContactFrame    frame;
+  ContactBilinear map[2];
 
   o->n = o->ncorners = o->ntriangles = 0;
   o->area                            = 0.0;
@@ -247,7 +249,9 @@ PetscBool ContactOverlapFindAtBorder(const PetscReal x1[12], PetscInt border1, c
     if (n < 3 || !(PetscAbsReal(ContactPolygonArea(n, polygon)) > limits->overlap_drop * smaller)) continue;
     OverlapShareEdges(n, polygon, nmortar, size[k], part[k], edge);
     OverlapKeepCorners(n, polygon, nmortar, edge, size[k], vertex[k], o);
-    OverlapAddPolygon(rule, sign[k], n, polygon, o->ncorners - n, p1, p2, bound, o);
+    ContactBilinearCreate(p1, &map[0]);
+    ContactBilinearCreate(p2, &map[1]);
+    OverlapAddPolygon(rule, sign[k], n, polygon, o->ncorners - n, &map[0], &map[1], bound, o);
   }
   if (!(o->area > 0.0)) return PETSC_FALSE;
   o->gap = OverlapMeanGap(o, h1, h2);
