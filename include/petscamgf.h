@@ -124,6 +124,7 @@ PETSC_EXTERN PetscErrorCode TaoIPFilterSetSubspace(Tao, PetscContainer);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSolveActive(PetscContainer, Vec, Vec, PetscInt, PetscReal, Vec, Vec, PetscInt *,
   PetscBool *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetSolvesToCome(Tao, PetscInt);
+PETSC_EXTERN PetscErrorCode TaoIPFilterSetRounding(Tao, PetscReal);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetInterrupt(Tao, PetscErrorCode (*)(void *, PetscBool *), void *);
 
 #endif

@@ -88,6 +88,15 @@ static PetscErrorCode TaoIPFilterSetWarmStartBounds_IPFilter(Tao tao, Vec DL, Ve
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode TaoIPFilterSetRounding_IPFilter(Tao tao, PetscReal x)
+{
+  PetscFunctionBegin;
+  PetscCheck(x >= 0.0, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
+    "Rounding errors cannot be negative: %g", (double)x);
+  ((TAO_IPFILTER *)tao->data)->given->rounding = x;
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode TaoIPFilterGetSlack_IPFilter(Tao tao, Vec *s, Vec *z)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -162,6 +171,7 @@ static const AMGFFunction functions[] = {
   AMGF_FUNCTION(TaoIPFilterSetWarmStart, IPFilter),
   AMGF_FUNCTION(TaoIPFilterSetWarmStartEquality, IPFilter),
   AMGF_FUNCTION(TaoIPFilterSetWarmStartBounds, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetRounding, IPFilter),
   AMGF_FUNCTION(TaoIPFilterGetSlack, IPFilter),
   AMGF_FUNCTION(TaoIPFilterGetKSPIterations, IPFilter),
   AMGF_FUNCTION(TaoIPFilterGetKKTError, IPFilter),
@@ -238,6 +248,34 @@ PetscErrorCode TaoIPFilterSetPrimalMass(Tao tao, Vec mass)
   PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   if (mass) PetscValidHeaderSpecific(mass, VEC_CLASSID, 2);
   PetscTryMethod(tao, "TaoIPFilterSetPrimalMass_C", (Tao, Vec), (tao, mass));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterSetRounding - Sets the size of the rounding errors of the unknowns
+
+  Logically Collective
+
+  Input Parameters:
++ tao - the `TAOIPFILTER`
+- x   - size of the rounding errors; default 0, which means that it is not known
+
+  Level: advanced
+
+  Notes:
+  Where unknowns are added to much larger numbers, such as displacements to coordinates, violations of the constraints
+  have rounding errors that do not vanish with the unknowns. Violations of this size, and forces that a displacement of
+  this size causes if the objective is not quadratic, count as zero. Without it a solution that vanishes is never
+  accurate enough.
+
+.seealso: `TAOIPFILTER`, `TaoSetTolerances()`
+@*/
+PetscErrorCode TaoIPFilterSetRounding(Tao tao, PetscReal x)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscValidLogicalCollectiveReal(tao, x, 2);
+  PetscTryMethod(tao, "TaoIPFilterSetRounding_C", (Tao, PetscReal), (tao, x));
   PetscFunctionReturn(0);
 }
 

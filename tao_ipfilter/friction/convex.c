@@ -319,7 +319,7 @@ PetscErrorCode IPTermConvexSolve(IPTermSet *set, const IPReducedSystem *s, Petsc
   const PetscReal enough = 1e-3, fine = 1e-2, fair = 0.5;
   const PetscReal hold   = 1e-6; /* relative to the stiffness of the bodies; rounding errors limit smaller values */
   const PetscReal most   = 0.9;  /* share of the springs' forces in the residual that shows a body without support */
-  const PetscReal wanted = PetscSqr(enough * first);
+  const PetscReal wanted = PetscSqr(PetscMax(enough * first, IPTermLawsRounding(set, s)));
   PetscReal       off = PETSC_INFINITY, least = PETSC_INFINITY;
   PetscBool       late = PETSC_FALSE, end = PETSC_FALSE;
   TermConvex      convex = {.largest = 0.0};

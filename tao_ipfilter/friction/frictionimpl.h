@@ -184,6 +184,7 @@ PETSC_INTERN PetscReal      IPTermLawsTrial(const IPTermSet *, const IPReducedSy
 PETSC_INTERN PetscInt       IPTermLawsOfRow(const IPTermSet *, PetscInt row, PetscInt *component);
 PETSC_INTERN PetscErrorCode IPTermLawsResidualOfDirections(IPTermSet *, const IPReducedSystem *);
 PETSC_INTERN PetscReal      IPTermLawsMerit(const IPTermSet *, const IPReducedSystem *);
+PETSC_INTERN PetscReal      IPTermLawsRounding(const IPTermSet *, const IPReducedSystem *);
 PETSC_INTERN PetscErrorCode IPTermLawsRenew(IPTermSet *, const IPReducedSystem *);
 
 /* path.c */

@@ -212,6 +212,24 @@ PetscReal IPTermLawsMerit(const IPTermSet *set, const IPReducedSystem *s)
   return merit;
 }
 
+/*
+   Returns the residual that rounding errors cause: of forces that are large compared with their changes, and of gaps
+   [square root of energy]
+*/
+PetscReal IPTermLawsRounding(const IPTermSet *set, const IPReducedSystem *s)
+{
+  const PetscReal exact = 1e-13;
+  PetscReal       sum   = 0.0;
+
+  for (PetscInt r = 0; r < s->m; r++) {
+    const PetscReal compliance = IPTermLawsCompliance(set, r);
+
+    sum += PetscSqr(exact * s->lambda[r]) * compliance;
+    if (compliance > 0.0 && set->active[r]) sum += PetscSqr(s->rounding) / compliance;
+  }
+  return PetscSqrtReal(sum);
+}
+
 /* Updates the list of active rows, sets the forces of all other rows to zero, and computes v */
 PetscErrorCode IPTermLawsRenew(IPTermSet *set, const IPReducedSystem *s)
 {

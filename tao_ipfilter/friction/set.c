@@ -297,19 +297,6 @@ static PetscErrorCode TermSetExchange(IPTermSet *set, const IPReducedSystem *s, 
 }
 
 /*
-   Returns the residual that rounding errors cause if forces are large compared with their changes [square root of
-   energy]
-*/
-static PetscReal TermSetRounding(const IPTermSet *set, const IPReducedSystem *s)
-{
-  const PetscReal exact = 1e-13;
-  PetscReal       sum   = 0.0;
-
-  for (PetscInt r = 0; r < s->m; r++) sum += PetscSqr(s->lambda[r]) * IPTermLawsCompliance(set, r);
-  return exact * PetscSqrtReal(sum);
-}
-
-/*
    Computes the square root of the sum of the squared residuals of the laws and of the directions' equations, weighted
    as an energy
 */
@@ -372,7 +359,8 @@ static PetscErrorCode TermSetNewton(IPTermSet *set, const IPReducedSystem *s, Pe
     PetscBool changed;
 
     PetscCall(IPTermSetOff(set, s, &off));
-    *solved = (PetscBool)(off <= (k > 0 ? PetscMax(enough * first, TermSetRounding(set, s)) : TermSetRounding(set, s)));
+    *solved =
+      (PetscBool)(off <= (k > 0 ? PetscMax(enough * first, IPTermLawsRounding(set, s)) : IPTermLawsRounding(set, s)));
     if (off < state->off) {
       state->off = off;
       PetscCall(TermSetCopy(set, s, state, PETSC_FALSE));

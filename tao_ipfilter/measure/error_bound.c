@@ -175,6 +175,19 @@ static PetscErrorCode ErrorBoundFirst(Tao tao, PetscReal terms)
   PetscFunctionReturn(0);
 }
 
+/* Raises the magnitude of an objective that is not quadratic such that the energy of rounding errors is negligible */
+static PetscErrorCode ErrorBoundRounding(Tao tao, PetscReal *energy)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     stiffness;
+
+  PetscFunctionBegin;
+  if (ip->given->rounding == 0.0 || ip->method->constant) PetscFunctionReturn(0);
+  PetscCall(VecNorm(ip->stiff->hdiag, NORM_1, &stiffness));
+  *energy = PetscMax(*energy, stiffness * PetscSqr(ip->given->rounding) / (IP_BOUND_MULTIPLE * ip->tol));
+  PetscFunctionReturn(0);
+}
+
 /*
    Computes the magnitudes of the objective with which residuals are compared, the second one where the iterate is
    refined (convergence.c); PETSC_INFINITY for a constant objective
@@ -188,9 +201,10 @@ PetscErrorCode IPErrorBoundEnergy(Tao tao, PetscReal *energy, PetscReal *present
   PetscCall(IPErrorBoundTerms(tao, &terms));
   if (ip->first->energy < 0.0) PetscCall(ErrorBoundFirst(tao, terms));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
-  *energy  = PetscMax(PetscMax(IP_BOUND_TERMS, IP_BOUND_ROUNDING / (IP_BOUND_MULTIPLE * ip->tol)) * terms,
-     IP_BOUND_FIRST * ip->first->energy);
-  *energy  = PetscMax(*energy, PetscAbsReal(ip->at.f));
+  *energy = PetscMax(PetscMax(IP_BOUND_TERMS, IP_BOUND_ROUNDING / (IP_BOUND_MULTIPLE * ip->tol)) * terms,
+    IP_BOUND_FIRST * ip->first->energy);
+  *energy = PetscMax(*energy, PetscAbsReal(ip->at.f));
+  PetscCall(ErrorBoundRounding(tao, energy));
   *present = PetscMax(IP_BOUND_PRESENT * PetscMax(terms, ip->first->energy), PetscAbsReal(ip->at.f));
   if (ip->first->gradient == 0.0 && gradient == 0.0) *energy = *present = PETSC_INFINITY;
   PetscFunctionReturn(0);

@@ -4,6 +4,7 @@
 */
 #include "measureimpl.h"
 #include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/relaxation.h"
 #include "tao_ipfilter/solver/sizes.h"
 
@@ -86,8 +87,9 @@ PetscErrorCode IPOwnViolation(Tao tao, PetscReal *own)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
   const IPFirst  *first = ip->first;
-  const PetscReal trace = 1e-6, small = 1e-4 / PETSC_MACHINE_EPSILON,
-                  rows = PetscMax(first->length, first->jacobian * first->x);
+  const PetscReal trace = 1e-6, small = 1e-4 / PETSC_MACHINE_EPSILON, rounding = trace * PETSC_MACHINE_EPSILON,
+                  rows = PetscMax(PetscMax(first->length, first->jacobian * first->x),
+                    first->jacobian * ip->given->rounding / rounding);
   PetscReal other      = 0.0;
   Vec       v;
 

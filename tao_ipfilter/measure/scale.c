@@ -1,6 +1,7 @@
 /* Computes the scales by which residuals are divided */
 #include "measureimpl.h"
 #include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/method.h"
 #include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/stiffness.h"
@@ -48,6 +49,7 @@ static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
   s->pressure = PetscMax(s->pressure, upper);
   s->length   = PetscMax(Within(PetscMax(c, t), IP_RUNAWAY * ip->first->length),
       10.0 * IP_VANISHING * PetscMax(ip->first->length, jacobian * xsize));
+  s->length   = PetscMax(s->length, jacobian * ip->given->rounding / ip->tol);
   s->pressure = PetscMax(s->pressure, IP_VANISHING * ip->stiff->mean * s->length);
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
   if (transmitted > 0.0) s->balance = gradient / transmitted;
@@ -100,6 +102,7 @@ static PetscErrorCode DualScale(Tao tao)
   PetscCall(VecNorm(ip->stiff->hdiag, NORM_2, &stiffness));
   ip->scale->dual = Within(first, IP_AMPLE * PetscMax(terms, IP_VANISHING * ip->first->x * stiffness));
   if (limited) ip->scale->dual = PetscMax(ip->scale->dual, norm);
+  if (!ip->method->constant) terms = PetscMax(terms, ip->given->rounding * stiffness / rounding);
   ip->scale->dual = PetscMax(ip->scale->dual, PetscMax(rounding * terms, least * ip->first->gradient) / ip->tol);
   PetscFunctionReturn(0);
 }

@@ -6,6 +6,7 @@
 #include "subspaceimpl.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/rows.h"
 #include "tao_ipfilter/solver/stiffness.h"
@@ -116,6 +117,7 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   PetscFunctionBegin;
   PetscCall(VecSet(v, 0.0));
   PetscCall(FilteredCanWiden(tao, &f->reduced->simply));
+  f->reduced->system.rounding      = ip->first->jacobian * ip->given->rounding;
   f->reduced->system.interrupt     = ip->given->interrupt;
   f->reduced->system.interrupt_ctx = ip->given->interrupt_ctx;
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));

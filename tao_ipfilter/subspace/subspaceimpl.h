@@ -58,10 +58,11 @@ typedef struct {
   PetscReal *G;              /* diagonal of P^T K P */
   PetscInt   ncompanions, *companion; /* number of companions; the unknown of W to which each belongs */
   PetscReal *lambda, *gap, *y;        /* forces of the rows; their motions; coordinates */
-  PetscReal *base;    /* forces that h and t already contain, since without them bodies held by constraints
+  PetscReal *base;     /* forces that h and t already contain, since without them bodies held by constraints
                                   only would move far; zero without norm terms */
-  PetscReal  length;  /* size of the terms of a gap, for tolerances */
-  PetscBool  guessed; /* the initial forces of the constraints are a guess, not those of a state of equilibrium */
+  PetscReal  length;   /* size of the terms of a gap, for tolerances */
+  PetscReal  rounding; /* size of the rounding errors of a gap */
+  PetscBool  guessed;  /* the initial forces of the constraints are a guess, not those of a state of equilibrium */
   PetscErrorCode (*interrupt)(void *, PetscBool *); /* whether the user wants to end the solve; may be NULL */
   void      *interrupt_ctx;
   PetscReal *spring, *start; /* per row: stiffness D of the spring that K_WW contains for it; its motion at which the

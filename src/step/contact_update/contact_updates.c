@@ -29,9 +29,10 @@
 static PetscErrorCode ContactUpdatesMeasureGap(const StepProblem *p, Vec u, const ContactSolution *sol,
   ContactLinearization at_u, StepReport *report, PetscBool *is_true)
 {
-  Simulation sim = p->sim;
-  PetscReal  size, proximal;
-  PetscInt   nrows;
+  const PetscReal few = 32.0 * PETSC_MACHINE_EPSILON; /* a few rounding errors, relative to the coordinates */
+  Simulation      sim = p->sim;
+  PetscReal       size, extent, proximal;
+  PetscInt        nrows;
 
   PetscFunctionBegin;
   report->gap_true = NAN;
@@ -40,10 +41,12 @@ static PetscErrorCode ContactUpdatesMeasureGap(const StepProblem *p, Vec u, cons
   PetscCall(ContactHistoryChange(sim->history, at_u, &report->gap_change));
   PetscCall(ContactUpdateMeasureError(sim, u, sol, at_u, report));
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  *is_true = (PetscBool)(report->update_error <= sim->control->tolerances.gap_change * size);
+  PetscCall(VecNorm(sim->places.x, NORM_INFINITY, &extent));
+  *is_true = (PetscBool)(report->update_error <= PetscMax(sim->control->tolerances.gap_change * size, few * extent));
   report->gap_unconverged =
     (PetscBool)((sim->scene->contact_updates > 1 ? report->update_error : report->gap_change) >
-                PetscMax(sim->control->tolerances.gap_change, sim->control->tolerances.gap_unconverged) * size);
+                PetscMax(PetscMax(sim->control->tolerances.gap_change, sim->control->tolerances.gap_unconverged) * size,
+                  few * extent));
   PetscCall(ProximalMeasure(p, u, &proximal));
   if (proximal > PetscMax(sim->control->tolerances.optimizer, 1e-10)) *is_true = PETSC_FALSE;
   if (proximal > CONTACT_UPDATES_PROXIMAL) report->gap_unconverged = PETSC_TRUE;

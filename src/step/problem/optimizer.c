@@ -41,6 +41,25 @@ static PetscErrorCode OptimizerSetTolerance(StepProblem *p, PetscBool ours, Tao 
   PetscFunctionReturn(0);
 }
 
+/*
+   Tells the optimizer how large the rounding errors of a gap are, which are those of coordinates. Elastic bodies of
+   small strain may move by less.
+*/
+static PetscErrorCode OptimizerSetRounding(Simulation sim, Tao tao)
+{
+  const PetscReal relative = 4.0 * PETSC_MACHINE_EPSILON;
+  PetscReal       place;
+  PetscBool       elastic = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < sim->scene->nbodies; ++b)
+    elastic = (PetscBool)(elastic || sim->scene->bodies[b].material.type != MATERIAL_RIGID);
+  if (sim->quadratic && elastic) PetscFunctionReturn(0);
+  PetscCall(VecNorm(sim->places.x, NORM_INFINITY, &place));
+  PetscCall(TaoIPFilterSetRounding(tao, relative * place));
+  PetscFunctionReturn(0);
+}
+
 /* Creates the optimizer of a load step. *ours: true for TAOIPFILTER; false if -tao_type chose another type. */
 static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
 {
@@ -86,6 +105,7 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
     "friction needs -tao_type ipfilter; other optimizers do not support it");
   PetscCall(PathSolvesToCome(sim, &solves));
   PetscCall(TaoIPFilterSetSolvesToCome(*tao, solves));
+  PetscCall(OptimizerSetRounding(sim, *tao));
   PetscCall(TaoMonitorSet(*tao, InterruptMonitor, sim, NULL));
   PetscCall(TaoIPFilterSetInterrupt(*tao, InterruptCaught, NULL));
   if (sim->control->observer.optimizer) PetscCall(TaoMonitorSet(*tao, sim->control->observer.optimizer, sim, NULL));
