@@ -1,4 +1,4 @@
-static char help[] = "The contact search is linear-logarithmic in the number of facets: comparisons are counted, not times.\n";
+static char help[] = "The comparisons of the contact search grow like N log N in the number N of facets.\n";
 
 #include "src/contact/contactimpl.h"
 #include "contact_report.h"
