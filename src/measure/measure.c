@@ -184,18 +184,14 @@ static PetscErrorCode MeasureContact(Simulation sim, PetscReal time, Vec u, cons
   PetscFunctionReturn(0);
 }
 
-/*
-   Computes all results of a state from the elements and the contact rows, not from the solver: energy; equilibrium
-   residual; reaction = internal - contact - dead force in prescribed rows; at the end of a load step the discretization
-   error. inertia: forces of mass and damping on the bodies; NULL in a static analysis.
-*/
-PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inertia, Vec u, const ContactSolution *sol,
-  StepReport *report)
+/* Measures everything but the error of the discretization. *moves: whether the bodies only move as a whole, without
+   stress */
+static PetscErrorCode MeasureForces(Simulation sim, PetscReal time, Vec load, Vec inertia, Vec u,
+  const ContactSolution *sol, StepReport *report, PetscBool *moves)
 {
   const Constraints constraints = SimulationConstraints(sim);
   Vec               force, ties, rigid, contact = NULL, weighted = NULL, applied = load;
   PetscReal         size, residual, rounding, late = 0.0;
-  PetscBool         moves; /* whether the bodies only move as a whole, without stress */
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &rounding));
@@ -207,7 +203,7 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
   PetscCall(MeasurePlastic(sim, report));
   PetscCall(ElasticityForce(sim->elasticity, u, force));
   PetscCall(VecNorm(force, NORM_2, &size));
-  moves = (PetscBool)(size <= rounding);
+  *moves = (PetscBool)(size <= rounding);
   if (inertia && load) PetscCall(VecAXPY(inertia, 1.0, load));
   if (inertia) applied = inertia; /* the loads together with the forces of inertia */
   if (applied) PetscCall(VecAXPY(force, -1.0, applied));
@@ -231,10 +227,27 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
   PetscCall(VecDestroy(&rigid));
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));
   PetscCall(VecNorm(force, NORM_2, &residual));
-  report->equilibrium = moves ? 0.0 : residual / size;
-  PetscCall(MeasureAlgebraicError(u, force, sol, weighted, moves, report));
+  report->equilibrium = *moves ? 0.0 : residual / size;
+  PetscCall(MeasureAlgebraicError(u, force, sol, weighted, *moves, report));
   PetscCall(VecDestroy(&weighted));
   PetscCall(VecDestroy(&force));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Computes all results of a state from the elements and the contact rows, not from the solver: energy; equilibrium
+   residual; reaction = internal - contact - dead force in prescribed rows; at the end of a load step the discretization
+   error. inertia: forces of mass and damping on the bodies; NULL in a static analysis.
+*/
+PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inertia, Vec u, const ContactSolution *sol,
+  StepReport *report)
+{
+  PetscBool moves;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
+  PetscCall(MeasureForces(sim, time, load, inertia, u, sol, report, &moves));
+  PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   if (sim->results->estimate && time == (PetscReal)report->step)
     PetscCall(MeasureDiscretization(sim, u, moves, report));
   PetscFunctionReturn(0);

@@ -67,11 +67,15 @@ static PetscErrorCode ContactUpdatesSolveLinearized(StepProblem *p, PetscBool re
   PetscCall(ContactGetReach(p->sim->contact, &reach, &depth));
   PetscCall(StepProblemTurn(p, u_linearized));
   do {
+    PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
     PetscCall(StepProblemSetContact(p, p->sim->solved->linearization, u_linearized));
     PetscCall(ProximalLinearize(p, u_linearized));
+    PetscCall(PetscLogEventEnd(CONTACT_Linearize, NULL, NULL, NULL, NULL));
     if (resume && !p->by_newton) PetscCall(ContactUpdateAnticipate(p, p->sim->solved->linearization));
     PetscCall(StepProblemSolve(p, (PetscBool)(resume && !missed), u, report, sol));
+    PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
     if (report->converged) PetscCall(MissedFind(p, u_linearized, u, sol->gap, &reach, &missed));
+    PetscCall(PetscLogEventEnd(CONTACT_Linearize, NULL, NULL, NULL, NULL));
   } while (report->converged && missed);
   PetscFunctionReturn(0);
 }
