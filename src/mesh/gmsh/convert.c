@@ -64,7 +64,7 @@ static PetscErrorCode GmshConvertFile(SceneBody *body, size_t length, char path[
   PetscFunctionReturn(0);
 }
 
-/* Returns the number of an earlier body with the same file and scale, or b if there is none */
+/* Returns the number of an earlier body with the same file and scale, or b if there is none. Body b has a file. */
 static PetscInt GmshFindSame(const SceneBody bodies[], PetscInt b)
 {
   for (PetscInt a = 0; a < b; ++a) {
@@ -82,12 +82,13 @@ PetscErrorCode GmshConvert(MPI_Comm comm, PetscInt nbodies, SceneBody bodies[])
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   for (PetscInt b = 0; b < nbodies; ++b) {
-    const PetscInt same                     = GmshFindSame(bodies, b);
+    PetscInt       same;
     char           path[PETSC_MAX_PATH_LEN] = "";
     RankError      error;
     PetscErrorCode ierr = 0;
 
     if (!GmshMustConvert(&bodies[b])) continue;
+    same = GmshFindSame(bodies, b);
     if (same < b) {
       PetscCall(PetscStrallocpy(bodies[same].gmsh.converted, &bodies[b].gmsh.converted));
       continue;
