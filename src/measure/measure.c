@@ -242,7 +242,7 @@ static PetscErrorCode MeasureForces(Simulation sim, PetscReal time, Vec load, Ve
 PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inertia, Vec u, const ContactSolution *sol,
   StepReport *report)
 {
-  PetscBool moves;
+  PetscBool moves = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));

@@ -18,11 +18,25 @@ static PetscErrorCode MaterialPoisson(const Material *material, PetscReal *poiss
   PetscFunctionReturn(0);
 }
 
+/* Returns whether a pressure follows a face of the body */
+static PetscBool BodyIsFollowed(Scene scene, const SceneBody *body)
+{
+  PetscBool followed = PETSC_FALSE;
+
+  for (PetscInt p = 0; p < scene->npressures; ++p) {
+    const ScenePressure *pressure = &scene->pressures[p];
+
+    followed = (PetscBool)(followed || (pressure->follows && SceneFaceBody(scene, pressure->face) == body));
+  }
+  return followed;
+}
+
 /*
    Chooses the element of a body. nnodes: number of nodes of its cells; *reason: why the element was chosen; NULL if the
-   scene names it.
+   scene names it. A pressure that follows its face is solved as a sequence of linearized loads. Under such a load
+   hexahedra with bbar lose their stability earlier than those with full.
 */
-static PetscErrorCode BodyChooseElement(const SceneBody *body, PetscInt nnodes, ElementType *element,
+static PetscErrorCode BodyChooseElement(Scene scene, const SceneBody *body, PetscInt nnodes, ElementType *element,
   const char **reason)
 {
   PetscReal poisson;
@@ -46,6 +60,9 @@ static PetscErrorCode BodyChooseElement(const SceneBody *body, PetscInt nnodes, 
   } else if (body->material.type == MATERIAL_SAINT_VENANT) {
     *element = ELEMENT_FULL;
     *reason  = "the only element for its law";
+  } else if (nnodes == 8 && poisson <= INCOMPRESSIBLE && BodyIsFollowed(scene, body)) {
+    *element = ELEMENT_FULL;
+    *reason  = "finite strain, pressure that follows a face";
   } else if (nnodes == 8) {
     *element = ELEMENT_BBAR;
     *reason  = "finite strain, hexahedra of order 1";
@@ -86,7 +103,7 @@ PetscErrorCode SceneChooseElements(Scene scene, DM dm, ElementType elements[], c
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     const char *reason;
 
-    PetscCall(BodyChooseElement(&scene->bodies[b], nnodes[b], &elements[b], &reason));
+    PetscCall(BodyChooseElement(scene, &scene->bodies[b], nnodes[b], &elements[b], &reason));
     if (reasons) reasons[b] = reason;
   }
   PetscCall(PetscFree(nnodes));

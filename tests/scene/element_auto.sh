@@ -14,13 +14,16 @@ bodies:
               yield: 1, order: 2}
   - fine: {lower: [12, 0, 0], upper: [13, 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.45, order: 2}
   - named: {lower: [14, 0, 0], upper: [15, 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.3, element: full}
+  - balloon: {lower: [22, 0, 0], upper: [23, 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.3, material: neohookean}
   - tool: {lower: [16, 0, 0], upper: [17, 1, 1], cells: [1, 1, 1], material: rigid}
 displacements:
   - tool: {body: tool, value: [0, 0, 0]}
+pressures:
+  - inside: {face: balloon.zmin, value: 0.1, follows: true}
 weak_springs: true
 SCENE
 "$AMGF_DIR/bin/contact" bodies.yaml -scene_check | sed -n 's/^  \([a-z0-9]*\): .*/\1/p; s/.*; element/  element/p' |
-  sed '/problem/d' | head -21
+  sed '/problem/d' | head -23
 beam() { # name, keys of the beam
   cat > "$1.yaml" <<SCENE
 bodies:
