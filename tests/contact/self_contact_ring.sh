@@ -12,5 +12,7 @@ done
 from summaries import load, say
 
 updates = [step["contact_updates"] for step in load("shipped")["steps"]]
-say("pinched_ring: at most 6 contact updates a load step", max(updates) <= 6, updates)
+say("pinched_ring: at most 6 contact updates in every load step but the last", max(updates[:-1]) <= 6, updates)
+# 5, 7 or 9 by the rounding errors of different processors
+say("pinched_ring: at most 10 in the last, which closes the inside", updates[-1] <= 10, updates)
 PY
