@@ -127,7 +127,7 @@ typedef struct {
 PETSC_INTERN PetscErrorCode BlockConvertToAIJ_Private(Mat, Mat *);
 PETSC_INTERN PetscErrorCode BlockRowsGet_Private(Mat, BlockRows *);
 PETSC_INTERN PetscErrorCode BlockRowsRestore_Private(BlockRows *);
-/* operator.c */
+/* operator.c: converts an AIJ operator to hypre's format without tiny entries, and destroys it */
 PETSC_INTERN PetscErrorCode BlockConvertToHypre_Private(Mat *, PetscInt bs, Mat *hypre);
 /* order.c */
 PETSC_INTERN PetscErrorCode BlockOrderNodes_Private(const BlockRows *, PetscInt bs, int position[]);
@@ -146,7 +146,8 @@ PETSC_INTERN PetscErrorCode BlockLevelDestroy_Private(BlockLevel *);
 PETSC_INTERN PetscErrorCode BlockLevelCheckSize_Private(PetscInt n);
 PETSC_INTERN PetscErrorCode BlockLevelInvert_Private(BlockLevel *, int i, PetscScalar D[16]);
 PETSC_INTERN PetscErrorCode BlockLevelCount_Private(BlockLevel *, MPI_Comm, double entries);
-/* half.c */
+/* half.c: the same for an SBAIJ operator, which holds its upper triangle, without a copy of both triangles; and the
+   finest level of it. BlockHalfSupports_Private() returns whether it takes the matrix. */
 PETSC_INTERN PetscErrorCode BlockHalfSupports_Private(Mat, PetscBool *);
 PETSC_INTERN PetscErrorCode BlockHalfConvertToHypre_Private(Mat, Mat *hypre);
 PETSC_INTERN PetscErrorCode BlockHalfSetLevel_Private(BlockLevel *, Mat, double scale);

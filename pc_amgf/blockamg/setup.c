@@ -44,7 +44,7 @@ static PetscErrorCode SetUpFindBadRow(Mat A, PetscInt *row)
    AIJ, which is freed before hypre's set-up, since this needs the most memory. *later: the finest level needs no such
    copy and is not yet created.
 */
-static PetscErrorCode SetUpConvertOperator(PC pc, Mat *operator, PetscBool * later)
+static PetscErrorCode SetUpConvertOperator(PC pc, Mat *matrix, PetscBool *later)
 {
   PC_BlockAMG *amg = (PC_BlockAMG *)pc->data;
   PetscInt     bs;
@@ -53,12 +53,12 @@ static PetscErrorCode SetUpConvertOperator(PC pc, Mat *operator, PetscBool * lat
   PetscFunctionBegin;
   PetscCall(BlockHierarchyCreate_Private(pc->pmat, &amg->h));
   PetscCall(BlockHalfSupports_Private(pc->pmat, later));
-  if (*later) PetscCall(BlockHalfConvertToHypre_Private(pc->pmat, operator));
+  if (*later) PetscCall(BlockHalfConvertToHypre_Private(pc->pmat, matrix));
   else {
     PetscCall(MatGetBlockSize(pc->pmat, &bs));
     PetscCall(BlockConvertToAIJ_Private(pc->pmat, &aij));
     PetscCall(BlockHierarchySetFinest_Private(amg->h, aij, bs));
-    PetscCall(BlockConvertToHypre_Private(&aij, bs, operator));
+    PetscCall(BlockConvertToHypre_Private(&aij, bs, matrix));
   }
   PetscFunctionReturn(0);
 }
@@ -70,7 +70,7 @@ static PetscErrorCode SetUpHypre(PC pc, PetscBool *later, PetscBool *failed)
   AMGFGuard      guard;
   PetscErrorCode error;
   PetscInt       bs;
-  Mat            operator;
+  Mat            matrix;
   const char    *prefix;
 
   PetscFunctionBegin;
@@ -79,10 +79,10 @@ static PetscErrorCode SetUpHypre(PC pc, PetscBool *later, PetscBool *failed)
   PetscCall(PCGetOptionsPrefix(pc, &prefix));
   PetscCall(PCSetOptionsPrefix(amg->hypre, prefix));
   PetscCall(MatGetBlockSize(pc->pmat, &bs));
-  PetscCall(SetUpConvertOperator(pc, &operator, later));
-  PetscCall(PCSetOperators(amg->hypre, pc->pmat, operator)); /* the Pmat carries the near null space, which its copy
+  PetscCall(SetUpConvertOperator(pc, &matrix, later));
+  PetscCall(PCSetOperators(amg->hypre, pc->pmat, matrix)); /* the Pmat carries the near null space, which its copy
                                                                 does not */
-  PetscCall(MatDestroy(&operator));
+  PetscCall(MatDestroy(&matrix));
   PetscCall(PCAMGFConfigureBoomerAMG_Private(amg->hypre, bs));
   PetscCall(PCAMGFGuardBegin_Private(&guard, NULL));
   error = PCSetUp(amg->hypre);

@@ -175,9 +175,11 @@ def common(problems, results, names):
         p.name for p in problems if all(p.name in results[name] and results[name][p.name].verdict == "right"
                                         for name in names)
     ]
-    yield f"On the {len(both)} problems that {' and '.join(names)} have right: " + "; ".join(
-        (f"{name} {sum(results[name][p].iterations for p in both)} iterations, "
-         f"{sum(results[name][p].points for p in both)} points") for name in names) + "."
+    yield f"| {len(both)} problems that {' and '.join(names)} have right | iterations | points |"
+    yield "| --- | --- | --- |"
+    for name in names:
+        found = [results[name][p] for p in both]
+        yield f"| {name} | {sum(r.iterations for r in found)} | {sum(r.points for r in found)} |"
 
 
 def differences(problems, results, left, right):

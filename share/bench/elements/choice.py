@@ -179,7 +179,7 @@ Two criteria say whether the choice was good:
 | column | meaning |
 | --- | --- |
 | best of order 1 | the error of `auto` is at most 1.2 times the smallest error of all elements of order 1 on the same mesh |
-| on the front | no other run takes at most the same time and has an error that is smaller by more than 20 % |
+| on the front | no run that is at least as fast has an error more than 20 % smaller |
 
 If `auto` is not on the front, order 2 on a coarser mesh is better. The scene must then request
 `order: 2`. On the same mesh, order 2 has six to eight times as many unknowns.

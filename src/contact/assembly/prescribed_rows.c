@@ -174,31 +174,48 @@ static PetscBool PrescribedRowsMatch(const ContactPairData *pair, const Prescrib
   return PETSC_FALSE;
 }
 
-/* Collective. Sets `free` to zero on the free neighbours of rows where it is zero, unless they match a mortar vertex */
-static PetscErrorCode PrescribedRowsMarkBeside(Contact contact, const ContactPairData *pair, PetscInt n,
-  const PrescribedVertex list[], Vec free)
+/*
+   Collective. Lists the rows of the pair where `free` is zero, each with its neighbours on the same facet where `free`
+   is not zero, unless the neighbour matches one of the n mortar vertices. neighbours: row and neighbour, one after the
+   other, as global numbers
+*/
+static PetscErrorCode PrescribedRowsFindNeighbours(const ContactPairData *pair, const PrescribedMotions *m, PetscInt n,
+  const PrescribedVertex list[], Vec free, PetscInt *nneighbours, PetscInt (**neighbours)[2])
 {
   Vec                gathered;
-  PrescribedMotions  m;
   const PetscScalar *at;
 
   PetscFunctionBegin;
-  PetscCall(PrescribedMotionsCreate(contact, &pair->nonmortar, &m));
+  *nneighbours = 0;
+  PetscCall(PetscMalloc1(8 * pair->nonmortar.nfacets, neighbours));
   PetscCall(PrescribedRowsGather(pair, free, &gathered));
   PetscCall(VecGetArrayRead(gathered, &at));
   for (PetscInt i = 0; i < 4 * pair->nonmortar.nfacets; ++i) {
     const PetscInt edge[2] = {4 * (i / 4) + (i + 1) % 4, 4 * (i / 4) + (i + 3) % 4};
 
     for (PetscInt e = 0; e < 2 && PetscRealPart(at[i]) == 0.0; ++e) {
-      if (PetscRealPart(at[edge[e]]) == 0.0 || PrescribedRowsMatch(pair, &m, edge[e], n, list)) continue;
-      PetscCall(VecSetValue(free, pair->row[edge[e]], 0.0, INSERT_VALUES));
+      if (PetscRealPart(at[edge[e]]) == 0.0 || PrescribedRowsMatch(pair, m, edge[e], n, list)) continue;
+      (*neighbours)[*nneighbours][0]     = pair->row[i];
+      (*neighbours)[(*nneighbours)++][1] = pair->row[edge[e]];
     }
   }
-  PetscCall(VecAssemblyBegin(free));
-  PetscCall(VecAssemblyEnd(free));
   PetscCall(VecRestoreArrayRead(gathered, &at));
   PetscCall(VecDestroy(&gathered));
-  PetscCall(PrescribedMotionsDestroy(&m));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Sets `free` to zero on the free neighbours of rows where it is zero, unless they match a mortar vertex */
+static PetscErrorCode PrescribedRowsMarkBeside(const ContactPairData *pair, const PrescribedMotions *m, PetscInt n,
+  const PrescribedVertex list[], Vec free)
+{
+  PetscInt nbeside, (*beside)[2];
+
+  PetscFunctionBegin;
+  PetscCall(PrescribedRowsFindNeighbours(pair, m, n, list, free, &nbeside, &beside));
+  for (PetscInt k = 0; k < nbeside; ++k) PetscCall(VecSetValue(free, beside[k][1], 0.0, INSERT_VALUES));
+  PetscCall(VecAssemblyBegin(free));
+  PetscCall(VecAssemblyEnd(free));
+  PetscCall(PetscFree(beside));
   PetscFunctionReturn(0);
 }
 
@@ -207,27 +224,19 @@ static PetscErrorCode PrescribedRowsMarkBeside(Contact contact, const ContactPai
 static PetscErrorCode PrescribedRowsAddWeights(Contact contact, const ContactPairData *pair, PetscInt n,
   const PrescribedVertex list[], PetscInt beside, Vec free, Vec neighbours, Mat weights)
 {
-  Vec                gathered;
-  PrescribedMotions  m;
-  const PetscScalar *at;
+  PrescribedMotions m;
+  PetscInt          nfound, (*found)[2];
 
   PetscFunctionBegin;
   PetscCall(PrescribedMotionsCreate(contact, &pair->nonmortar, &m));
   PetscCall(PrescribedRowsMarkFree(pair, &m, n, list, free));
-  for (PetscInt k = 0; k < beside; ++k) PetscCall(PrescribedRowsMarkBeside(contact, pair, n, list, free));
-  PetscCall(PrescribedRowsGather(pair, free, &gathered));
-  PetscCall(VecGetArrayRead(gathered, &at));
-  for (PetscInt i = 0; i < 4 * pair->nonmortar.nfacets; ++i) {
-    const PetscInt edge[2] = {4 * (i / 4) + (i + 1) % 4, 4 * (i / 4) + (i + 3) % 4};
-
-    for (PetscInt e = 0; e < 2 && PetscRealPart(at[i]) == 0.0; ++e) {
-      if (PetscRealPart(at[edge[e]]) == 0.0 || PrescribedRowsMatch(pair, &m, edge[e], n, list)) continue;
-      PetscCall(MatSetValue(weights, pair->row[i], pair->row[edge[e]], 1.0, ADD_VALUES));
-      PetscCall(VecSetValue(neighbours, pair->row[i], 1.0, ADD_VALUES));
-    }
+  for (PetscInt k = 0; k < beside; ++k) PetscCall(PrescribedRowsMarkBeside(pair, &m, n, list, free));
+  PetscCall(PrescribedRowsFindNeighbours(pair, &m, n, list, free, &nfound, &found));
+  for (PetscInt k = 0; k < nfound; ++k) {
+    PetscCall(MatSetValue(weights, found[k][0], found[k][1], 1.0, ADD_VALUES));
+    PetscCall(VecSetValue(neighbours, found[k][0], 1.0, ADD_VALUES));
   }
-  PetscCall(VecRestoreArrayRead(gathered, &at));
-  PetscCall(VecDestroy(&gathered));
+  PetscCall(PetscFree(found));
   PetscCall(PrescribedMotionsDestroy(&m));
   PetscFunctionReturn(0);
 }
