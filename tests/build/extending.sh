@@ -31,8 +31,9 @@ done
 mpicc "$AMGF_DIR"/build/apps/*.o material.o cubic.o "$AMGF_DIR/lib/libcontact.a" -L"$AMGF_DIR/lib" -lpetscamgf "-Wl,-rpath,$AMGF_DIR/lib,-rpath,$(pkg-config --variable=libdir PETSc)" \
   $(pkg-config --libs PETSc) $(make -s --no-print-directory -C "$AMGF_DIR" print-contact-libs) -o contact || exit 1
 echo "compiles and links"
-for name in cubic linear soft; do ./contact "$name.yaml" -quiet -summary "$name.json" ||
-  echo "$name: exit code $?"; done
+for name in cubic linear soft; do
+  ./contact "$name.yaml" -quiet -summary "$name.json" || echo "$name: exit code $?"
+done
 ./contact wrong.yaml -quiet 2>&1 | grep -o 'body "beam" has .*'
 "$PYTHON" - << 'PY'
 import json

@@ -4,8 +4,9 @@ long=${1-}
 contact=$AMGF_DIR/bin/contact
 options="-quiet -elasticity_ksp_rtol 1e-13 -tao_ipfilter_tol 1e-10 -contact_update_tol 1e-10"
 "$PYTHON" "$AMGF_DIR/tests/constraints/rigid_forces.py" drive
-for scene in punch rubber roller rolled; do "$contact" driven_$scene.yaml $options -summary driven_$scene.json ||
-  echo "$scene: exit code $?"; done
+for scene in punch rubber roller rolled; do
+  "$contact" driven_$scene.yaml $options -summary driven_$scene.json || echo "$scene: exit code $?"
+done
 "$PYTHON" "$AMGF_DIR/tests/constraints/rigid_forces.py" write
 for scene in punch rubber roller rolled beam tilt rubs sprung; do
   "$contact" $scene.yaml $options -summary $scene.json || echo "$scene: exit code $?"

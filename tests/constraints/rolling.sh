@@ -2,8 +2,9 @@
 long=${1-}
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/constraints/rolling.py" scenes
-for scene in ${long:+roller} wheel; do "$contact" $scene.yaml -quiet -summary $scene.json ||
-  echo "$scene: exit code $?"; done
+for scene in ${long:+roller} wheel; do
+  "$contact" $scene.yaml -quiet -summary $scene.json || echo "$scene: exit code $?"
+done
 "$contact" bend.yaml -quiet -summary bend.json -output bend || echo "bend: exit code $?"
 mpiexec --oversubscribe -n 3 "$contact" roller.yaml -quiet -summary roller_3.json ||
   echo "roller, three ranks: exit code $?"

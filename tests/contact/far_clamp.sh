@@ -18,8 +18,9 @@ tractions: [pull: {face: base.xmax, value: [0, 5, 0]}]
 contact: [pair: {mortar: base.zmax, nonmortar: top.zmin, friction: 0.3}]
 load: {steps: 2}
 YAML
-  for ranks in 1 3; do mpiexec --oversubscribe -n $ranks "$contact" tip.yaml -quiet -summary tip_${y}_$ranks.json ||
-    echo "exit $?"; done
+  for ranks in 1 3; do
+    mpiexec --oversubscribe -n $ranks "$contact" tip.yaml -quiet -summary tip_${y}_$ranks.json || echo "exit $?"
+  done
 done
 "$PYTHON" - <<'PY'
 from summaries import load

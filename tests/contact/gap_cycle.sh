@@ -1,7 +1,7 @@
-# A thick ring of few cells between two plates: the updates of the gap between its smooth faces end, and between its
-# facets, but where a corner of the ring comes first:
-# there they go in a circle, however damped, where each is solved to the end, as the interior point method does; and
-# what a run says and exits with whose gap is not true. gap_cycle.py writes the ring's mesh and scene, and judges.
+# A thick ring of few cells between two plates. The contact updates converge with smooth faces and with facets. The
+# exception is a ring whose corner touches first, solved by the interior point method: its updates cycle, with any
+# damping. The test also checks message and exit code of a run whose gap is inconsistent. gap_cycle.py writes mesh and
+# scene of the ring, and judges the runs.
 contact=$AMGF_DIR/bin/contact
 
 "$PYTHON" "$AMGF_DIR/tests/contact/gap_cycle.py" write 16

@@ -1,6 +1,6 @@
-# Shrink fit of two thick rings, a quarter of each, whose facets do not match, against Lame: smooth surfaces, both
-# choices of sides;
-# the facets themselves, which interfere by their sagitta; and node to segment.
+# Shrink fit of two thick rings, a quarter of each, compared with Lame's solution. The facets of the two rings do not
+# match. Formulations: smooth surfaces, with either ring as nonmortar side; facets, which overlap by their sagitta; node
+# to segment.
 rings() { # facets on the inner and the outer ring, mortar, nonmortar, gap, smooth
   cat <<SCENE
 bodies:

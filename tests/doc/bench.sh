@@ -1,7 +1,6 @@
-# The bench on one tiny page: tables and figure are made, what has been run is not run again, and one lost record is one
-# run to make.
-# bench.py: the extrapolation, exponents and crossovers behind its figures. The bench itself is what is tested here, so
-# that its modules are imported.
+# The scripts of the bench, on one tiny page. They make the tables and the figure. They do not repeat a run that has a
+# record, and repeat only the run whose record is lost. bench.py imports their modules, and tests the extrapolation,
+# exponents and crossovers.
 bench() {
   "$PYTHON" -B "$AMGF_DIR/share/bench/run.py" --size tiny --folder bench --only "$@"
 }

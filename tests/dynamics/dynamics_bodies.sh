@@ -5,8 +5,9 @@ run() { "$contact" "$@" -quiet -error_estimate 0 2> err || { echo "exit $?"; cat
 "$PYTHON" "$AMGF_DIR/tests/dynamics/dynamics_bodies.py" scenes
 for scene in bars bars_alpha slide bounce bounce_damped spin spin_impact rigid turn tumble pendulum massless; do
   run $scene.yaml -output $scene; done
-for ranks in 2 3; do mpiexec --oversubscribe -n $ranks "$contact" bars.yaml -quiet -error_estimate 0 \
-  -output bars_$ranks; done
+for ranks in 2 3; do
+  mpiexec --oversubscribe -n $ranks "$contact" bars.yaml -quiet -error_estimate 0 -output bars_$ranks
+done
 for scene in bars bars_alpha bounce_damped; do
   run $scene.yaml -checkpoint_every 15 -checkpoint $scene.h5 -output part_$scene
   run $scene.yaml -restart $scene.h5 -output part_$scene

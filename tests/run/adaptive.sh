@@ -18,8 +18,10 @@ run() { # summary, scene, options
 run ball ball -accuracy 3e-3 > progress
 run peak ball -accuracy 1e-2 -accuracy_of pressure
 run small ball -accuracy 1e-3 -accuracy_max_dofs 5000 2> /dev/null
-for ranks in 1 3 ${long:+2 5}; do mpiexec --oversubscribe -n $ranks "$contact" ball.yaml -quiet -accuracy_adaptive \
-  -accuracy 1e-2 -tao_ipfilter_tol 1e-10 -contact_update_tol 1e-10 -summary ranks_$ranks.json; done
+for ranks in 1 3 ${long:+2 5}; do
+  mpiexec --oversubscribe -n $ranks "$contact" ball.yaml -quiet -accuracy_adaptive -accuracy 1e-2 \
+    -tao_ipfilter_tol 1e-10 -contact_update_tol 1e-10 -summary ranks_$ranks.json
+done
 run cylinder cylinder -accuracy 3e-3
 run cold cylinder -accuracy 3e-3 -load_warm_start 0
 run slide slide -accuracy $slide
@@ -38,6 +40,7 @@ PYTHONPATH=$AMGF_DIR/share/scenes:$AMGF_DIR/tests/lib "$PYTHON" "$AMGF_DIR/tests
   sed 's/has an error of .*; the next/has an error of ...; the next/'
 # what is refused
 sed 's/layers: 4/layers: 4, order: 2/' ball.yaml > order2.yaml
-for scene in order2 rigid tied; do "$contact" $scene.yaml -quiet -accuracy 1e-2 -accuracy_adaptive 2>&1 ||
-  echo "exit code $?"; done
+for scene in order2 rigid tied; do
+  "$contact" $scene.yaml -quiet -accuracy 1e-2 -accuracy_adaptive 2>&1 || echo "exit code $?"
+done
 "$contact" ball.yaml -quiet -accuracy 1e-2 -accuracy_of size 2>&1 | grep -a -m 1 error

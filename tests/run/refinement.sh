@@ -10,8 +10,10 @@ for scene in ball blocks tied plane; do
   mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json -output ${scene}_3 $tight ||
     echo "$scene, three ranks: exit code $?"
 done
-for ranks in 1 3 ${long:+2 5}; do mpiexec --oversubscribe -n $ranks "$contact" slide.yaml -quiet \
-  -summary slide_$ranks.json || echo "slide, $ranks ranks: exit code $?"; done
+for ranks in 1 3 ${long:+2 5}; do
+  mpiexec --oversubscribe -n $ranks "$contact" slide.yaml -quiet -summary slide_$ranks.json ||
+    echo "slide, $ranks ranks: exit code $?"
+done
 "$contact" slide.yaml -quiet -load_steps 1 -refine 1 -summary finer.json || echo "slide, refined: exit code $?"
 for scene in finite node; do "$contact" $scene.yaml -quiet -summary $scene.json || echo "$scene: exit code $?"; done
 "$contact" first.yaml -quiet -checkpoint_every 1 -checkpoint first.h5

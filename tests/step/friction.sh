@@ -8,7 +8,9 @@ run() {
     sed 's/ (KKT error [^;]*//; s/: it fell [^;]*//' "$name.err"
 }
 for scene in sticks slides limited capped rough oiled grips finite cycle node swapped_limited shaft inclined foreseen \
-  few thin guided brink over proportional_1 proportional_2 proportional_5 proportional_20; do run $scene $scene; done
+  few thin guided brink over proportional_1 proportional_2 proportional_5 proportional_20; do
+  run $scene $scene
+done
 for scene in cattaneo swapped; do options="-output $scene" run $scene $scene; done
 for scene in cycle cattaneo brink thin guided; do run ${scene}_3 $scene mpiexec --oversubscribe -n 3; done
 options="-options_file $AMGF_DIR/share/options/direct.opts" run opens opens

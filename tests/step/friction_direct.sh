@@ -3,7 +3,9 @@
 "$PYTHON" "$AMGF_DIR/tests/step/friction_direct.py" scenes
 for ranks in 1 3; do
   echo "ranks: $ranks"
-  for scene in driven lifted; do mpiexec --oversubscribe -n $ranks "$AMGF_DIR/bin/contact" "$scene.yaml" -quiet \
-    -output "$scene" -summary "$scene.json"; done
+  for scene in driven lifted; do
+    mpiexec --oversubscribe -n $ranks "$AMGF_DIR/bin/contact" "$scene.yaml" -quiet -output "$scene" \
+      -summary "$scene.json"
+  done
   "$PYTHON" "$AMGF_DIR/tests/step/friction_direct.py"
 done

@@ -1,6 +1,5 @@
 # Friction against published values and closed forms (friction_published.py) on coarse meshes, and blocks that stick
-# while they lift off.
-# friction_published_long has fine meshes.
+# while they lift off. friction_published_long has fine meshes.
 "$PYTHON" "$AMGF_DIR/tests/step/friction_published.py" scenes
 run() {
   name=$1

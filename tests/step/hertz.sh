@@ -1,6 +1,6 @@
-# Hertz's sphere and cylinder on three meshes, the finest as shipped, cells at the contact by sqrt(2) smaller from one
-# to the next;
-# hertz.py holds pressures, contact areas and approaches against the exact solutions. Then SSNV104 as shipped.
+# Hertz's sphere and cylinder on three meshes. The cells at the contact are sqrt(2) smaller from mesh to mesh, and the
+# finest mesh is the shipped one. hertz.py compares pressures, contact areas and approaches with the exact solutions.
+# SSNV104 is run as shipped.
 run() {
   "$AMGF_DIR/bin/contact" "$1.yaml" -quiet -output "$1" -summary "$1.json" || echo "$1: exit code $?"
 }

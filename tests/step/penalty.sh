@@ -1,6 +1,5 @@
 # -contact_penalty: with ten times the stiffness a tenth of the penetration, and of the error in energy, on one rank and
-# on three;
-# and it says what it cannot do
+# on three; and it says what it cannot do
 two_block=$AMGF_DIR/share/scenes/two_block.yaml
 solve() {
   "$AMGF_DIR/bin/contact" "$two_block" -refine 0 -quiet -error_estimate 0 "$@"

@@ -14,18 +14,25 @@ run() {
 }
 
 run beam_sphere 1 beam_sphere_linear -load_steps 3 -tao_ipfilter_subspace false -tao_gatol 1e-12
-for ranks in 1 3; do run "beam_sphere_$ranks" "$ranks" beam_sphere_linear -load_steps 3 -tao_ipfilter_subspace true \
-  -tao_ipfilter_pc_amgf_factor false -contact_free; done
-for ranks in ${long:+1} 2; do run "beam_sphere_direct_$ranks" "$ranks" beam_sphere_linear -load_steps 3 \
-  -options_file "$AMGF_DIR/share/options/direct.opts" -log_view ":beam_sphere_direct_$ranks.log"; done
+for ranks in 1 3; do
+  run "beam_sphere_$ranks" "$ranks" beam_sphere_linear -load_steps 3 -tao_ipfilter_subspace true \
+    -tao_ipfilter_pc_amgf_factor false -contact_free
+done
+for ranks in ${long:+1} 2; do
+  run "beam_sphere_direct_$ranks" "$ranks" beam_sphere_linear -load_steps 3 \
+    -options_file "$AMGF_DIR/share/options/direct.opts" -log_view ":beam_sphere_direct_$ranks.log"
+done
 run ironing 1 ironing -load_steps 4 -tao_ipfilter_subspace false -tao_gatol 1e-12
-for ranks in 1 ${long:+5}; do run "ironing_$ranks" "$ranks" ironing -load_steps 4 -tao_ipfilter_subspace true \
-  -tao_ipfilter_pc_amgf_factor false -contact_free; done
+for ranks in 1 ${long:+5}; do
+  run "ironing_$ranks" "$ranks" ironing -load_steps 4 -tao_ipfilter_subspace true -tao_ipfilter_pc_amgf_factor false \
+    -contact_free
+done
 for ranks in ${long:+1} 3; do run "ironing_chosen_$ranks" "$ranks" ironing -load_steps 4; done
 # At finite strain: Newton's method on the subspace
 run neo_hookean 1 beam_sphere_neo_hookean -load_steps 3 -tao_ipfilter_subspace false
-for ranks in 1 3; do run "neo_hookean_$ranks" "$ranks" beam_sphere_neo_hookean -load_steps 3 \
-  -tao_ipfilter_pc_amgf_factor false; done
+for ranks in 1 3; do
+  run "neo_hookean_$ranks" "$ranks" beam_sphere_neo_hookean -load_steps 3 -tao_ipfilter_pc_amgf_factor false
+done
 # The AMG of a nearly incompressible block needs more directions than there may be Newton steps
 sed '/element: full/d; s/poisson: 0.499 */poisson: 0.4999\n      element: bbar/' \
   "$AMGF_DIR/share/scenes/two_block.yaml" > incompressible.yaml

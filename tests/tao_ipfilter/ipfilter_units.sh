@@ -1,6 +1,6 @@
-# To the end of double precision: steps that are rounding have no curvature to be shifted for, in metres, millimetres
-# and lengths x 1e-6;
-# slacks that all but vanish on the way neither make a positive definite system look indefinite nor keep PCG busy.
+# Tolerances near the rounding errors of double precision, in metres, millimetres and lengths x 1e-6. Steps of the size
+# of rounding errors do not shift the Hessian. Slacks that are almost zero neither make a positive definite system look
+# indefinite nor increase the iterations of PCG.
 "$PYTHON" - <<'PY'
 import json
 import os

@@ -1,6 +1,5 @@
 # The load steps of the two-block problem by an optimizer that no one here wrote, TAO's PDIPM with MUMPS on the whole
-# KKT matrix:
-# the same energy and contact force
+# KKT matrix: the same energy and contact force
 for name in ours theirs; do
   options=; [ $name = ours ] || options="-options_file $AMGF_DIR/share/options/pdipm.opts"
   # shellcheck disable=SC2086
