@@ -29,7 +29,7 @@ def place(path, content, offset):
 
 def sentences_of(prose):
     """Sentences, each with where it begins. A colon ends none, since what follows it cannot be read alone"""
-    for match in re.finditer(r"\S.*?(?:" + ABBREVIATIONS + r"[.?!](?=\s|$)|\n\s*\n|$)", prose, flags=re.S):
+    for match in re.finditer(r"\S.*?(?:" + ABBREVIATIONS + r"[.?!](?=\s|$)|\n\s*\n|\f|$)", prose, flags=re.S):
         sentence = " ".join(match[0].split())
         if len(sentence.split()) >= WORDS:
             yield match.start(), sentence
@@ -49,7 +49,7 @@ def pages():
         prose = re.sub(r"^## (?:References|Relatives)$.*?(?=^## |\Z)", blank, content, flags=re.S | re.M)
         prose = re.sub(r"^(    |\||#|!\[|- \[|<!--).*$", blank, prose, flags=re.M)
         prose = re.sub(r"^```.*?^```", blank, prose, flags=re.S | re.M)
-        prose = re.sub(r"\n(?=\s*(?:[-*]|\d+\.) )", "\n\n", prose)  # an item of a list ends the one before it
+        prose = re.sub(r"\n(?=\s*(?:[-*]|\d+\.) )", "\n\f", prose)  # an item of a list ends the one before it
         for offset, sentence in sentences_of(prose):
             yield place(path, prose, offset), sentence
         heads = ""

@@ -157,8 +157,9 @@ static PetscErrorCode RestartReadNumbers(Restart *r, Checkpoint checkpoint)
     PetscCall(PetscViewerHDF5ReadAttribute(r->viewer, NULL, name, PETSC_REAL, NULL, &then));
     PetscCall(SceneGetFactor(r->scene, k, checkpoint->time, &now));
     PetscCheck(PetscAbsReal(now - then) <= 1e-9 * PetscMax(1, PetscAbsReal(then)), r->comm, PETSC_ERR_USER_INPUT,
-      "at time %g the factor of ramp \"%s\" is %g in the checkpoint, but %g in the scene", (double)checkpoint->time,
-      ramp, (double)then, (double)now);
+      "at time %g the factor of ramp \"%s\" is %g in the checkpoint, but %g in the scene: keep the ramp as it was up "
+      "to this time",
+      (double)checkpoint->time, ramp, (double)then, (double)now);
   }
   PetscFunctionReturn(0);
 }

@@ -1,10 +1,12 @@
 /*
-   Tests whether an equilibrium exists. Every contact row can exert its normal force, with as much friction as the law
-   allows; these generalized forces on the free rigid motions of all bodies form a cone. Contact can balance the loads
-   only if the negative loads lie in this cone.
-   The point of the cone nearest to the negative loads is found by adding rays one by one: each time the row whose force
-   does the most negative work on the remaining load. If no row does negative work and a load remains, this load defines
-   a motion that the loads drive and no contact resists. There is then no equilibrium (Farkas' lemma).
+   Tests whether an equilibrium exists. Every contact row can exert a normal force, with as much friction as the law
+   allows. The generalized forces of all rows on the free rigid motions of the bodies form a cone. A ray of the cone is
+   the force of one row with one direction of friction. Contact can balance the loads only if the negative loads lie in
+   this cone.
+   The point of the cone nearest to the negative loads is found by adding rays one by one. The loads that the rays do
+   not balance define a motion of the bodies. The next ray is that of the row whose force does the most negative work on
+   this motion. If no row does negative work, and unbalanced loads remain, no contact resists the motion that they
+   drive. There is then no equilibrium (Farkas' lemma).
 */
 #include "measureimpl.h"
 #include "src/state/interrupt.h"
@@ -12,22 +14,21 @@
 
 #define EQUILIBRIUM_ROWS 3 /* number of linearizations whose rows form the cone */
 
-/* The rays whose sum is the nearest point found so far, with n numbers each, and their factors */
+/* Rays with n components each, and their factors. The sum of factor times ray is the nearest point found so far. */
 typedef struct {
   PetscInt   n, nrays, nmax;
-  PetscReal *ray, *normal;    /* rays; the parts of the rays from the rows' normal forces */
+  PetscReal *ray, *normal;    /* rays; the same without friction */
   PetscReal *amount;          /* factor of each ray [force] */
   PetscInt   nfactored, ncap; /* number of rays in `Q` and `R`; number for which these have space */
-  PetscReal *Q;               /* orthogonal rays of unit length */
-  PetscReal *R;               /* of each ray its components along these, k + 1 for ray k */
+  PetscReal *Q, *R;           /* QR factors of the matrix of the rays; column k of R has k + 1 numbers */
 } ContactCone;
 
 /* The row that resists a motion most, and its friction; the same on all ranks */
 typedef struct {
-  PetscReal rate;     /* work of a unit of its force on the motion, negative */
+  PetscReal rate;     /* work of the force below on the motion, negative */
   PetscInt  row;      /* global row; PETSC_DECIDE: there is none */
-  PetscReal shear[2]; /* friction force per normal force */
-  PetscReal normal;   /* normal force: 1, or 0 for friction alone, which needs almost no normal force */
+  PetscReal shear[2]; /* friction force */
+  PetscReal normal;   /* normal force: 1; or 0 if the friction is not proportional to it, and acts alone */
 } ConeRow;
 
 static PetscErrorCode ConeAllocate(PetscInt n, ContactCone *cone)
@@ -148,7 +149,7 @@ static PetscReal ConeDot(PetscInt n, const PetscReal a[], const PetscReal b[])
 
 #define CONE_BLOCK 4 /* number of columns that are multiplied together, which is faster than one by one */
 
-/* Computes the scalar products of x and some columns of n numbers each */
+/* Computes A^T x. A: columns of n numbers each */
 static void ConeDots(PetscInt n, PetscInt columns, const PetscReal A[], const PetscReal x[], PetscReal product[])
 {
   PetscInt k = 0;
@@ -171,7 +172,7 @@ static void ConeDots(PetscInt n, PetscInt columns, const PetscReal A[], const Pe
   for (; k < columns; ++k) product[k] = ConeDot(n, &A[n * k], x);
 }
 
-/* Adds a multiple of the sum of factor[k] times column k, of n numbers each, to y */
+/* Computes y += alpha A factor. A: columns of n numbers each */
 static void ConeAdd(PetscInt n, PetscInt columns, const PetscReal A[], PetscReal alpha, const PetscReal factor[],
   PetscReal y[])
 {
@@ -187,7 +188,7 @@ static void ConeAdd(PetscInt n, PetscInt columns, const PetscReal A[], PetscReal
     for (PetscInt i = 0; i < n; ++i) y[i] += alpha * factor[k] * A[n * k + i];
 }
 
-/* Computes left = load + the sum of the rays */
+/* Computes the unbalanced load: left = load + the sum of factor times ray */
 static PetscErrorCode ConeSubtract(const ContactCone *cone, const PetscReal load[], PetscReal left[])
 {
   PetscFunctionBegin;
@@ -201,7 +202,7 @@ static PetscReal *ConeColumn(const ContactCone *cone, PetscInt ray)
   return cone->R + ray * (ray + 1) / 2;
 }
 
-/* Orthogonalizes the rays that were added since the last call */
+/* Updates the QR factors for the rays that were added since the last call */
 static PetscErrorCode ConeOrthogonalize(ContactCone *cone)
 {
   const PetscInt  n         = cone->n;
@@ -237,7 +238,7 @@ static PetscErrorCode ConeOrthogonalize(ContactCone *cone)
   PetscFunctionReturn(0);
 }
 
-/* Computes the factors of the rays, of any sign, that leave the smallest remainder of the load */
+/* Computes the factors, of any sign, for which the unbalanced load is smallest */
 static PetscErrorCode ConeSolve(ContactCone *cone, const PetscReal load[], PetscReal amount[])
 {
   PetscFunctionBegin;
@@ -276,8 +277,7 @@ static void ConeDrop(ContactCone *cone)
 }
 
 /*
-   Computes the non-negative factors of the rays that leave the smallest remainder of the load (Lawson and Hanson's
-   algorithm)
+   Computes the non-negative factors for which the unbalanced load is smallest (Lawson and Hanson's algorithm)
 */
 static PetscErrorCode ConeBalance(ContactCone *cone, const PetscReal load[])
 {
@@ -302,8 +302,8 @@ static PetscErrorCode ConeBalance(ContactCone *cone, const PetscReal load[])
 }
 
 /*
-   Computes the part of the loads that contact forces cannot balance (left). size: sum of the magnitudes of the nodal
-   loads; *none: no equilibrium exists, or only one with contact forces of more than a thousand times the loads.
+   Computes `left`, the loads that contact forces cannot balance. size: sum of the magnitudes of the nodal loads.
+   *none: no equilibrium exists, or only one with contact forces of more than a thousand times the loads.
 */
 static PetscErrorCode ConeProject(PetscReal time, const FreeMotions *m, PetscInt nlins, ContactLinearization lins[],
   const PetscReal load[], PetscReal size, ContactCone *cone, PetscReal left[], PetscBool *none)
@@ -343,7 +343,7 @@ static PetscErrorCode ConeProject(PetscReal time, const FreeMotions *m, PetscInt
   PetscFunctionReturn(0);
 }
 
-/* Removes from a motion the part that opens rows with pressure, so that bodies slide and do not lift off */
+/* Removes from a motion the part that changes the gaps of the rows that carry a force. What remains is sliding. */
 static void ConeSlide(const ContactCone *cone, PetscReal motion[])
 {
   const PetscInt n   = cone->n;

@@ -190,8 +190,8 @@ static PetscErrorCode ViewContactFree(const RunReport *report, PetscViewer viewe
     "\nWithout contact: %" PetscInt_FMT " PCG iterations to 1e-10, condition number %.4g, %.3f s\n",
     report->contact_free.iterations, (double)report->contact_free.condition, report->contact_free.solve_time));
   PetscCall(PetscViewerASCIIPrintf(viewer,
-    "With contact: at most %" PetscInt_FMT " PCG iterations per Newton system, bound %.0f; a load step takes as long "
-    "as %.2f solves without contact\n",
+    "With contact: at most %" PetscInt_FMT " PCG iterations per Newton system (upper bound in theory: %.0f); a load "
+    "step takes as long as %.2f solves without contact\n",
     largest, (double)report->contact_free.bound, mean / report->contact_free.solve_time));
   PetscFunctionReturn(0);
 }

@@ -1,7 +1,7 @@
 /*
-   Finds constraints out of reach, which no expected change of the unknowns makes zero. Examples are rows with values of
-   1e8 or 1e10 that stand for missing constraints. They are left out of all sizes, since relative to them any other
-   violation would look small.
+   Finds constraints that are out of reach: no expected change of the unknowns makes them zero. Examples are rows with
+   values of 1e8 or 1e10 that users write in place of a missing constraint. Norms of c_I omit them, because any other
+   violation would be negligible relative to such values.
 */
 #include "measureimpl.h"
 #include "tao_ipfilter/solver/matrices.h"
@@ -93,7 +93,7 @@ static PetscErrorCode ReachRows(Tao tao, Vec distance)
   PetscFunctionReturn(0);
 }
 
-/* Computes from the start how far unknowns and constraints are expected to change, and the size of c_I there */
+/* Computes at the starting point the expected change of unknowns and constraints, and the size of c_I */
 PetscErrorCode IPMeasureReach(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;

@@ -1,16 +1,17 @@
 /*
-   Selects the overlaps of a facet with facets of its own surface. Along the normal of a facet there may be several
-   layers: the surface that it touches, the far side of its own wall, and what lies behind them. Only the nearest layer
-   in front of the facet counts.
+   Selects the overlaps of a facet with facets of its own surface. A line along the normal of a facet may cross the
+   surface several times. In front of the facet it crosses the surface that the facet touches, and other layers beyond
+   it. Behind the facet it crosses the opposite side of the facet's own wall, and other layers beyond that. Only the
+   nearest layer in front is kept.
 */
 #include "selfimpl.h"
 
 /* Data of the overlap of a facet with another facet of the same surface */
 typedef struct {
   PetscReal centre[2]; /* centroid of the overlap, in the plane of the facet */
-  PetscBool wall;      /* whether the other facet is the far side of the wall below the facet */
-  PetscBool below;     /* whether the other facet is that far side or lies behind it */
-  PetscBool hidden;    /* whether the other facet lies behind the wall or behind another layer */
+  PetscBool wall;      /* the other facet is on the opposite side of the facet's own wall */
+  PetscBool below;     /* the other facet is on that side or behind it */
+  PetscBool hidden;    /* the overlap is not used: the other facet is below, or in front but not in the nearest layer */
 } SelfOverlap;
 
 static void LayerCentre(const ContactOverlap *o, PetscReal centre[2])
@@ -61,7 +62,7 @@ static void LayerPlace(const ContactOverlap *o, const PetscReal xi[][2], const P
   }
 }
 
-/* Marks hidden overlaps: those below the far side of the facet's own wall, and above it all layers but the nearest */
+/* Sets `below` and `hidden` of all overlaps of a facet */
 static void LayersHide(PetscInt n, const ContactOverlap overlap[], SelfOverlap known[])
 {
   for (PetscInt j = 0; j < n; ++j) {
@@ -78,8 +79,8 @@ static void LayersHide(PetscInt n, const ContactOverlap overlap[], SelfOverlap k
   }
 }
 
-/* Selects from the n overlaps of a facet those with a visible facet in front of it, for which the facet is the
-   nonmortar one. mortar: numbers of the other facets among the candidates */
+/* Selects from the n overlaps of a facet those that are not hidden and in which the facet is the nonmortar one.
+   mortar: numbers of the other facets among the candidates */
 PetscErrorCode ContactSelfSelect(const ContactSelfFacet *facet, const ContactCandidates *facets, PetscInt *n,
   PetscInt mortar[], ContactOverlap overlap[])
 {

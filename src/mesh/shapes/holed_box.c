@@ -7,11 +7,10 @@
 #include "shapesimpl.h"
 
 typedef struct {
-  /* numbers of cells along an eighth of a turn, and from the hole to the sides; number of the first eighth of a turn,
-     and number of eighths */
-  PetscInt n, layers, first, count;
-  PetscInt around; /* number of vertices around the hole in one layer */
-  PetscInt eighth; /* number of the block's eighth */
+  PetscInt n, layers;    /* numbers of cells along an eighth of a turn, and from the hole to the sides */
+  PetscInt first, count; /* first eighth of a turn in the box, and number of eighths */
+  PetscInt around;       /* number of vertices around the hole in one layer */
+  PetscInt eighth;       /* the eighth of a turn that a block of the grid fills */
 } HoledBox;
 
 /* Returns the distance from the hole's axis to the side at the lower (end = 0) or upper (end = 1) end of axis d; 0 if
@@ -28,7 +27,7 @@ static HoledBox HoledSetUp(const SceneBody *body)
 {
   const PetscInt s = (body->tube.axis + 1) % 3, t = (body->tube.axis + 2) % 3;
   HoledBox       h = {.n = body->cells[1], .layers = body->cells[0]};
-  PetscBool      has[4]; /* whether the box has each quarter of a turn */
+  PetscBool      has[4]; /* which quadrants around the hole's axis the box has */
 
   for (PetscInt q = 0; q < 4; ++q)
     has[q] = (PetscBool)(HoledReach(body, s, q == 0 || q == 3) > 0 && HoledReach(body, t, q < 2) > 0);
@@ -106,7 +105,7 @@ static PetscInt HoledVertex(const void *context, PetscInt layer, PetscInt i, Pet
   return HoledNumber(h, layer, (h->eighth - h->first) * h->n + i, k);
 }
 
-/* Computes the point q on the square with max(|a|, |b|) = 1 that is i of n cells along an eighth of a turn */
+/* Computes the point q at i/n of one eighth of the outline of the square max(|a|, |b|) = 1 */
 static void HoledSquare(PetscInt eighth, PetscInt i, PetscInt n, PetscReal q[2])
 {
   static const PetscInt corners[9][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}};

@@ -251,10 +251,11 @@ static const SceneKey cyclic_rows[] = {TEXT("from", NULL, SceneCyclic, from, REQ
   REALS("center", NULL, 3, SceneCyclic, center, OPTIONAL, ANY, "L", "[0, 0, 0]", "a point on the axis"), {NULL}};
 
 static const SceneKey refinement_rows[] = {
-  OWN("near", NULL, SceneRefinement, face, OPTIONAL, SceneOwnNear, "", "a box",
-    "name of a contact pair, to refine cells near both of its undeformed faces; or a face, to refine cells of its"
+  OWN("near", NULL, SceneRefinement, face, OPTIONAL, SceneOwnNear, "", "none: `lower` and `upper` are required",
+    "a contact pair, to refine cells near both of its undeformed faces; or a face, to refine cells of its"
     " body near it"),
-  REALS("lower", NULL, 3, SceneRefinement, lower, SHOWN, ANY, "L", "required without `near`", "lower corner of a box"),
+  REALS("lower", NULL, 3, SceneRefinement, lower, SHOWN, ANY, "L", "required without `near`",
+    "lower corner of the box in which cells are refined"),
   REALS("upper", NULL, 3, SceneRefinement, upper, SHOWN, ANY, "L", "required without `near`",
     "upper corner of the box"),
   NUMBER_OF("body", BODY, SceneRefinement, body, "any body", "the body whose cells in the box are refined"),
@@ -265,11 +266,12 @@ static const SceneKey refinement_rows[] = {
     "cells are refined if their bounding box is within this distance of the face or the box"),
   {NULL}};
 
-static const SceneKey probe_rows[] = {
-  REALS("point", NULL, 3, SceneProbe, from, SHOWN, ANY, "L", "a line", "a point of the undeformed body"),
-  REALS("from", NULL, 3, SceneProbe, from, SHOWN, ANY, "L", "a point", "one end of a line"),
-  REALS("to", NULL, 3, SceneProbe, to, SHOWN, ANY, "L", "a point", "the other end"),
-  INTS("points", NULL, 1, SceneProbe, n, SHOWN, "a point", "number of points of the line, both ends included"),
+static const SceneKey probe_rows[] = {REALS("point", NULL, 3, SceneProbe, from, SHOWN, ANY, "L",
+                                        "required for a single point", "a point of the undeformed body"),
+  REALS("from", NULL, 3, SceneProbe, from, SHOWN, ANY, "L", "required for a line", "one end of a line"),
+  REALS("to", NULL, 3, SceneProbe, to, SHOWN, ANY, "L", "required for a line", "the other end"),
+  INTS("points", NULL, 1, SceneProbe, n, SHOWN, "required for a line",
+    "number of points of the line, both ends included"),
   NUMBER_OF("body", BODY, SceneProbe, body, "the first of them", "the body, if the point is on several"), {NULL}};
 
 static const SceneKey load_rows[] = {SECTION("steps", "the number of factors of the first ramp with `factors`, or 1",
