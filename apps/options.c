@@ -33,31 +33,31 @@ PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscFunctionBeginUser;
   PetscCall(PetscMemzero(app, sizeof(*app)));
   PetscOptionsBegin(PETSC_COMM_WORLD, NULL, "Contact", NULL);
-  PetscCall(PetscOptionsString("-output", "Base name of the HDF5 and XDMF files", NULL, app->output, app->output,
+  PetscCall(PetscOptionsString("-output", "Base name of the HDF5, XDMF and CSV files", NULL, app->output, app->output,
     sizeof(app->output), &app->write));
   PetscCall(PetscOptionsBool("-output_gauss", "Also write the stress at the quadrature points", NULL, app->gauss,
     &app->gauss, NULL));
-  PetscCall(PetscOptionsInt("-checkpoint_every", "Load steps between two checkpoints", NULL, app->checkpoint_every,
-    &app->checkpoint_every, NULL));
+  PetscCall(PetscOptionsInt("-checkpoint_every", "Number of load steps between two checkpoints; 0: none", NULL,
+    app->checkpoint_every, &app->checkpoint_every, NULL));
   PetscCheck(app->checkpoint_every >= 0, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
     "-checkpoint_every must be at least 0, not %" PetscInt_FMT, app->checkpoint_every);
-  PetscCall(PetscOptionsString("-checkpoint", "File of the checkpoint", NULL, app->checkpoint, app->checkpoint,
+  PetscCall(PetscOptionsString("-checkpoint", "Name of the checkpoint file", NULL, app->checkpoint, app->checkpoint,
     sizeof(app->checkpoint), NULL));
-  PetscCall(PetscOptionsString("-restart", "Checkpoint to restart from", NULL, app->restart, app->restart,
+  PetscCall(PetscOptionsString("-restart", "Checkpoint from which the run continues", NULL, app->restart, app->restart,
     sizeof(app->restart), &app->restarts));
-  PetscCall(PetscOptionsString("-summary", "JSON report", NULL, app->summary, app->summary, sizeof(app->summary),
-    &app->summarize));
-  PetscCall(PetscOptionsString("-report", "HTML page of the run", NULL, app->report, app->report, sizeof(app->report),
-    &app->page));
-  PetscCall(PetscOptionsBool("-contact_free", "Also solve the first step without contact", NULL, app->contact_free,
-    &app->contact_free, NULL));
-  PetscCall(PetscOptionsBool("-accuracy_view", "Print what -accuracy chose and reached", NULL, app->accuracy,
-    &app->accuracy, NULL));
-  PetscCall(
-    PetscOptionsBool("-effects_view", "Print the effects of the scene", NULL, app->effects, &app->effects, NULL));
-  PetscCall(
-    PetscOptionsBool("-scene_check", "Print what would be simulated, and stop", NULL, app->check, &app->check, NULL));
-  PetscCall(PetscOptionsBool("-quiet", "Print nothing", NULL, app->quiet, &app->quiet, NULL));
+  PetscCall(PetscOptionsString("-summary", "Name of the JSON file with all numbers of the run", NULL, app->summary,
+    app->summary, sizeof(app->summary), &app->summarize));
+  PetscCall(PetscOptionsString("-report", "Name of the HTML page of the run", NULL, app->report, app->report,
+    sizeof(app->report), &app->page));
+  PetscCall(PetscOptionsBool("-contact_free", "Also solve the first load step without contact, for comparison", NULL,
+    app->contact_free, &app->contact_free, NULL));
+  PetscCall(PetscOptionsBool("-accuracy_view", "Print the meshes that -accuracy chose, and their errors", NULL,
+    app->accuracy, &app->accuracy, NULL));
+  PetscCall(PetscOptionsBool("-effects_view", "Print which effects the scene uses, why, and their share of the time",
+    NULL, app->effects, &app->effects, NULL));
+  PetscCall(PetscOptionsBool("-scene_check", "Check the scene, build its mesh, print what would be simulated, and stop",
+    NULL, app->check, &app->check, NULL));
+  PetscCall(PetscOptionsBool("-quiet", "Print neither iterations nor tables", NULL, app->quiet, &app->quiet, NULL));
   PetscOptionsEnd();
   if (argc > 1 && argv[1][0] != '-') PetscCall(PetscStrncpy(app->scene, argv[1], sizeof(app->scene)));
   PetscCall(PetscOptionsHasHelp(NULL, &helped));

@@ -101,8 +101,9 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
   PetscCall(PetscOptionsBool("-tao_ipfilter_direct",
     "Factor the whole matrix by MUMPS and use its inertia, instead of a Krylov method", TAOIPFILTER, opt->direct_always,
     &opt->direct_always, NULL));
-  PetscCall(PetscOptionsEnum("-tao_ipfilter_subspace", "Filtered subspace method instead of the interior point method",
-    TAOIPFILTER, IPSubspaceUses, (PetscEnum)opt->subspace, (PetscEnum *)&opt->subspace, NULL));
+  PetscCall(
+    PetscOptionsEnum("-tao_ipfilter_subspace", "Use the filtered subspace method instead of the interior point method",
+      TAOIPFILTER, IPSubspaceUses, (PetscEnum)opt->subspace, (PetscEnum *)&opt->subspace, NULL));
   PetscCall(PetscOptionsInt("-tao_ipfilter_subspace_max",
     "Largest number of directions of the filtered subspace method; 0: 80, or 48 with Newton's method", TAOIPFILTER,
     opt->subspace_max, &opt->subspace_max, NULL));

@@ -181,7 +181,7 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
 . contact - the contact
 
   Options Database Keys:
-+ -contact_gap <mortar,node>         - how the gap of every pair is measured; overrides the setting of the pairs
++ -contact_gap <mortar,node,dual>    - how the gap of every pair is measured; overrides the setting of the pairs
 . -contact_smooth <true,false>       - whether the gap of every pair is measured between smooth surfaces through the
                                        facets; overrides the setting of the pairs
 . -contact_normals <nodal,facet>     - direction of mortar gaps: the averaged normals of the vertices, or the normals

@@ -209,23 +209,14 @@ static PetscErrorCode OutputRemoveOlder(Output output)
    Level: intermediate
 
    Notes:
-   Fields at vertices, on both sides of the contact pairs: displacement [length], contact_pressure [force/length^2],
-   contact_gap [length], contact_area [length^2], contact_status (1 in contact, 0 open), contact_force [force]. The sum
-   of contact_pressure times contact_area over the vertices of a side is the pair's normal force; the sum of
-   contact_force is its force. The area is the part of the vertex's area that the other side covers. A vertex that is
-   covered much less than its neighbours has area and pressure 0; its share is added to theirs. Outside of the contact
-   faces gap and status are NaN, which ParaView shows in its NaN colour, and the other fields are 0.
+   share/scenes/README.md lists the fields of cells and vertices, with their units, and the columns of the history.
 
-   With several pairs there are also fields for each pair, called contact_pressure_<pair> and so on. At a vertex of
-   several pairs, the fields without a pair's name have the mean pressure, the smallest gap, and the sums of areas and
-   forces.
+   Fields of contact are on both sides of the pairs. Outside of the contact faces contact_gap and contact_status are
+   NaN, which ParaView shows in its NaN colour, and the other fields of contact are 0. At a vertex of several pairs, the
+   fields without a pair's name have the mean pressure, the smallest gap, and the sums of areas and forces.
 
-   Fields of cells: stress (xx, xy, xz, yy, yz, zz) and von_mises [force/length^2], body. Where the state has them:
-   strain_energy_density of cells [force/length^2]; at vertices nodal_stress, nodal_von_mises and principal_stress, the
-   three values with the largest first; and <basename>_gauss.xmf, the quadrature points as a cloud with gauss_stress.
-
-   The history <basename>.csv gets a line: every number of the report of the load step, see share/scenes/README.md.
-   The points of each line of the scene's probes are added to <basename>_<line>.csv.
+   The history <basename>.csv gets a line with every number of the report of the load step. The points of each line of
+   the scene's probes are added to <basename>_<line>.csv.
 
 .seealso: `OutputCreate()`, `OutputDestroy()`
 @*/

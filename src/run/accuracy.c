@@ -43,8 +43,8 @@ static const char *const AccuracyTargets[] = {"energy", "force", "pressure", "di
                                 displacements of the scene's probes
 .  -accuracy_adaptive <false> - refine only the cells with a large error
 .  -accuracy_share <0.1>      - largest error of the solver, as a fraction of the target
-.  -accuracy_order <2>        - order of all bodies from the second mesh on. The second mesh then has the cells of the
-                                first. Default: the order of the scene
+.  -accuracy_order <2>        - order of all bodies from the second mesh on; the second mesh then has the cells of the
+                                first. Without the option: the order of the scene
 -  -accuracy_max_dofs <1e6>   - largest number of unknowns of a mesh
 
    Level: beginner
@@ -64,19 +64,20 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
   PetscOptionsBegin(comm, NULL, "Accuracy", NULL);
   PetscCall(PetscOptionsReal("-accuracy", "Requested relative error in energy and contact force", "AccuracyPlan",
     acc->target, &acc->target, &set));
-  PetscCall(PetscOptionsEList("-accuracy_of", "Quantity that must be accurate", "AccuracyAssess", AccuracyTargets,
-    ACCURACY_DISPLACEMENT + 1, AccuracyTargets[of], &of, NULL));
+  PetscCall(PetscOptionsEList("-accuracy_of", "Quantity that must be accurate besides the energy", "AccuracyAssess",
+    AccuracyTargets, ACCURACY_DISPLACEMENT + 1, AccuracyTargets[of], &of, NULL));
   PetscCall(PetscOptionsBool("-accuracy_adaptive", "Refine only where the error is large", "AccuracyAssess",
     acc->adaptive, &acc->adaptive, NULL));
   PetscCall(PetscOptionsReal("-accuracy_share", "Fraction of the requested error that the solver may leave",
     "AccuracyPlan", acc->share, &acc->share, NULL));
   PetscCall(PetscOptionsReal("-accuracy_max_dofs", "Largest number of unknowns of a mesh", "AccuracyAssess", max_dofs,
     &max_dofs, NULL));
-  PetscCall(PetscOptionsInt("-accuracy_order", "Element order of all bodies from the second mesh on", "AccuracyAssess",
+  PetscCall(PetscOptionsInt("-accuracy_order",
+    "Element order of all bodies from the second mesh on, 2; default: the order of the scene", "AccuracyAssess",
     acc->order, &acc->order, &ordered));
   PetscOptionsEnd();
   PetscCheck(!ordered || acc->order == 2, comm, PETSC_ERR_USER_INPUT,
-    "-accuracy_order must be 2, not %" PetscInt_FMT ": it raises the order of the first mesh", acc->order);
+    "-accuracy_order must be 2, not %" PetscInt_FMT ": without the option the order is that of the scene", acc->order);
   PetscCheck(!acc->order || !acc->adaptive, comm, PETSC_ERR_SUP,
     "-accuracy_order cannot be combined with -accuracy_adaptive: only hexahedra of order 1 are refined locally");
   PetscCheck(!set || (acc->target > 0.0 && acc->target < 1.0), comm, PETSC_ERR_USER_INPUT,

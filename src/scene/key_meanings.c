@@ -20,8 +20,8 @@ static const KeyMeaning shape_meanings[] = {
   {"axis", "",
     "axis along which the body is a prism; for a cone or a holed box: axis of the cone or of the hole; `x`, `y`, `z`",
     ""},
-  {"cap_center", " [L]", "centre of a third sphere, which cuts the outer one", "`center`"},
-  {"cap_radius", " [L]", "radius of the third sphere", "no cut"},
+  {"cap_center", " [L]", "centre of the third sphere", "`center`"},
+  {"cap_radius", " [L]", "radius of a third sphere, which cuts the outer one", "no cut"},
   {"cells", "",
     "number of cells along x, y, z; for a tube: across the wall, around and along the axis; for a cylinder or cone: "
     "across the square core, from the core to the surface, and along the axis; for a holed box: from the hole to the "

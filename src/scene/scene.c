@@ -26,16 +26,17 @@ static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scen
 
   PetscFunctionBegin;
   PetscOptionsBegin(comm, NULL, "Scene", NULL);
-  PetscCall(
-    PetscOptionsInt("-refine", "Uniform refinements of level 0", "SceneLoad", scene->refine, &scene->refine, NULL));
+  PetscCall(PetscOptionsInt("-refine", "Number of uniform refinements of the mesh", "SceneLoad", scene->refine,
+    &scene->refine, NULL));
   PetscCall(PetscOptionsInt("-load_steps", "Number of equal load steps into which the scene's load program is divided",
     "SceneLoad", nsteps, &nsteps, &set));
-  PetscCall(PetscOptionsEnum("-model", "Function that a load step minimizes", "SceneLoad", StepModels,
-    (PetscEnum)scene->model, (PetscEnum *)&scene->model, NULL));
+  PetscCall(PetscOptionsEnum("-model", "Objective of a load step: the exact energy, or its quadratic model",
+    "SceneLoad", StepModels, (PetscEnum)scene->model, (PetscEnum *)&scene->model, NULL));
   PetscCall(PetscOptionsInt("-contact_updates", "Largest number of contact updates per load step", "SceneLoad",
     scene->contact_updates, &scene->contact_updates, NULL));
-  PetscCall(PetscOptionsInt("-displacement_bounds", "First load step with bounded displacements; 0: none", "SceneLoad",
-    bounds, &bounds, &bounded));
+  PetscCall(PetscOptionsInt("-displacement_bounds",
+    "First load step in which no displacement may change by more than the largest earlier increment; 0: none",
+    "SceneLoad", bounds, &bounds, &bounded));
   PetscOptionsEnd();
   PetscCheck(nsteps >= 1, comm, PETSC_ERR_USER_INPUT, "%s: %" PetscInt_FMT " load steps, which must be at least 1",
     file, nsteps);

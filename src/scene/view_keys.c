@@ -62,7 +62,7 @@ static PetscErrorCode KeyView(const SceneKey *row, PetscViewer viewer)
    Level: intermediate
 
    Note:
-   share/scenes/README.md has these tables. Units: F a force, L a length.
+   share/scenes/README.md has these tables. Units: F a force, L a length, T a time, M a mass.
 
 .seealso: `SceneLoad()`
 @*/

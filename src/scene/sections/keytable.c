@@ -210,8 +210,8 @@ static const SceneKey contact_rows[] = {
     "with itself, see [Self contact](#self-contact). In `auto`: `true`, all bodies of finite strain"),
   NAMED("gap", NULL, CHOICE, SceneContactPair, gap, SHOWN, GapTypes, "`mortar`",
     "`mortar`: integrated over the overlap of the faces; `node`: from nonmortar vertex to the closest point of the "
-    "mortar face; `dual`: as `mortar`, with dual shape functions, whose forces act at the nonmortar vertices (see"
-    " Edges)"),
+    "mortar face; `dual`: as `mortar`, with dual shape functions, whose forces act at the nonmortar vertices, see "
+    "[contact surfaces](#contact-surfaces-and-updates)"),
   REALS("distance", NULL, 1, SceneContactPair, distance, OPTIONAL, FROM_0, "L", "chosen from the size of the faces",
     "largest distance of facets that can come into contact; facets further apart are not searched"),
   OWN("interference", NULL, SceneContactPair, interference, OPTIONAL, SceneOwnInterference, "L", "`false`",
@@ -226,8 +226,8 @@ static const SceneKey contact_rows[] = {
     "largest friction stress. With `friction` it limits Coulomb's law; alone it is Tresca's law where the faces touch"),
   OWN("stick", NULL, SceneContactPair, friction, OPTIONAL, SceneOwnStick, "", "`false`",
     "`true`: faces that touch do not slip while the shear force is below 1,000 times the normal force; without "
-    "`friction` and `shear_limit`. A node that closes within a "
-    "load step sticks where it has closed; one that opens before may slip in that step"),
+    "`friction` and `shear_limit`. A node that closes within a load step sticks where it closes. A node that opens and "
+    "closes again within a load step may slip in between"),
   ANSWER("smooth", NULL, SceneContactPair, smooth, "`true`",
     "`true`: the gap is measured between smooth surfaces through the facets of curved faces; edges of more than "
     "35 degrees stay sharp. `false`: between the facets"),
