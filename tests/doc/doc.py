@@ -7,8 +7,10 @@ import sys
 
 TOP = os.environ["AMGF_DIR"]
 COLUMNS = 100  # of a page
-PAGES = sorted(["README.md", "tests/README.md"] +
-               [os.path.relpath(path, TOP) for path in glob.glob(os.path.join(TOP, "share", "*", "*.md"))])
+PAGES = sorted(
+    os.path.relpath(path, TOP) for pattern in ("*.md", "share/*/*.md", "tests/README.md", "apps/README.md",
+                                               "pc_amgf/**/README.md", "tao_ipfilter/**/README.md", "src/**/README.md")
+    for path in glob.glob(os.path.join(TOP, pattern), recursive=True))
 
 
 def text(path):
@@ -61,6 +63,17 @@ def unknown_options():
                 yield f"{page}: -{option}"
 
 
+def unknown_targets():
+    """Of make, in code"""
+    rules = text("makefile") + text("tests/makefile") + "".join(
+        text(os.path.relpath(path, TOP)) for path in glob.glob(os.path.join(TOP, "share", "*.mk")))
+    for page in PAGES:
+        for code in re.findall(r"`([^`\n]*)`|^    (.*)$", text(page), flags=re.M):
+            for target in re.findall(r"^make ([a-z][\w-]*)", "".join(code)):
+                if not re.search(rf"^(?:[\w -]+ )?{target}(?: [\w -]+)?:", rules, flags=re.M):
+                    yield f"{page}: make {target}"
+
+
 def wide_lines():
     """Of prose; a table's row cannot be broken"""
     for page in PAGES:
@@ -98,5 +111,6 @@ else:
     say("broken links", broken_links())
     say("columns that the guide does not explain", unexplained())
     say("options that are none", unknown_options())
+    say("targets of make that are none", unknown_targets())
     say(f"lines wider than {COLUMNS} columns", wide_lines())
     say("calls without a manual page", missing_pages(sys.argv[1]))
