@@ -78,8 +78,8 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
   }
   PetscCall(PetscOptionsReal("-tao_ipfilter_tol", "KKT error at which the solver has converged; the same as -tao_gatol",
     TAOIPFILTER, tao->gatol, &tao->gatol, NULL));
-  PetscCall(PetscOptionsEnum("-tao_ipfilter_start", "Slacks and multipliers at the start", TAOIPFILTER, IPStarts,
-    (PetscEnum)opt->start, (PetscEnum *)&opt->start, NULL));
+  PetscCall(PetscOptionsEnum("-tao_ipfilter_start", "How slacks and multipliers are chosen at the start", TAOIPFILTER,
+    IPStarts, (PetscEnum)opt->start, (PetscEnum *)&opt->start, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_barrier", "How the barrier parameter is updated", TAOIPFILTER,
     IPBarrierRules, (PetscEnum)opt->barrier, (PetscEnum *)&opt->barrier, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_kkt", "Measure of the KKT error", TAOIPFILTER, IPKKTMeasures,

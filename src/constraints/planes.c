@@ -121,7 +121,9 @@ static PetscErrorCode PlanesExpand(const Constraints *constraints, NodePlanes no
   PetscCall(VecRestoreArrayRead(given, &u));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPIU_REAL, MPIU_MAX, constraints->bodies.comm));
   PetscCheck(worst <= 1e-9 * size, constraints->bodies.comm, PETSC_ERR_USER_INPUT,
-    "symmetry: prescribed displacements move vertices of a symmetry plane off the plane by %g", (double)worst);
+    "symmetry: prescribed displacements move vertices of a symmetry plane off the plane by %g: prescribe "
+    "displacements along the plane only",
+    (double)worst);
   PetscCall(MatAssemblyBegin(*C, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(*C, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);

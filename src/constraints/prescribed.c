@@ -115,9 +115,12 @@ static PetscErrorCode PrescribedMerge(MPI_Comm comm, Prescribed *p)
   p->n = unique;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, worst, 2, MPIU_REAL, MPIU_MAX, comm));
   PetscCheck(worst[0] == 0.0, comm, PETSC_ERR_USER_INPUT,
-    "displacements: two faces prescribe values that differ by %g on the vertices they share", (double)worst[0]);
+    "displacements: two faces prescribe values that differ by %g on the vertices they share: prescribe the same values "
+    "there, or different components",
+    (double)worst[0]);
   PetscCheck(worst[1] == 0.0, comm, PETSC_ERR_USER_INPUT,
-    "displacements: two faces prescribe the same value by different ramps on the vertices they share");
+    "displacements: two faces prescribe the same value by different ramps on the vertices they share: use one ramp for "
+    "both");
   PetscFunctionReturn(0);
 }
 

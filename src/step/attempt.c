@@ -39,8 +39,8 @@ static PetscErrorCode AttemptBodies(StepProblem *p, PetscBool foreseen, Vec u, S
     PetscCall(AttemptGetAllowed(p->sim, u, &allowed));
     again = (PetscBool)(report->converged && report->straightened > allowed);
     if (k < most || !again) continue;
-    PetscCall(ReportReason(report, PETSC_FALSE,
-      "the rotations of rigid bodies that turn freely do not converge; use smaller load steps"));
+    PetscCall(
+      ReportReason(report, PETSC_FALSE, "the free rotations of rigid bodies do not converge; use smaller load steps"));
     again = PETSC_FALSE;
   }
   PetscFunctionReturn(0);

@@ -102,7 +102,7 @@ PetscErrorCode SlippedAwayWarn(Simulation sim, const StepReport *report)
     sim->control->slipped = PETSC_TRUE;
     PetscCall(ReportWarn(sim->comm, &sim->report,
       "body \"%s\" slips away in load step %" PetscInt_FMT ": it moves by %.3g, %.3g times as far as any other body, "
-      "and no force acts on it there, so that its place is arbitrary: hold it by displacements or springs, or use "
+      "and no force acts on it there. Its position is therefore arbitrary: hold it by displacements or springs, or use "
       "smaller load steps",
       scene->bodies[farthest].name, report->step, (double)moved[farthest], (double)(moved[farthest] / others)));
   }

@@ -222,7 +222,7 @@ PetscErrorCode ElasticityAddForce(Elasticity e, const char face[], const PetscRe
   VectorAddCross(arm, resultant, about);
   solved = FaceSolveMoment(sums + 4, about, t.b);
   PetscCheck(solved, PetscObjectComm((PetscObject)e->dm), PETSC_ERR_ARG_WRONG,
-    "The face \"%s\" is too slender to carry a moment", face);
+    "The face \"%s\" is too slender to carry a moment: apply the moment to a larger face", face);
   PetscCall(FaceAddField(e, face, FaceTwisted, &t, force));
   PetscFunctionReturn(0);
 }
