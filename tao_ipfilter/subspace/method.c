@@ -417,7 +417,10 @@ static PetscErrorCode FilteredForget(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Begins the method if the constraints involve few unknowns */
+/*
+   Begins the method if the constraints involve few unknowns. Newton's method also begins where the Hessian is
+   indefinite; its first step then shifts the Hessian.
+*/
 static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -432,7 +435,8 @@ static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
     PetscFunctionReturn(0);
   }
   PetscCall(IPRecycleUpdate(tao, recycle, begun));
-  if (*begun) PetscCall(IPFilteredSetUp(tao, recycle, begun));
+  if (*begun) PetscCall(IPFilteredSetUp(tao, recycle, &f->ready));
+  *begun = (PetscBool)(*begun && (f->ready || f->newton));
   if (*begun) PetscCall(FilteredFirst(tao, recycle, begun));
   ip->method->multipliers = (PetscBool)!f->newton;
   if (*begun) PetscCall(IPKrylovRecord(tao, 0));

@@ -363,7 +363,7 @@ static PetscErrorCode NewtonEvaluateHessian(Tao tao)
 
 /*
    Computes the Newton step d. The Hessian is shifted until the model is convex. *found: false if no moderate shift is
-   sufficient. At the first point the model has already been set up.
+   sufficient. At the first point the set-up of the model has already been tried.
 */
 static PetscErrorCode NewtonFindStep(Tao tao, IPRecycle *recycle, Vec d, Vec force, PetscBool *found)
 {
@@ -372,7 +372,7 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPRecycle *recycle, Vec d, Vec for
   const PetscReal target = NewtonTarget(ip, IPFilteredOf(tao));
 
   PetscFunctionBegin;
-  *found           = PETSC_TRUE;
+  *found           = (PetscBool)(tao->niter || IPFilteredOf(tao)->ready);
   ip->shift->delta = 0.0;
   if (ip->terms->n) PetscCall(VecCopy(ip->terms->force, ip->terms->last));
   for (PetscInt k = 0; k <= shifts; k++) {

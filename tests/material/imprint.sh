@@ -1,5 +1,5 @@
 # A rigid ball is pressed into a block that yields and taken away again: its imprint stays; the same on two ranks;
-# applications of the AMG beside those of an elastic block.
+# applications of the AMG beside those of an elastic block; a start at which the tangent is indefinite.
 contact=$AMGF_DIR/bin/contact
 cat > brinell.yaml <<'YAML'
 problem: brinell
@@ -24,7 +24,8 @@ for n in 1 2; do
 done
 sed 's/material: j2,/material: j2_finite,/' brinell.yaml > finite.yaml
 sed -e 's/material: j2,/material: neohookean,/' -e 's/, yield: 200//' brinell.yaml > elastic.yaml
-for scene in finite elastic; do
+sed 's/0.5, 1, 0/1, 2/' finite.yaml > deep.yaml
+for scene in finite elastic deep; do
   "$contact" $scene.yaml -quiet -tao_ipfilter_pc_amgf_factor false -error_estimate 0 -summary $scene.json 2> /dev/null \
     || echo "$scene: exit code $?"
 done
@@ -46,5 +47,7 @@ say("two ranks: the same",
 finite, elastic = ([step["amg_applications"] for step in load(name)["steps"]] for name in ("finite", "elastic"))
 say("pressed in: at most 3 times the AMG applications of an elastic block",
     max(a / b for a, b in zip(finite[:2], elastic)) < 3, (finite, elastic))
+say("pressed deep in: no load step needs the interior point method, although the tangent is indefinite at its start",
+    all(step["systems"] == 0 for step in load("deep")["steps"]), [step["systems"] for step in load("deep")["steps"]])
 say("taken away: no more than pressed in", finite[2] <= finite[1], (finite, elastic))
 PY
