@@ -74,9 +74,9 @@ static void AppLeaveFiles(int end)
 }
 
 /*
-   Ends the program after an error has returned through all callers. With a collective error every rank comes here. If a
-   rank waits in vain for the others for ten seconds, they may never come; it then ends them, as PETSc's traceback does.
-   Objects are not destroyed. MPI_Finalize() is called in place of PetscFinalize(), which would complain about them.
+   Ends the program after an error has returned through all callers. If the error is collective, every rank calls this
+   function. If some ranks do not call it within ten seconds, they may never do so; MPI_Abort() then ends them. Objects
+   are not destroyed. Therefore MPI_Finalize() is called instead of PetscFinalize(), which would report them.
 */
 void AppLeave(const AppError *error)
 {

@@ -3,8 +3,8 @@
 
    With complex scalars, the plugin is PCAMGF alone.
 
-   Every call dispatches by name (PetscTryMethod/PetscUseMethod), so a program may also do without this header:
-   -pc_type amgf, -tao_type ipfilter, and an IS or Mat composed on the Pmat under "amgf_filter".
+   Every call dispatches by name (PetscTryMethod/PetscUseMethod). A program need not include this header: -pc_type amgf,
+   -tao_type ipfilter, and an IS or Mat composed on the Pmat under "amgf_filter" are sufficient.
 */
 #ifndef PETSCAMGF_H
 #define PETSCAMGF_H

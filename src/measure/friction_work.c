@@ -114,9 +114,9 @@ static PetscReal FrictionLateWork(PetscReal before, PetscReal now, const PetscRe
 }
 
 /*
-   Returns the part of FrictionLateWork() that counts. An open row slipped until it opened. This is assumed if it moved
-   farther along the face than away from it. The force that it lost must be found in other rows of its pair: ratio is
-   the sum of the bounds of the pair over that at the last state.
+   Returns the fraction of FrictionLateWork() that is added. It is 1 for a closed row. A row that opened is assumed to
+   have slipped before, if it moved farther along the face than away from it. Its work is then limited by `ratio`, the
+   sum of the bounds of the pair divided by that at the last state: other rows of the pair must carry the lost force.
 */
 static PetscReal FrictionLatePart(PetscReal now, PetscReal gap, const PetscScalar s[2], PetscReal ratio)
 {
@@ -208,10 +208,10 @@ static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const 
 
 /*
    Computes for every pair and vertex the work of friction since the last state (work, [npairs x nowned]), and the
-   bounds of the friction forces at u. Friction never gains energy. The work of a pair counts as zero if rounding errors
-   make it negative, or forces of rows that opened, which the mean takes to act until the end. sums: [npairs] work of
-   each pair on all ranks; *late: the part that the mean of the forces at the two states lacks, on all ranks; friction:
-   [3 npairs x nowned] friction forces at u, or NULL.
+   bounds of the friction forces at u. Friction never gains energy. If the computed work of a pair is negative, it is
+   set to zero. Causes are rounding errors, and rows that opened: the mean of the forces assumes that their forces act
+   until the end. sums: [npairs] work of each pair on all ranks; *late: the part of the work that the mean of the forces
+   at the two states omits, on all ranks; friction: [3 npairs x nowned] friction forces at u, or NULL.
 */
 static PetscErrorCode FrictionGetWork(Simulation sim, PetscReal time, Vec u, const ContactSolution *sol,
   PetscReal work[], PetscReal bound[], PetscReal sums[], PetscReal friction[], PetscReal *late)

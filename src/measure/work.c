@@ -108,9 +108,9 @@ static PetscErrorCode WorkAddBolts(Simulation sim, Vec u, StepReport *report)
 /*
    Adds the work from the last state to u. unbalanced: internal - contact - dead forces, which are the reactions in
    prescribed rows; rigid: forces on rigid bodies that are driven by forces, or NULL; contact: contact forces if there
-   is friction, which this function takes over, or NULL. late: work of friction beyond that of the mean forces; it comes
-   from the loads, whose mean forces are too small by the same. With temperatures it may come from the thermal
-   expansion, whose work is not computed.
+   is friction, owned by this function afterwards, or NULL. late: work of friction that the mean of the forces at both
+   states omits. The mean of the loads omits the same work, which is therefore added to theirs. With temperatures a part
+   may come from the thermal expansion, whose work is not computed.
 */
 PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, PetscReal late,
   StepReport *report)

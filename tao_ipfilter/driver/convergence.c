@@ -74,9 +74,9 @@ PetscBool IPAcceptable(const TAO_IPFILTER *ip)
 }
 
 /*
-   Counts consecutive steps that are as small as rounding errors of x and do not reduce the KKT error by half. A step
-   that does may change small unknowns and slacks beside a large unknown. If x tends to zero, the steps are compared
-   with the rounding errors of a small fraction of the first x.
+   Counts consecutive steps that are as small as rounding errors of x. A step that halves the KKT error is not counted:
+   it may change small unknowns and slacks beside a large unknown. If x tends to zero, the steps are compared with the
+   rounding errors of a small fraction of the first x.
 */
 static PetscErrorCode CountTinySteps(Tao tao)
 {

@@ -12,10 +12,12 @@
 #include "tao_ipfilter/solver/terms.h"
 
 /*
-   Finds whether the matrix might be indefinite without anyone having noticed. A factorization that the user has chosen
-   solves with any matrix. After a relaxation of constraints the inertia of factors is not tested. Before negative
-   curvature has been noticed, that of the filter's factors is tested only here. With equality constraints each step
-   tests it, and shifts an indefinite Hessian; a shift does not leave a stationary point.
+   Finds whether the matrix may be indefinite although no solve has reported it. This is possible in four cases:
+   - A factorization that the user has chosen solves with any matrix.
+   - After a relaxation of constraints the inertia of factors is not tested.
+   - The inertia of the filter's factors is tested only here, until a direction of negative curvature has been found.
+   - With equality constraints each step tests the inertia, and shifts an indefinite Hessian. At a stationary point the
+     shifted step is zero.
 */
 static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
 {

@@ -296,8 +296,8 @@ PetscReal IPErrorBoundForceUnit(const TAO_IPFILTER *ip)
 }
 
 /*
-   Predicts IPErrorBoundForceUnit() for the end of the step dx, with the objective of the quadratic model. If x is zero
-   at the start, the present objective is no guide.
+   Predicts IPErrorBoundForceUnit() for the end of the step dx, with the objective of the quadratic model. The present
+   objective would be too small if the start is x = 0.
 */
 PetscErrorCode IPErrorBoundForceUnitAfter(Tao tao, Vec dx, PetscReal *unit)
 {

@@ -323,9 +323,9 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
 /*
    Estimates, every eight applications of the preconditioner, how many more are needed, and lets
    IPRecycleReconsider() choose between AMG and a factorization. The estimate divides the decimal digits of the
-   KKT error that are still to be gained by the digits gained per application: since the begin, or in the last eight
-   applications if that was faster, because the first applications are slow until the active set settles. Before the
-   first digit is gained these rates are meaningless; the estimate is then twice the number of applications so far.
+   KKT error that are still to be gained by the digits gained per application. These are counted since the beginning, or
+   in the last eight applications if that was faster: convergence is slow until the active set settles. Before the first
+   digit is gained these rates are meaningless; the estimate is then twice the number of applications so far.
 */
 static PetscErrorCode FilteredReconsider(Tao tao, IPRecycle *recycle, PetscBool *possible)
 {

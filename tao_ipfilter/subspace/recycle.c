@@ -161,7 +161,7 @@ static PetscErrorCode RecycleSetUpPC(Tao tao, IPRecycle *recycle, Mat A, Mat K, 
 /*
    Estimates how many applications of the AMG a new K needs. Models of Newton's method need fewer than a quadratic
    program, since they are solved to a larger tolerance. After the first model the number is the mean of the last
-   estimate and of the last model's applications. A factorization says nothing about the AMG.
+   estimate and of the last model's applications. Solves with a factorization do not change the estimate.
 */
 static PetscErrorCode RecycleForesee(Tao tao, IPRecycle *recycle, PetscReal *n)
 {

@@ -5,8 +5,8 @@
    rows of the free neighbours along the edges of the facets, with equal weights. Neighbours that match a vertex of the
    mortar face get nothing. The test functions of the remaining rows still sum to 1. If the gap is measured at nodes,
    the row is removed.
-   The rows beside these measure the same, but a force bends the two bodies apart, the less the farther it is from the
-   prescribed vertices: by the third power of the distance for beams. Therefore mean gaps of the next rows are added to
+   The same holds for the rows beside these, because the two bodies are stiff near the prescribed vertices: for beams,
+   the compliance grows with the third power of the distance. Therefore mean gaps of these rows are added to those of
    their neighbours too, up to `beyond` facets away.
 */
 #include "assemblyimpl.h"
