@@ -160,7 +160,7 @@ PETSC_INTERN PetscErrorCode PCAMGFFewRanksReset_Private(AMGFFewRanks *);
 PETSC_INTERN PetscErrorCode PCAMGFSetFilterRanks_AMGF(PC, PetscInt);
 PETSC_INTERN PetscErrorCode PCAMGFGetFilterPivots_AMGF(PC, PetscInt *);
 /* boomeramg.c */
-PETSC_INTERN PetscErrorCode PCAMGFConfigureBoomerAMG_Private(PC, PetscInt);
+PETSC_INTERN PetscErrorCode PCAMGFConfigureBoomerAMG_Private(PC, PetscInt, PetscBool own);
 /* inner.c */
 PETSC_INTERN PetscErrorCode PCAMGFPrefixInner_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFConfigureInner_Private(PC);

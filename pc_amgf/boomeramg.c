@@ -75,7 +75,8 @@ static PetscErrorCode BoomerAMGSetFromOptions(PC pc, PetscInt n, const BoomerAMG
 
    Input Parameters:
    + amg - the preconditioner
-   - bs  - block size of its matrix; 3 for displacements
+   . bs  - block size of its matrix; 3 for displacements
+   - own - hypre's own cycle is used, which needs the norms of the rows for its smoother
 
    Notes:
    The smoother is one sweep of l1 Gauss-Seidel, forward on the way down and backward on the way up. With it B is
@@ -84,7 +85,7 @@ static PetscErrorCode BoomerAMGSetFromOptions(PC pc, PetscInt n, const BoomerAMG
    With a block size > 1 and without nodal coarsening, PCHYPRE coarsens each component of a vector problem separately
    (the unknown approach). For three displacements the threshold of strong couplings is 0.7 instead of 0.25.
 */
-PetscErrorCode PCAMGFConfigureBoomerAMG_Private(PC amg, PetscInt bs)
+PetscErrorCode PCAMGFConfigureBoomerAMG_Private(PC amg, PetscInt bs, PetscBool own)
 {
   PetscInt        n = 5;
   PetscBool       all;
@@ -107,7 +108,7 @@ PetscErrorCode PCAMGFConfigureBoomerAMG_Private(PC amg, PetscInt bs)
   PetscCall(PetscObjectGetOptions((PetscObject)amg, &options));
   PetscCall(BoomerAMGOptionName((PetscObject)amg, "-pc_hypre_boomeramg_relax_type_all", full, sizeof(full)));
   PetscCall(PetscOptionsHasName(options, NULL, full, &all));
-  if (!all) n = PETSC_STATIC_ARRAY_LENGTH(defaults);
+  if (own && !all) n = PETSC_STATIC_ARRAY_LENGTH(defaults);
   PetscCall(PCSetType(amg, PCHYPRE));
   PetscCall(BoomerAMGSetFromOptions(amg, n, defaults));
   PetscFunctionReturn(0);

@@ -21,7 +21,7 @@ static PetscErrorCode InnerConfigureHypre(PC pc, PC amg)
 
   PetscFunctionBegin;
   PetscCall(MatGetBlockSize(pc->pmat, &bs));
-  PetscCall(PCAMGFConfigureBoomerAMG_Private(amg, bs));
+  PetscCall(PCAMGFConfigureBoomerAMG_Private(amg, bs, PETSC_TRUE));
   PetscCall(PCSetFromOptions(amg));
   PetscFunctionReturn(0);
 }

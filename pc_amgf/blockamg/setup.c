@@ -83,7 +83,7 @@ static PetscErrorCode SetUpHypre(PC pc, PetscBool *later, PetscBool *failed)
   PetscCall(PCSetOperators(amg->hypre, pc->pmat, matrix)); /* the Pmat carries the near null space, which its copy
                                                                 does not */
   PetscCall(MatDestroy(&matrix));
-  PetscCall(PCAMGFConfigureBoomerAMG_Private(amg->hypre, bs));
+  PetscCall(PCAMGFConfigureBoomerAMG_Private(amg->hypre, bs, PETSC_FALSE));
   PetscCall(PCAMGFGuardBegin_Private(&guard, NULL));
   error = PCSetUp(amg->hypre);
   PetscCall(PCAMGFGuardEnd_Private(&guard, error, failed));

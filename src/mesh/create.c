@@ -116,6 +116,24 @@ static PetscErrorCode MeshCreateParted(MPI_Comm comm, PetscInt nbodies, const Sc
   PetscFunctionReturn(0);
 }
 
+/* Replaces the labels by copies, since labels keep the memory of the hash tables from which they were made */
+static PetscErrorCode MeshTrimLabels(DM dm)
+{
+  PetscInt n;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetNumLabels(dm, &n));
+  for (PetscInt i = 0; i < n; ++i) {
+    DMLabel label, copy;
+
+    PetscCall(DMGetLabelByNum(dm, i, &label));
+    PetscCall(DMLabelDuplicate(label, &copy));
+    PetscCall(DMSetLabel(dm, copy));
+    PetscCall(DMLabelDestroy(&copy));
+  }
+  PetscFunctionReturn(0);
+}
+
 /* Collective. Creates labels, layout and nodes of the distributed and refined mesh, and moves the nodes to the surfaces
    of curved bodies. refine: number of refinements since the mesh had the cells of `curves` */
 static PetscErrorCode MeshFinish(PetscInt nbodies, const SceneBody bodies[], const PetscInt orders[], PetscInt refine,
@@ -123,7 +141,7 @@ static PetscErrorCode MeshFinish(PetscInt nbodies, const SceneBody bodies[], con
 {
   PetscFunctionBegin;
   PetscCall(MeshLabelRigid(dm, nbodies, bodies));
-  PetscCall(MeshSetSection(dm, orders));
+  PetscCall(MeshSetSection(dm, nbodies, orders));
   PetscCall(MeshCreateNodes(dm, nbodies, orders));
   PetscCall(MeshMapNodes(dm, nbodies, bodies, PETSC_TRUE));
   PetscCall(MeshCurvesApply(curves, refine, dm, PETSC_TRUE));
@@ -132,6 +150,7 @@ static PetscErrorCode MeshFinish(PetscInt nbodies, const SceneBody bodies[], con
   PetscCall(MeshHangingPlace(dm));
   PetscCall(MeshUpdateVertices(dm));
   PetscCall(MeshCheckCells(dm, nbodies, bodies, PETSC_TRUE));
+  PetscCall(MeshTrimLabels(dm));
   PetscFunctionReturn(0);
 }
 

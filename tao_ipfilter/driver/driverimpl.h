@@ -35,6 +35,7 @@ PETSC_INTERN PetscErrorCode IPMonitor(Tao);
 /* setup.c */
 PETSC_INTERN PetscErrorCode TaoSetUp_IPFilter(Tao);
 PETSC_INTERN PetscErrorCode IPSetUpSizes(Tao);
+PETSC_INTERN PetscErrorCode IPSetUpIteration(Tao);
 PETSC_INTERN PetscErrorCode TaoDestroy_IPFilter(Tao);
 
 /* solve.c */

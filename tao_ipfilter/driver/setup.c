@@ -147,16 +147,30 @@ PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   PetscCall(SetUpEqualities(tao, &ce));
   c = ip->mi ? tao->constraints_inequality : NULL;
   PetscCall(IPIterateCreate(NULL, c, ce, &ip->at));
+  PetscCall(VecDestroy(&ce));
+  PetscCall(DuplicateAfresh(x, &ip->rx));
+  PetscCall(DuplicateAfresh(x, &ip->stiff->hdiag));
+  PetscCall(SetUpHessian(tao));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Creates the vectors that the iteration needs. They are created as late as possible, since the set-up of AMG before
+   the first iterate needs the most memory.
+*/
+PetscErrorCode IPSetUpIteration(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           x = tao->solution, c = ip->at.c, ce = ip->at.ce;
+
+  PetscFunctionBegin;
+  if (ip->dir.x) PetscFunctionReturn(0);
   PetscCall(IPIterateCreate(x, NULL, NULL, &ip->best)); /* constraint values are not stored; they are evaluated again
                                                            if the iteration returns to the best iterate */
   PetscCall(IPIterateCreate(x, c, ce, &ip->trial));
   PetscCall(IPDirectionCreate(x, c, ce, &ip->dir));
-  PetscCall(VecDestroy(&ce));
-  PetscCall(DuplicateAfresh(x, &ip->rx));
-  PetscCall(DuplicateAfresh(x, &ip->stiff->hdiag));
   PetscCall(DuplicateAfresh(x, &ip->search->slow));
   PetscCall(DuplicateAfresh(x, &ip->lin->residual));
-  PetscCall(SetUpHessian(tao));
   PetscFunctionReturn(0);
 }
 

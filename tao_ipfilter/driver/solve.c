@@ -532,6 +532,7 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
     PetscCall(EndTerms(tao));
     PetscFunctionReturn(0);
   }
+  PetscCall(IPSetUpIteration(tao));
   if (!ip->method->on) PetscCall(IPStartPoint(tao));
   PetscCall(AssessIterate(tao));
   PetscFunctionReturn(0);

@@ -15,6 +15,7 @@ PETSC_INTERN PetscErrorCode IPLogRegister(void);
 /* work.c */
 PETSC_INTERN PetscErrorCode IPGetWork(Tao, IPSpace, Vec *);
 PETSC_INTERN PetscErrorCode IPRestoreWork(Tao, IPSpace, Vec *);
+PETSC_INTERN PetscErrorCode IPWorkTrim(IPWork *);
 PETSC_INTERN PetscErrorCode IPWorkDestroy(IPWork *);
 
 /* pairs.c */

@@ -44,14 +44,22 @@ PetscErrorCode IPRestoreWork(Tao tao, IPSpace space, Vec *v)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode IPWorkDestroy(IPWork *work)
+/* Frees the work vectors that are not in use */
+PetscErrorCode IPWorkTrim(IPWork *work)
 {
   PetscFunctionBegin;
   for (PetscInt space = 0; space < IP_NSPACES; space++) {
     for (PetscInt k = 0; k < IP_MAX_WORK; k++) {
-      PetscCall(VecDestroy(&work->v[space][k]));
-      work->lent[space][k] = PETSC_FALSE;
+      if (!work->lent[space][k]) PetscCall(VecDestroy(&work->v[space][k]));
     }
   }
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode IPWorkDestroy(IPWork *work)
+{
+  PetscFunctionBegin;
+  for (PetscInt space = 0; space < IP_NSPACES; space++) PetscCall(PetscArrayzero(work->lent[space], IP_MAX_WORK));
+  PetscCall(IPWorkTrim(work));
   PetscFunctionReturn(0);
 }

@@ -17,8 +17,6 @@ PetscErrorCode IPBasisCreate(PetscInt max, Vec like, IPBasis *b)
   b->max = max;
   b->generation++;
   PetscCall(VecGetLocalSize(like, &b->nlocal));
-  PetscCall(VecDuplicate(like, &b->d));
-  PetscCall(VecDuplicate(like, &b->Kd));
   PetscCall(PetscCalloc5(max, &b->p, max, &b->size, max, &b->q, max * max, &b->gram, max * max, &b->factor));
   PetscFunctionReturn(0);
 }
@@ -520,6 +518,7 @@ PetscErrorCode IPBasisUpdate(IPBasis *b, Mat K, PetscBool new_K, IS fixed, IS W)
   PetscBool valid, same = PETSC_FALSE, cut = PETSC_FALSE;
 
   PetscFunctionBegin;
+  if (!b->d) PetscCall(MatCreateVecs(K, &b->d, &b->Kd));
   if (fixed) PetscCall(BasisCut(b, fixed, &cut));
   PetscCall(BasisCut(b, W, &cut));
   valid = (PetscBool)(!new_K && !cut && b->W);

@@ -10,6 +10,7 @@
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/stiffness.h"
 #include "tao_ipfilter/solver/terms.h"
+#include "tao_ipfilter/solver/work.h"
 
 /* Destroys the data. PCAMGF chooses between AMG and factorization again at its next set-up. */
 PetscErrorCode IPRecycleReset(IPRecycle *recycle)
@@ -144,6 +145,7 @@ static PetscErrorCode RecycleSetUpPC(Tao tao, IPRecycle *recycle, Mat A, Mat K, 
   if (amgf) PetscCall(PCAMGFSetFilterActive(pc, PETSC_FALSE));
   PetscCall(PCSetReusePreconditioner(pc, PETSC_FALSE));
   PetscCall(PCSetOperators(pc, A, A));
+  PetscCall(IPWorkTrim(((TAO_IPFILTER *)tao->data)->work)); /* the set-up of AMG needs the most memory */
   PetscCall(PCSetUp(pc));
   PetscCall(PCSetReusePreconditioner(pc, PETSC_TRUE));
   if (amgf) {

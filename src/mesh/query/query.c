@@ -126,9 +126,9 @@ PetscErrorCode MeshGetFaceDofs(DM dm, const char face[], PetscInt component, IS 
   PetscFunctionBegin;
   PetscCheck(component >= 0 && component < 3, comm, PETSC_ERR_ARG_OUTOFRANGE,
     "A displacement has components 0, 1 and 2, not %" PetscInt_FMT, component);
-  PetscCall(DMPlexGetChart(dm, &start, &end));
-  PetscCall(MeshGetFacePoints(dm, face, start, end, &points));
   PetscCall(DMGetGlobalSection(dm, &section));
+  PetscCall(PetscSectionGetChart(section, &start, &end));
+  PetscCall(MeshGetFacePoints(dm, face, start, end, &points));
   PetscCall(ISGetLocalSize(points, &n));
   PetscCall(ISGetIndices(points, &p));
   PetscCall(PetscMalloc1(n, &owned));

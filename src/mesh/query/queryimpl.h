@@ -33,7 +33,7 @@ typedef struct {
   PetscSection section;
   Vec          x; /* coordinates [length], or a shape's parameters */
 } MeshPlaces;
-PETSC_INTERN PetscErrorCode MeshSetSection(DM, const PetscInt orders[]);
+PETSC_INTERN PetscErrorCode MeshSetSection(DM, PetscInt nbodies, const PetscInt orders[]);
 PETSC_INTERN PetscErrorCode MeshCreateNodes(DM, PetscInt nbodies, const PetscInt orders[]);
 PETSC_INTERN PetscErrorCode MeshGetPlaces(DM, PetscBool nodes, MeshPlaces *);
 PETSC_INTERN PetscErrorCode MeshGetCellPoints(DM, PetscSection, PetscInt cell, PetscInt *n,

@@ -336,6 +336,8 @@ PetscErrorCode OptimizerSolve(StepProblem *p, PetscBool resume, Vec u, StepRepor
   if (valid) {
     PetscCall(TaoSetSolution(tao, u));
     PetscCall(OptimizerGetCounts(tao, &before));
+    PetscCall(DMClearGlobalVectors(sim->dm)); /* frees memory for the set-up of AMG */
+    PetscCall(DMClearLocalVectors(sim->dm));
     PetscCall(PetscTime(&t0));
     PetscCall(TaoSolve(tao));
     PetscCall(PetscTime(&t1));
