@@ -124,8 +124,8 @@ static PetscErrorCode SetUpHessian(Tao tao)
   if (tao->hessian && !ip->qn->B) PetscFunctionReturn(0);
   PetscCall(VecGetSize(tao->solution, &n));
   PetscCheck(n <= large || !ip->me, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE,
-    "TAOIPFILTER needs TaoSetHessian() with equality constraints: with %" PetscInt_FMT
-    " unknowns, more than %" PetscInt_FMT ", it does not difference gradients",
+    "TAOIPFILTER needs TaoSetHessian() for a problem with equality constraints and %" PetscInt_FMT
+    " unknowns: it computes a Hessian by differences only up to %" PetscInt_FMT " unknowns",
     n, large);
   PetscCall(IPQuasiNewtonDestroy(ip->qn));
   if (n <= large) PetscCall(IPDifferenceHessian(tao));

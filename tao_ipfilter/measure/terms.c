@@ -360,8 +360,9 @@ PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao tao, Vec *force)
   which is not a minimization: the solution x, y, tau satisfies grad f = J^T y + T^T tau, |tau_i| <= b_i, and tau_i =
   -b_i v_i / |v_i| where v_i = T_i x + t_i is not zero. For large coefficients there may be no solution, or several.
   If all coefficients are zero or above 100, terms stick while their constraints are closed. The load then grows from
-  those of the given forces. A term that slides or opens meanwhile sticks at another place, and `t` is changed such
-  that its value is zero there. If it slides again and again, it gets the coefficient zero, in `coefficient` itself.
+  the equilibrium with the given forces to the present one. A term that slides or opens on this path sticks at another
+  place, and its entries of `t` are changed such that its value is zero there. If it slides repeatedly, its entry of
+  `coefficient` is set to zero.
 
   Norm terms require that all constraints are linear inequalities. The problem is solved by the filtered subspace
   method: its reduced problem, with the unknowns of T and of the constraints, contains all nonsmooth terms. A
