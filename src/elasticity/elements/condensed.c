@@ -107,13 +107,15 @@ static void CondensedBackward(const Condensed *c, PetscReal x[MODES])
 
 /*
    Finds a by Newton's method with a line search on the energy. It ends with a step that is predicted to reduce the
-   energy by less than rounding errors. This step is taken, too: without it small changes of U would leave `a` as it is,
-   and the forces of the cell would change as if it had no modes.
+   energy by less than rounding errors, or by about as little as the step before: metal that flows may have large
+   rounding errors. This step is taken, too: without it small changes of U would leave `a` as it is, and the forces of
+   the cell would change as if it had no modes.
 */
 static void CondensedSolve(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], Condensed *c)
 {
-  const PetscReal negligible = 1e-26, fraction = 1e-4;
+  const PetscReal negligible = 1e-26, little = PETSC_SQRT_MACHINE_EPSILON, progress = 0.25, fraction = 1e-4;
+  PetscReal       predicted = PETSC_INFINITY;
   BodyMaterial    exact = *m;
   PetscBool       last  = PETSC_FALSE;
 
@@ -132,11 +134,13 @@ static void CondensedSolve(const CellBasis *basis, const BodyMaterial *m, PetscR
     CondensedForward(c, step);
     for (int k = 0; k < MODES; ++k) promised += step[k] * step[k];
     CondensedBackward(c, step);
-    last = (PetscBool) !(promised > negligible * c->energy);
+    last = (PetscBool)(!(promised > negligible * c->energy) ||
+                       (promised < little * c->energy && promised > progress * predicted));
+    predicted = promised;
     for (;; t *= 0.5) {
       for (int k = 0; k < MODES; ++k) c->a[k] = before[k] + t * step[k];
       CondensedMove(c);
-      if (last || promised < PETSC_SQRT_MACHINE_EPSILON * c->energy || t < 1e-6) break;
+      if (last || promised < little * c->energy || t < 1e-6) break;
       if (CondensedSum(m, c) <= c->energy - fraction * t * promised) break;
     }
   }
