@@ -21,7 +21,6 @@ typedef struct {
   PetscBool traceback; /* the user asked for PETSc's traceback */
   PetscBool silent;    /* another rank prints the message */
   int       end;       /* exit code of the program */
-  Scene     scene;     /* the scene that is simulated; NULL: it has not been read yet */
   PetscBool alone;     /* the error occurred on this rank only, and no other rank knows of it */
   char      sentence[512];
 } AppError;

@@ -41,8 +41,6 @@ PetscErrorCode AppHandleError(MPI_Comm comm, int line, const char *function, con
     error->end    = (int)AppClassifyError(n);
     if (!message || !message[0]) PetscErrorMessage(n, &text, NULL);
     (void)PetscStrncpy(error->sentence, text ? text : "unknown", sizeof(error->sentence));
-    if (error->scene && error->end == RUN_REFUSED)
-      SceneAddPlace(error->scene, sizeof(error->sentence), error->sentence);
     if (!error->silent && !error->traceback) fprintf(stderr, "contact: error: %s\n", error->sentence);
     fflush(stderr);
     if (error->alone && !error->traceback) MPI_Abort(PETSC_COMM_WORLD, error->end);

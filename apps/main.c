@@ -80,14 +80,13 @@ static void AppMakePage(const ReportPage *page)
     fprintf(stderr, "contact: cannot write the page %s: %s\n", page->file, sentence);
 }
 
-static PetscErrorCode AppRunScene(const AppOptions *app, AppError *error, RunEnd *end)
+static PetscErrorCode AppRunScene(const AppOptions *app, RunEnd *end)
 {
   Scene scene;
 
   PetscFunctionBeginUser;
   if (!app->quiet) PetscCall(AppShowProgress());
   PetscCall(SceneLoad(PETSC_COMM_WORLD, app->scene, &scene));
-  error->scene = scene;
   PetscCall(OptionsCheck(PETSC_COMM_WORLD));
   PetscCall(ContactDetect(PETSC_COMM_WORLD, scene));
   PetscCall(AppLeaveUnusedOptions());
@@ -96,7 +95,6 @@ static PetscErrorCode AppRunScene(const AppOptions *app, AppError *error, RunEnd
     PetscCall(AppSolve(app, scene, end));
     PetscCall(SceneReportUnusedOptions(PETSC_COMM_WORLD, scene));
   }
-  error->scene = NULL;
   PetscCall(SceneDestroy(&scene));
   PetscFunctionReturn(0);
 }
@@ -111,7 +109,7 @@ static PetscErrorCode AppRun(int argc, char **argv, AppError *error, ReportPage 
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-traceback", &error->traceback, NULL));
   PetscCall(AppGetOptions(argc, argv, &app));
   PetscCall(AppCheckWords(argc, argv));
-  if (app.scene[0]) PetscCall(AppRunScene(&app, error, end));
+  if (app.scene[0]) PetscCall(AppRunScene(&app, end));
   if (app.scene[0] && !app.check) PetscCall(AppDescribePage(&app, argc, argv, page));
   PetscCall(PetscPopErrorHandler());
   PetscFunctionReturn(0);

@@ -7,6 +7,18 @@
 #include "material.h"
 #include "formulation.h"
 
+/*
+   Each entry of a list of the scene begins with its name and its place in the file, "FILE: line N: "; place NULL: it
+   does not come from a file. SceneCheck() is a PetscCheck() about an entry, whose message begins with the place.
+*/
+typedef struct {
+  char       *name;
+  const char *place;
+} SceneEntry;
+#define ScenePlace(entry) ((entry)->place ? (entry)->place : "")
+#define SceneCheck(cond, comm, code, entry, message, ...) \
+  PetscCheck(cond, comm, code, "%s" message, ScenePlace(entry), __VA_ARGS__)
+
 /* The shapes. A new shape needs a file in src/mesh/shapes and a line here, with its name in C and its name in
    scenes. */
 #define BODY_SHAPES(SHAPE) \
@@ -111,9 +123,10 @@ typedef struct _n_SceneStl *SceneStl;
 
 /* A part of a face: its facets at refinement level 0 whose centroids lie in a box */
 typedef struct {
-  char     *name;               /* "<body>.<name>" is a face */
-  char     *of;                 /* name of the face without the body */
-  PetscReal lower[3], upper[3]; /* bounds of the box, may be infinite [length] */
+  char       *name; /* "<body>.<name>" is a face */
+  const char *place;
+  char       *of;                 /* name of the face without the body */
+  PetscReal   lower[3], upper[3]; /* bounds of the box, may be infinite [length] */
 } SceneSubface;
 
 /* A body: its shape, and its mesh at refinement level 0. For an octant, `cells` are the numbers of cells along x, y
@@ -121,6 +134,7 @@ typedef struct {
    the ring around the core. */
 typedef struct {
   char        *name;
+  const char  *place;
   BodyShape    shape;
   PetscReal    lower[3], upper[3]; /* box: opposite corners [length] */
   PetscInt     cells[3];           /* number of cells. box: along each axis; tube_arc: radially, around and along the
@@ -152,9 +166,10 @@ typedef struct {
 
 /* A load history (ramp): factors at the ends of the load steps; between them the factor is linear */
 typedef struct {
-  char      *name;
-  PetscReal  start;  /* factor at the start, before the first load step; always 0 in a static analysis */
-  PetscReal *factor; /* nsteps values */
+  char       *name;
+  const char *place;
+  PetscReal   start;  /* factor at the start, before the first load step; always 0 in a static analysis */
+  PetscReal  *factor; /* nsteps values */
 } SceneRamp;
 
 /* Parameters of a dynamic analysis, in which each load step is a time step */
@@ -182,20 +197,21 @@ typedef enum {
 #define SCENE_WHOLE_BODY ".*"
 
 typedef struct {
-  char     *name;
-  char     *face;        /* "<body>.<face>", the name of a label of facets; or "<body>" SCENE_WHOLE_BODY for a whole
+  char       *name;
+  const char *place;
+  char       *face;        /* "<body>.<face>", the name of a label of facets; or "<body>" SCENE_WHOLE_BODY for a whole
                          rigid body */
-  PetscBool fixed[3];    /* which components are prescribed */
-  PetscReal value[3];    /* prescribed displacement at factor 1 [length] */
-  PetscBool moves;       /* prescribes the rigid motion of a rigid body or a face, with a rotation; several motions of
+  PetscBool   fixed[3];    /* which components are prescribed */
+  PetscReal   value[3];    /* prescribed displacement at factor 1 [length] */
+  PetscBool   moves;       /* prescribes the rigid motion of a rigid body or a face, with a rotation; several motions of
                          one face or body are added */
-  PetscReal rotation[3]; /* rotation vector about an axis through `center`, at factor 1 [degrees] */
-  PetscReal center[3];   /* center of rotation, which moves by `value` [length] */
-  PetscBool released[6]; /* rigid body: the translations, and rotations about the center, that are free and driven by
+  PetscReal   rotation[3]; /* rotation vector about an axis through `center`, at factor 1 [degrees] */
+  PetscReal   center[3];   /* center of rotation, which moves by `value` [length] */
+  PetscBool   released[6]; /* rigid body: the translations, and rotations about the center, that are free and driven by
                             forces */
-  PetscBool inclined;    /* an inclined symmetry plane: the displacement along `normal` is zero, and no single
+  PetscBool   inclined;    /* an inclined symmetry plane: the displacement along `normal` is zero, and no single
                             component is prescribed */
-  PetscReal normal[3];   /* normal of the plane; its length has no influence */
+  PetscReal   normal[3];   /* normal of the plane; its length has no influence */
   DisplacementPlace at;
   PetscInt          body;           /* body of the point or edge */
   PetscReal         from[3], to[3]; /* ends of the edge; for a point both are the same [length] */
@@ -205,19 +221,21 @@ typedef struct {
 /* A pressure, whose force is -value times normal and area: of the undeformed face (dead load) or of the deformed
    face (follower load) */
 typedef struct {
-  char     *name;
-  char     *face;
-  PetscBool follows; /* acts on the deformed normal and area */
-  PetscReal value;   /* at factor 1; positive values push on the body [force/length^2] */
-  PetscInt  ramp;
+  char       *name;
+  const char *place;
+  char       *face;
+  PetscBool   follows; /* acts on the deformed normal and area */
+  PetscReal   value;   /* at factor 1; positive values push on the body [force/length^2] */
+  PetscInt    ramp;
 } ScenePressure;
 
 /* A dead load on a face or a rigid body: a uniform traction, or a resultant force. With a moment the traction varies
    linearly over the face. */
 typedef struct {
-  char     *name;
-  PetscInt  body;      /* rigid body on which the resultant acts; PETSC_DECIDE: the load acts on a face */
-  char     *face;      /* the face; for a resultant also "<body>" SCENE_WHOLE_BODY, a whole rigid body */
+  char       *name;
+  const char *place;
+  PetscInt    body;    /* rigid body on which the resultant acts; PETSC_DECIDE: the load acts on a face */
+  char       *face;    /* the face; for a resultant also "<body>" SCENE_WHOLE_BODY, a whole rigid body */
   PetscBool resultant; /* `value` is a resultant force [force] and not a traction [force/length^2]; both at factor 1 */
   PetscReal value[3];
   PetscReal moment[3]; /* moment of the resultant about its point of action, at factor 1 [force length] */
@@ -228,56 +246,62 @@ typedef struct {
 
 /* Springs between a face and the ground, or another face */
 typedef struct {
-  char     *name;
-  char     *face;
-  char     *to;       /* NULL: the springs go to the ground; otherwise the face at their other end, which must cover
+  char       *name;
+  const char *place;
+  char       *face;
+  char       *to;       /* NULL: the springs go to the ground; otherwise the face at their other end, which must cover
                          the first one */
-  PetscReal distance; /* largest distance between facets that are joined [length]; 0: computed from the size of the
+  PetscReal   distance; /* largest distance between facets that are joined [length]; 0: computed from the size of the
                          facets */
-  PetscReal value[3]; /* stiffness along x, y, z per undeformed area of face [force/length^3] */
+  PetscReal   value[3]; /* stiffness along x, y, z per undeformed area of face [force/length^3] */
 } SceneSpring;
 
 /* A spring and damper between a point of a body and the ground, or a point of another body */
 typedef struct {
-  char     *name;
-  PetscInt  body, to;    /* to: PETSC_DECIDE: the ground */
-  PetscReal point[2][3]; /* point of the body; point of the other body or of the ground [length] */
-  PetscBool axial;       /* the spring acts along the line between the points, not along the axes */
-  PetscReal stiffness;   /* stiffness along that line, if `axial` is true [force/length] */
-  PetscReal value[3];    /* stiffness along x, y and z, if `axial` is false [force/length] */
-  PetscReal damping;     /* force per relative velocity: along the line if `axial` is true, else in any direction [force
+  char       *name;
+  const char *place;
+  PetscInt    body, to;    /* to: PETSC_DECIDE: the ground */
+  PetscReal   point[2][3]; /* point of the body; point of the other body or of the ground [length] */
+  PetscBool   axial;       /* the spring acts along the line between the points, not along the axes */
+  PetscReal   stiffness;   /* stiffness along that line, if `axial` is true [force/length] */
+  PetscReal   value[3];    /* stiffness along x, y and z, if `axial` is false [force/length] */
+  PetscReal   damping; /* force per relative velocity: along the line if `axial` is true, else in any direction [force
                             time/length] */
 } SceneConnector;
 
 /* Pretension of a bolt: a section through a body, with a force or a shortening */
 typedef struct {
-  char     *name;
-  PetscInt  body;
-  PetscReal point[3], axis[3]; /* a point of the section's plane; normal of the plane, of any length */
-  PetscBool shortens;          /* the shortening is prescribed, not the force */
-  PetscReal force;             /* tension at factor 1 [force] */
-  PetscReal shortening;        /* at factor 1 [length] */
-  PetscInt  lock;              /* load step after which the shortening is kept constant; 0: never */
-  PetscInt  ramp;
+  char       *name;
+  const char *place;
+  PetscInt    body;
+  PetscReal   point[3], axis[3]; /* a point of the section's plane; normal of the plane, of any length */
+  PetscBool   shortens;          /* the shortening is prescribed, not the force */
+  PetscReal   force;             /* tension at factor 1 [force] */
+  PetscReal   shortening;        /* at factor 1 [length] */
+  PetscInt    lock;              /* load step after which the shortening is kept constant; 0: never */
+  PetscInt    ramp;
 } SceneBolt;
 
 typedef struct {
-  char     *name;
-  PetscInt  body;     /* number of the body; PETSC_DECIDE: every body */
-  PetscReal value[3]; /* at factor 1, per reference volume [force/length^3] */
-  PetscInt  ramp;
+  char       *name;
+  const char *place;
+  PetscInt    body;     /* number of the body; PETSC_DECIDE: every body */
+  PetscReal   value[3]; /* at factor 1, per reference volume [force/length^3] */
+  PetscInt    ramp;
 } SceneBodyForce;
 
 /* A temperature rise above the temperature without stress; the rises that apply to one body are added */
 typedef struct {
-  char    *name;
-  PetscInt body;  /* number of the body; PETSC_DECIDE: every body with thermal expansion */
-  char    *value; /* an expression in the undeformed coordinates x, y, z [temperature], at factor 1 */
-  PetscInt ramp;
+  char       *name;
+  const char *place;
+  PetscInt    body;  /* number of the body; PETSC_DECIDE: every body with thermal expansion */
+  char       *value; /* an expression in the undeformed coordinates x, y, z [temperature], at factor 1 */
+  PetscInt    ramp;
 } SceneTemperature;
 
 typedef struct {
   char       *name;
+  const char *place;
   char       *mortar;    /* "<body>.<face>" */
   char       *nonmortar; /* "<body>.<face>": the face that carries the constraints */
   char       *self;      /* the body or face that is in contact with itself, named by both mortar and nonmortar. In a
@@ -307,38 +331,42 @@ static inline PetscBool SceneContactPairHasFriction(const SceneContactPair *pair
 
 /* A tie: two faces that are joined in the undeformed state */
 typedef struct {
-  char     *name;
-  char     *mortar;
-  char     *nonmortar; /* the face whose displacements follow those of the other face */
-  PetscReal distance;  /* largest distance between facets that are joined [length]; 0: computed from the size of the
+  char       *name;
+  const char *place;
+  char       *mortar;
+  char       *nonmortar; /* the face whose displacements follow those of the other face */
+  PetscReal   distance;  /* largest distance between facets that are joined [length]; 0: computed from the size of the
                           facets */
 } SceneTie;
 
 /* Cyclic symmetry: only a sector of the body is modelled. It ends on two faces. The second face is the first one,
    turned about the axis by the angle of the sector. */
 typedef struct {
-  char     *name;
-  char     *from, *to;          /* "<body>.<face>" of one body */
-  PetscReal axis[3], center[3]; /* direction of the axis, any length, and a point on it [length] */
+  char       *name;
+  const char *place;
+  char       *from, *to;          /* "<body>.<face>" of one body */
+  PetscReal   axis[3], center[3]; /* direction of the axis, any length, and a point on it [length] */
 } SceneCyclic;
 
 /* A zone in which cells are refined further: near a face, near both faces of a contact pair, or in a box */
 typedef struct {
-  char     *name;
-  char     *face[2];            /* "<body>.<face>"; NULL: none */
-  PetscInt  body;               /* PETSC_DECIDE: any */
-  PetscReal lower[3], upper[3]; /* opposite corners of the box, used if no face is given [length] */
-  PetscReal distance;           /* cells within this distance of each face, or of the box, are refined [length] */
-  PetscInt  levels;             /* number of refinements in addition to the uniform ones */
+  char       *name;
+  const char *place;
+  char       *face[2];            /* "<body>.<face>"; NULL: none */
+  PetscInt    body;               /* PETSC_DECIDE: any */
+  PetscReal   lower[3], upper[3]; /* opposite corners of the box, used if no face is given [length] */
+  PetscReal   distance;           /* cells within this distance of each face, or of the box, are refined [length] */
+  PetscInt    levels;             /* number of refinements in addition to the uniform ones */
 } SceneRefinement;
 
 /* A probe: a point, or equally spaced points along a line, in the undeformed bodies */
 typedef struct {
-  char     *name;
-  PetscInt  body; /* PETSC_DECIDE: any */
-  PetscBool line;
-  PetscInt  n;              /* points */
-  PetscReal from[3], to[3]; /* ends of the line; for a point only `from` is used [length] */
+  char       *name;
+  const char *place;
+  PetscInt    body; /* PETSC_DECIDE: any */
+  PetscBool   line;
+  PetscInt    n;              /* points */
+  PetscReal   from[3], to[3]; /* ends of the line; for a point only `from` is used [length] */
 } SceneProbe;
 
 /* A PETSc option, without its leading dash */
@@ -348,17 +376,16 @@ typedef struct {
                     option */
 } SceneOption;
 
-/* The keys of a scene file, and their lines, counted from 1 */
+/* The keys of a scene file, and their places "FILE: line N: " */
 typedef struct {
   PetscInt n;
-  char   **keys;
-  size_t  *lines;
-} SceneKeyLines;
+  char   **keys, **places, *file; /* file: "FILE: " */
+} ScenePlaces;
 
 typedef struct _n_Scene {
   char              *name;
-  char              *file;  /* the file that it was read from; NULL: none */
-  SceneKeyLines      lines; /* of that file, for messages */
+  char              *file; /* the file that it was read from; NULL: none */
+  ScenePlaces        places;
   char              *units; /* units as text for tables; NULL: none */
   PetscInt           nbodies;
   SceneBody         *bodies;
@@ -441,7 +468,7 @@ typedef struct {
   PetscReal corner[3], edge[3][3], size;
 } SceneSurfaceCube;
 PETSC_EXTERN void           SceneSurfaceGetCube(const SceneBody *, SceneSurfaceCube *);
-PETSC_EXTERN PetscErrorCode SceneStlCreate(MPI_Comm, const char file[], PetscReal scale, SceneStl *,
+PETSC_EXTERN PetscErrorCode SceneStlCreate(MPI_Comm, const char place[], const char file[], PetscReal scale, SceneStl *,
   PetscReal centre[3], PetscReal *edge);
 PETSC_EXTERN PetscErrorCode SceneStlDestroy(SceneStl *);
 /* Returns the distance of a point from an undeformed rigid surface, negative inside [length]; computes its gradient */

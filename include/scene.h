@@ -20,8 +20,6 @@ PETSC_EXTERN PetscErrorCode SceneChooseElements(Scene, DM dm, ElementType elemen
 /* Prints what will be simulated on the mesh dm */
 PETSC_EXTERN PetscErrorCode SceneDescribe(Scene, DM dm, PetscViewer);
 PETSC_EXTERN PetscErrorCode SceneReportUnusedOptions(MPI_Comm, Scene);
-/* Puts "FILE: line N: " before a message that names an entry of the scene, as in body "slab" */
-PETSC_EXTERN void           SceneAddPlace(Scene, size_t size, char message[]);
 PETSC_EXTERN PetscErrorCode SceneDestroy(Scene *);
 
 #endif

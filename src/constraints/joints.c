@@ -25,7 +25,7 @@ static PetscErrorCode JointsCollect(const Constraints *c, Mat *all, PetscInt tie
       PetscCall(MatRestoreRow(rows, i, &n, NULL, NULL));
     }
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &twice, 1, MPIU_INT, MPI_MAX, comm));
-    PetscCheck(twice < 0, comm, PETSC_ERR_USER_INPUT,
+    SceneCheck(twice < 0, comm, PETSC_ERR_USER_INPUT, &c->bodies.scene->ties[twice],
       "ties \"%s\" and \"%s\" have common vertices on their nonmortar faces: swap mortar and nonmortar of one of them",
       c->bodies.scene->ties[twice].name, tie->name);
     if (*all) {
@@ -57,7 +57,7 @@ static PetscErrorCode JointsCheckChains(const Constraints *c, Mat all, const Pet
   }
   PetscCall(VecRestoreArrayRead(fixed, &h));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &chained, 1, MPIU_INT, MPI_MAX, c->bodies.comm));
-  PetscCheck(chained < 0, c->bodies.comm, PETSC_ERR_USER_INPUT,
+  SceneCheck(chained < 0, c->bodies.comm, PETSC_ERR_USER_INPUT, &c->bodies.scene->ties[PetscMax(chained, 0)],
     "tie \"%s\": vertices of its mortar face %s are tied themselves: swap mortar and nonmortar of one of the ties",
     c->bodies.scene->ties[PetscMax(chained, 0)].name, c->bodies.scene->ties[PetscMax(chained, 0)].mortar);
   PetscCall(VecDestroy(&is_tied));
@@ -83,7 +83,7 @@ static PetscErrorCode JointsCheckHanging(const Constraints *c, const PetscInt ti
     PetscCall(MatRestoreRow(means, i, &n, NULL, NULL));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &hangs, 1, MPIU_INT, MPI_MAX, c->bodies.comm));
-  PetscCheck(hangs < 0, c->bodies.comm, PETSC_ERR_USER_INPUT,
+  SceneCheck(hangs < 0, c->bodies.comm, PETSC_ERR_USER_INPUT, &c->bodies.scene->ties[PetscMax(hangs, 0)],
     "tie \"%s\": its nonmortar face %s is locally refined: refine all of it or none, or swap mortar and nonmortar",
     c->bodies.scene->ties[PetscMax(hangs, 0)].name, c->bodies.scene->ties[PetscMax(hangs, 0)].nonmortar);
   PetscFunctionReturn(0);

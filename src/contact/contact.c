@@ -34,25 +34,25 @@ static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const SceneConta
     PetscBool   same, has;
 
     PetscCall(PetscStrcmp(pairs[p].mortar, pairs[p].nonmortar, &same));
-    PetscCheck(same == (PetscBool)(pairs[p].self != NULL), comm, PETSC_ERR_ARG_WRONG,
+    SceneCheck(same == (PetscBool)(pairs[p].self != NULL), comm, PETSC_ERR_ARG_WRONG, &pairs[p],
       "Contact pair \"%s\" names face \"%s\" as both sides, which is allowed only for a pair in contact with itself",
       name, pairs[p].mortar);
     PetscCall(DMHasLabel(dm, pairs[p].mortar, &has));
-    PetscCheck(has, comm, PETSC_ERR_ARG_WRONG,
+    SceneCheck(has, comm, PETSC_ERR_ARG_WRONG, &pairs[p],
       "Contact pair \"%s\" names mortar face \"%s\", but the mesh has no such face", name, pairs[p].mortar);
-    PetscCheck(pairs[p].gap >= GAP_MORTAR && pairs[p].gap <= GAP_DUAL, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    SceneCheck(pairs[p].gap >= GAP_MORTAR && pairs[p].gap <= GAP_DUAL, comm, PETSC_ERR_ARG_OUTOFRANGE, &pairs[p],
       "Contact pair \"%s\" has the unknown gap formulation %d", name, (int)pairs[p].gap);
-    PetscCheck(pairs[p].distance >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    SceneCheck(pairs[p].distance >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE, &pairs[p],
       "Contact pair \"%s\" has search distance %g, but it must not be negative", name, (double)pairs[p].distance);
     PetscCall(DMHasLabel(dm, pairs[p].nonmortar, &has));
-    PetscCheck(has, comm, PETSC_ERR_ARG_WRONG,
+    SceneCheck(has, comm, PETSC_ERR_ARG_WRONG, &pairs[p],
       "Contact pair \"%s\" names nonmortar face \"%s\", but the mesh has no such face", name, pairs[p].nonmortar);
     for (PetscInt q = 0; q < p; ++q) {
       PetscBool mortar, nonmortar;
 
       PetscCall(PetscStrcmp(pairs[p].mortar, pairs[q].mortar, &mortar));
       PetscCall(PetscStrcmp(pairs[p].nonmortar, pairs[q].nonmortar, &nonmortar));
-      PetscCheck(!mortar || !nonmortar, comm, PETSC_ERR_ARG_WRONG,
+      SceneCheck(!mortar || !nonmortar, comm, PETSC_ERR_ARG_WRONG, &pairs[p],
         "Contact pairs \"%s\" and \"%s\" are the same: mortar \"%s\", nonmortar \"%s\"", ContactPairName(&pairs[q]),
         name, pairs[p].mortar, pairs[p].nonmortar);
     }
@@ -150,6 +150,7 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
   PetscCall(ContactBoundaryDestroy(&boundary));
   for (PetscInt p = 0; p < npairs; ++p) {
     PetscCall(PetscStrallocpy(ContactPairName(&pairs[p]), &c->pairs[p].name));
+    c->pairs[p].place      = pairs[p].place;
     c->pairs[p].gap        = pairs[p].gap;
     c->pairs[p].given      = pairs[p].distance;
     c->pairs[p].smooth     = pairs[p].smooth;
@@ -292,7 +293,7 @@ PetscErrorCode ContactSetBodies(Contact contact, const SceneBody bodies[])
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     ContactPairData *pair = &contact->pairs[p];
 
-    PetscCheck(!SceneBodyIsSurface(&bodies[pair->nonmortar.body]), contact->comm, PETSC_ERR_ARG_WRONG,
+    SceneCheck(!SceneBodyIsSurface(&bodies[pair->nonmortar.body]), contact->comm, PETSC_ERR_ARG_WRONG, pair,
       "Contact pair \"%s\": the nonmortar side %s is a rigid surface, which has no nodes for the contact constraints: "
       "make it the mortar side",
       pair->name, pair->nonmortar.name);

@@ -272,7 +272,7 @@ PetscErrorCode ContactCheckDepth(Contact contact, ContactLinearization usual)
   PetscCall(PetscFree(box));
   PetscCall(ContactBoundaryDestroy(&boundary));
   pair = &contact->pairs[(PetscInt)deepest.pair];
-  PetscCheck(deepest.depth == 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(deepest.depth == 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE, pair,
     "The bodies of contact pair \"%s\", mortar %s and nonmortar %s, overlap at the start by %g, which exceeds the "
     "search depth %g: move the bodies apart, or use -contact_search_depth %.2g",
     pair->name, pair->mortar.name, pair->nonmortar.name, (double)deepest.depth, (double)pair->depth,

@@ -161,12 +161,12 @@ static PetscErrorCode TieFinish(MPI_Comm comm, const char what[], const SceneTie
   PetscCall(MatDiagonalScale(*rows, sums->covered, NULL));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPIU_REAL, MPIU_MIN, comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, areas, 2, MPIU_REAL, MPIU_SUM, comm));
-  PetscCheck(areas[0] > 0.0, comm, PETSC_ERR_USER_INPUT,
+  SceneCheck(areas[0] > 0.0, comm, PETSC_ERR_USER_INPUT, tie,
     "%s \"%s\": no facet of the mortar face %s is within the distance %.4g of the nonmortar face %s: increase the key "
     "distance, or move the bodies together",
     what, tie->name, tie->mortar, (double)distance, tie->nonmortar);
-  PetscCheck(areas[0] >= (1.0 - tie_uncovered) * areas[1] && least >= 1.0 - tie_uncovered_vertex, comm,
-    PETSC_ERR_USER_INPUT,
+  SceneCheck(areas[0] >= (1.0 - tie_uncovered) * areas[1] && least >= 1.0 - tie_uncovered_vertex, comm,
+    PETSC_ERR_USER_INPUT, tie,
     "%s \"%s\": the mortar face %s covers %.4g %% of the nonmortar face %s, but must cover all of it: exchange mortar "
     "and nonmortar, or define the covered part as a face with the key faces",
     what, tie->name, tie->mortar, (double)(100.0 * areas[0] / areas[1]), tie->nonmortar);

@@ -27,11 +27,11 @@ PetscErrorCode BoltsCreate(const Bodies *bodies, Bolts *bolts)
     PetscInt         ncells;
 
     PetscCall(ElasticityAddSection(bodies->elasticity, bolt->body, bolt->point, bolt->axis, &ncells));
-    PetscCheck(ncells, bodies->comm, PETSC_ERR_USER_INPUT,
+    SceneCheck(ncells, bodies->comm, PETSC_ERR_USER_INPUT, bolt,
       "bolt \"%s\": the plane through its point (%g, %g, %g) with its axis (%g, %g, %g) does not cut its body \"%s\"",
       bolt->name, (double)bolt->point[0], (double)bolt->point[1], (double)bolt->point[2], (double)bolt->axis[0],
       (double)bolt->axis[1], (double)bolt->axis[2], scene->bodies[bolt->body].name);
-    PetscCheck(ncells > 0, bodies->comm, PETSC_ERR_USER_INPUT,
+    SceneCheck(ncells > 0, bodies->comm, PETSC_ERR_USER_INPUT, bolt,
       "bolt \"%s\": its section and that of another bolt cut the same cells of body \"%s\"; move its point or refine "
       "the mesh",
       bolt->name, scene->bodies[bolt->body].name);

@@ -36,7 +36,7 @@ static PetscErrorCode ConnectorLocate(const Bodies *bodies, const SceneConnector
     }
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->n[end], 1, MPIU_INT, MPI_SUM, bodies->comm));
-  PetscCheck(c->n[end] && off <= tolerance, bodies->comm, PETSC_ERR_USER_INPUT,
+  SceneCheck(c->n[end] && off <= tolerance, bodies->comm, PETSC_ERR_USER_INPUT, here,
     "connector \"%s\": its point (%g, %g, %g) is outside of its body \"%s\"", here->name, (double)here->point[end][0],
     (double)here->point[end][1], (double)here->point[end][2], bodies->scene->bodies[body].name);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->node[end], MESH_MAX_NODES, MPIU_INT, MPI_SUM, bodies->comm));

@@ -65,6 +65,7 @@ static PetscErrorCode CouplingGetStretch(const Bodies *bodies, Mat means, Mat *s
 static PetscErrorCode CouplingAssemble(const Bodies *bodies, const SceneSpring *spring, Mat *stiffness)
 {
   const SceneTie tie = {.name = spring->name,
+    .place                    = spring->place,
     .mortar                   = spring->to,
     .nonmortar                = spring->face,
     .distance                 = spring->distance};

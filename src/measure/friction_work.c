@@ -19,7 +19,7 @@ PetscErrorCode FrictionGetCoefficient(Scene scene, PetscReal time, PetscInt whic
 
   PetscFunctionBegin;
   if (pair->friction_ramp >= 0) PetscCall(SceneGetFactor(scene, pair->friction_ramp, time, &factor));
-  PetscCheck(factor >= 0.0, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
+  SceneCheck(factor >= 0.0, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, pair,
     "the coefficient of friction of contact pair \"%s\" follows a ramp to %g times its value at time %g, and must "
     "not be negative",
     pair->name, (double)factor, (double)time);

@@ -111,7 +111,7 @@ static PetscErrorCode StartWarnOfFrictionless(Simulation sim, PetscInt p)
   PetscFunctionBegin;
   PetscCall(ContactGetFrictionless(sim->contact, p, &nfrictionless, &nnodes));
   if (nfrictionless)
-    PetscCall(ReportWarn(sim->comm, &sim->report,
+    PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
       "contact pair \"%s\" cannot stick at %" PetscInt_FMT " of the %" PetscInt_FMT
       " nodes of %s, because different displacements are prescribed there on the two faces; no friction acts at these "
       "nodes: prescribe displacements away from the contact, or give the pair a coefficient of friction",
@@ -129,7 +129,7 @@ static PetscErrorCode StartWarnOfRigid(Simulation sim, const SceneContactPair *p
   if (!SceneIsDynamic(scene) || SceneFaceBody(scene, pair->mortar)->material.type != MATERIAL_RIGID ||
       SceneFaceBody(scene, pair->nonmortar)->material.type != MATERIAL_RIGID)
     PetscFunctionReturn(0);
-  PetscCall(ReportWarn(sim->comm, &sim->report,
+  PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
     "contact pair \"%s\" is between two rigid bodies, whose rebound depends on the time steps; their energy does not "
     "grow: give one of the two bodies an elastic material if the rebound matters",
     pair->name));
@@ -154,17 +154,17 @@ PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
     char                    away[512];
 
     PetscCall(StartLookAway(sim->contact, scene, p, away, sizeof(away)));
-    if (away[0]) PetscCall(ReportWarn(sim->comm, &sim->report, "%s", away));
+    if (away[0]) PetscCall(ReportWarn(sim->comm, &sim->report, pair->place, "%s", away));
     PetscCall(StartWarnOfRigid(sim, pair));
     PetscCall(StartWarnOfFrictionless(sim, p));
     if (!wanted) continue;
     if (starts[p].overlap > 0.0)
-      PetscCall(ReportWarn(sim->comm, &sim->report,
+      PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
         "contact pair \"%s\" overlaps at the start, by up to %g over an area of %g, %s", pair->name,
         -(double)starts[p].least, (double)starts[p].overlap, wanted));
     else
-      PetscCall(ReportWarn(sim->comm, &sim->report, "contact pair \"%s\": the faces do not overlap at the start, %s",
-        pair->name, wanted));
+      PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
+        "contact pair \"%s\": the faces do not overlap at the start, %s", pair->name, wanted));
   }
   PetscCall(PetscFree(starts));
   PetscFunctionReturn(0);
@@ -206,11 +206,11 @@ PetscErrorCode StartWarnOfUnmet(Simulation sim, StepReport *report)
       if (p < run->steps[s].npairs) closed += run->steps[s].pairs[p].area + run->steps[s].pairs[p].normal_force;
     if (closed == 0.0) PetscCall(StartRefuseEntered(sim, p, report));
     if (closed == 0.0 && sim->scene->pairs[p].self)
-      PetscCall(ReportWarn(sim->comm, &sim->report,
+      PetscCall(ReportWarn(sim->comm, &sim->report, sim->scene->pairs[p].place,
         "contact pair \"%s\" was open at the end of every load step: %s did not come into contact with itself",
         sim->scene->pairs[p].name, sim->scene->pairs[p].self));
     else if (closed == 0.0)
-      PetscCall(ReportWarn(sim->comm, &sim->report,
+      PetscCall(ReportWarn(sim->comm, &sim->report, sim->scene->pairs[p].place,
         "contact pair \"%s\" was open at the end of every load step (mortar %s, nonmortar %s): check load direction, "
         "faces and clearance",
         sim->scene->pairs[p].name, sim->scene->pairs[p].mortar, sim->scene->pairs[p].nonmortar));

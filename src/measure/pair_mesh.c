@@ -180,7 +180,7 @@ static PetscErrorCode PairWarnOfRotation(Simulation sim, PetscInt p)
   if (SceneIsDynamic(sim->scene) || PairLoadTurns(&sim->report) ||
       PairCountTurns(&sim->report, p, MEASURE_ROUNDING * sim->stiffness * motion, forces) < 2)
     PetscFunctionReturn(0);
-  PetscCall(ReportWarn(sim->comm, &sim->report,
+  PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
     "contact pair \"%s\": the contact is only one facet of %s wide, and its force oscillates as it moves over the "
     "facets, for example from %.3g to %.3g: refine that face to about seven facets across the contact, or make the "
     "face that moves with the contact the nonmortar one",
@@ -203,7 +203,7 @@ static PetscErrorCode PairWarnOfCoarseness(Simulation sim, PetscInt p)
     if (p < sim->report.steps[s].npairs) coarseness = PetscMax(coarseness, sim->report.steps[s].pairs[p].coarseness);
   }
   if (!softer && !pair->self && coarseness > PAIR_COARSE)
-    PetscCall(ReportWarn(sim->comm, &sim->report,
+    PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
       "contact pair \"%s\": facets of the nonmortar face %s are %.2g times as large as those of the mortar face %s, "
       "whose vertices can penetrate between its constraints: swap the two faces, or refine %s",
       pair->name, pair->nonmortar, (double)coarseness, pair->mortar, pair->nonmortar));

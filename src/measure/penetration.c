@@ -117,7 +117,7 @@ static PetscErrorCode PenetrationWarnOfCoarse(Simulation sim, PetscInt p)
   if (PenetrationHasForce(report, p) || its->penetration <= most * motion ||
       its->penetration > its->penetration_rounding)
     PetscFunctionReturn(0);
-  PetscCall(ReportWarn(sim->comm, &sim->report,
+  PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
     "contact pair \"%s\" carries no force, although a point of %s or %s penetrates the other body by %.3g, %.3g %% of "
     "the largest displacement; the error of the curved faces there may be as large: refine them if the bodies are to "
     "touch",
@@ -155,12 +155,12 @@ PetscErrorCode PenetrationWarn(Simulation sim)
     if (run->nsteps) PetscCall(PenetrationWarnOfCoarse(sim, p));
     if (depth <= PENETRATION_SHARE * motion) continue;
     if (pair->self)
-      PetscCall(ReportWarn(sim->comm, &sim->report,
+      PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
         "contact pair \"%s\": a vertex of %s penetrates its own body by %.3g at the end of load step %" PetscInt_FMT
         ", %.3g %% of the largest displacement, although the mean gap is closed: refine the surface there",
         pair->name, pair->self, (double)depth, step, 100.0 * (double)(depth / motion)));
     else
-      PetscCall(ReportWarn(sim->comm, &sim->report,
+      PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
         "contact pair \"%s\": a point of %s or %s penetrates the other body by %.3g at the end of load step "
         "%" PetscInt_FMT ", %.3g %% of the largest displacement, although the %s is %s: %s",
         pair->name, pair->mortar, pair->nonmortar, (double)depth, step, 100.0 * (double)(depth / motion),

@@ -79,7 +79,7 @@ PetscErrorCode StrainTest(Simulation sim, StepReport *report)
     if (report->converged && values[b][2] > INVERTED_LIMIT) PetscCall(StrainRefuse(sim, b, values[b][2], report));
     if (sim->results->beyond[b] || (turned && values[b][1] <= ROTATION_LIMIT)) continue;
     sim->results->beyond[b] = PETSC_TRUE;
-    PetscCall(ReportWarn(sim->comm, &sim->report,
+    PetscCall(ReportWarn(sim->comm, &sim->report, scene->bodies[b].place,
       "body \"%s\" is %s by %.3g %s on average in load step %" PetscInt_FMT ", but its material law is for small "
       "strains: its forces have an error of about that size; use material: neohookean or another finite-strain law",
       scene->bodies[b].name, turned ? "rotated" : "strained",

@@ -63,7 +63,7 @@ PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
   PetscFunctionBegin;
   if (sim->path->warned || !sim->path->pressed || !(report->imbalance > allowed)) PetscFunctionReturn(0);
   sim->path->warned = PETSC_TRUE;
-  PetscCall(ReportWarn(sim->comm, &sim->report,
+  PetscCall(ReportWarn(sim->comm, &sim->report, NULL,
     "load step %" PetscInt_FMT ": %.2g %% of the work is neither stored nor taken up by friction and contact (%g of "
     "%g); use more load steps",
     report->step, 100.0 * (double)report->imbalance, (double)sim->path->unbalanced, (double)sim->path->turnover));

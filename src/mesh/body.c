@@ -47,7 +47,7 @@ static PetscErrorCode MeshCreateGrid(MPI_Comm comm, const SceneBody *body, const
   PetscCall(RankErrorBegin(&error));
   if (rank == 0) ierr = shape->create(body, &mesh->grid);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code,
+  SceneCheck(!error.code, comm, error.code, body,
     "Body \"%s\": the first rank cannot create its %" PetscInt64_FMT " level 0 cells: %s", body->name, mesh->ncells,
     error.message);
   PetscFunctionReturn(0);

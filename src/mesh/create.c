@@ -179,7 +179,7 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   PetscCall(MeshCheckSize(comm, nbodies, meshes, refine, &ncells));
   for (PetscInt b = 0; b < nbodies; ++b) {
     orders[b] = meshes[b].order;
-    PetscCheck(!locally || meshes[b].ncorners == 8, comm, PETSC_ERR_SUP,
+    SceneCheck(!locally || meshes[b].ncorners == 8, comm, PETSC_ERR_SUP, &bodies[b],
       "Body \"%s\" has tetrahedra, but local refinement needs hexahedra: use uniform refinement, or a finer mesh in "
       "the file",
       bodies[b].name);

@@ -33,7 +33,7 @@ static PetscErrorCode MeshLabelBody(DM dm, const SceneBody *body, PetscInt numbe
 
     for (PetscInt a = 0; a < n; ++a) corners[a] = firstvertex + grid->facets[4 * q + a];
     PetscCall(DMPlexGetFullJoin(dm, n, corners, &njoin, &join));
-    PetscCheck(njoin == 1, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+    SceneCheck(njoin == 1, PETSC_COMM_SELF, PETSC_ERR_PLIB, body,
       "Facet %" PetscInt_FMT " of body \"%s\" is not a facet of any cell", q, body->name);
     PetscCall(MeshFaceLabelName(body->name, mesh->faces[grid->facetface[q]], sizeof(name), name));
     PetscCall(DMSetLabelValue(dm, name, join[0], 1));

@@ -95,7 +95,7 @@ PetscErrorCode MeshLabelPoints(DM dm, Scene scene)
     if (has) continue;
     PetscCall(PointLabelLabel(dm, point, point_tolerance * size, nearest));
     PetscCall(PointLabelFindNearest(comm, nearest));
-    PetscCheck(nearest[0] <= point_tolerance * size, comm, PETSC_ERR_USER_INPUT,
+    SceneCheck(nearest[0] <= point_tolerance * size, comm, PETSC_ERR_USER_INPUT, point,
       "displacement \"%s\": body \"%s\" has no node at that point or edge: the nearest node is at (%g, %g, %g)",
       point->name, scene->bodies[point->body].name, (double)nearest[1], (double)nearest[2], (double)nearest[3]);
   }

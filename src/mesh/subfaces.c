@@ -18,11 +18,11 @@ PetscErrorCode MeshCheckSubfaces(MPI_Comm comm, const SceneBody *body)
       PetscCall(PetscStrcmp(names[f], subface->of, &same));
       if (same) known = PETSC_TRUE;
       PetscCall(PetscStrcmp(names[f], subface->name, &same));
-      PetscCheck(!same, comm, PETSC_ERR_USER_INPUT, "Body \"%s\" has two faces with the name \"%s\"", body->name,
-        subface->name);
+      SceneCheck(!same, comm, PETSC_ERR_USER_INPUT, subface, "Body \"%s\" has two faces with the name \"%s\"",
+        body->name, subface->name);
     }
     PetscCall(NamesJoin(n - body->nsubfaces + s, names, sizeof(choices), choices));
-    PetscCheck(known, comm, PETSC_ERR_USER_INPUT,
+    SceneCheck(known, comm, PETSC_ERR_USER_INPUT, subface,
       "The face \"%s.%s\" is defined as a part of \"%s.%s\", which does not exist: the faces of %s before it are %s",
       body->name, subface->name, body->name, subface->of, body->name, choices);
   }
@@ -93,7 +93,7 @@ PetscErrorCode MeshCheckSubfacesFilled(DM dm, const SceneBody *body)
     PetscCall(MeshFaceLabelName(body->name, body->subfaces[s].name, sizeof(name), name));
     PetscCall(DMGetStratumSize(dm, name, 1, &n));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)dm)));
-    PetscCheck(n, PetscObjectComm((PetscObject)dm), PETSC_ERR_USER_INPUT,
+    SceneCheck(n, PetscObjectComm((PetscObject)dm), PETSC_ERR_USER_INPUT, &body->subfaces[s],
       "The face \"%s\" is empty: no facet of \"%s\" has its centroid within the bounds at refinement level 0", name,
       whole);
   }

@@ -258,8 +258,8 @@ static void StlMeasure(const struct _n_SceneStl *s, PetscReal centre[3], PetscRe
 }
 
 /* Collective. Reads an STL file, with its coordinates multiplied by `scale` */
-PetscErrorCode SceneStlCreate(MPI_Comm comm, const char file[], PetscReal scale, SceneStl *stl, PetscReal centre[3],
-  PetscReal *edge)
+PetscErrorCode SceneStlCreate(MPI_Comm comm, const char place[], const char file[], PetscReal scale, SceneStl *stl,
+  PetscReal centre[3], PetscReal *edge)
 {
   RankError      error;
   PetscErrorCode ierr = 0;
@@ -274,7 +274,7 @@ PetscErrorCode SceneStlCreate(MPI_Comm comm, const char file[], PetscReal scale,
   PetscCall(RankErrorBegin(&error));
   if (!rank) ierr = StlLoad(file, scale, s);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "%s", error.message);
+  PetscCheck(!error.code, comm, error.code, "%s%s", place, error.message);
   PetscCallMPI(MPI_Bcast(&s->n, 1, MPIU_INT, 0, comm));
   PetscCallMPI(MPI_Bcast(&s->size, 1, MPIU_REAL, 0, comm));
   PetscCall(PetscMPIIntCast(9 * s->n, &count));

@@ -2,15 +2,21 @@
 #include "reportimpl.h"
 #include <stdarg.h>
 
-/* Prints a warning on stderr, and stores it for the summary. Collective. */
-PetscErrorCode ReportWarn(MPI_Comm comm, RunReport *report, const char format[], ...)
+/*
+   Collective. Prints a warning on stderr, and stores it for the summary. place: place of the entry of the scene that
+   the warning is about; NULL: it is about no entry, or about one that does not come from a file.
+*/
+PetscErrorCode ReportWarn(MPI_Comm comm, RunReport *report, const char place[], const char format[], ...)
 {
-  char    sentence[512];
+  char    sentence[1024];
+  size_t  length;
   va_list args;
 
   PetscFunctionBegin;
+  PetscCall(PetscStrncpy(sentence, place ? place : "", sizeof(sentence)));
+  PetscCall(PetscStrlen(sentence, &length));
   va_start(args, format);
-  PetscCall(PetscVSNPrintf(sentence, sizeof(sentence), format, NULL, args));
+  PetscCall(PetscVSNPrintf(sentence + length, sizeof(sentence) - length, format, NULL, args));
   va_end(args);
   PetscCall(PetscFPrintf(comm, stderr, "contact: warning: %s\n", sentence));
   PetscCall(PetscRealloc((size_t)(report->nwarnings + 1) * sizeof(*report->warnings), &report->warnings));

@@ -7,7 +7,8 @@
 #include <petsccompat.h>
 
 /* report.c */
-PETSC_INTERN PetscErrorCode ReportWarn(MPI_Comm, RunReport *, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(3, 4);
+PETSC_INTERN PetscErrorCode ReportWarn(MPI_Comm, RunReport *, const char place[], const char format[], ...)
+  PETSC_ATTRIBUTE_FORMAT(4, 5);
 PETSC_INTERN PetscErrorCode ReportReason(StepReport *, PetscBool converged, const char reason[]);
 PETSC_INTERN PetscErrorCode ReportIterations(StepReport *, PetscInt n, const PetscInt iterations[]);
 PETSC_INTERN PetscErrorCode ReportFallbacks(StepReport *, const TaoIPFilterFallbacks *);

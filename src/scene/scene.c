@@ -89,30 +89,6 @@ static PetscErrorCode SceneReadLists(SceneKeys keys, Scene scene)
   PetscFunctionReturn(0);
 }
 
-/*
-   Reads and validates a scene. Errors in the lists or in the scene as a whole are raised together with the line in the
-   file.
-*/
-static PetscErrorCode SceneReadAndValidate(SceneKeys keys, Scene scene)
-{
-  RankError      error;
-  PetscErrorCode ierr;
-
-  PetscFunctionBegin;
-  PetscCall(RankErrorBegin(&error));
-  ierr = SceneReadLists(keys, scene);
-  PetscCall(RankErrorEnd(keys->comm, ierr, &error));
-  PetscCall(SceneKeysRaise(keys, &error));
-  PetscCall(SceneReadSolver(keys, scene));
-  PetscCall(SceneKeysCheck(keys));
-  PetscCall(SceneSetFromOptions(keys->comm, keys->file, scene));
-  PetscCall(RankErrorBegin(&error));
-  ierr = SceneValidate(keys->comm, keys->file, scene);
-  PetscCall(RankErrorEnd(keys->comm, ierr, &error));
-  PetscCall(SceneKeysRaise(keys, &error));
-  PetscFunctionReturn(0);
-}
-
 /*@C
    SceneLoad - Reads a scene from a YAML file and validates it
 
@@ -162,9 +138,13 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   if (!s->name) PetscCall(SceneDefaultName(keys->file, &s->name));
   PetscCall(PetscStrallocpy(keys->file, &s->file));
   PetscCall(SceneReadMaterials(keys, s, SceneFindList("materials")));
-  PetscCall(SceneReadAndValidate(keys, s));
-  s->lines    = keys->lines;
-  keys->lines = (SceneKeyLines){0, NULL, NULL};
+  PetscCall(SceneReadLists(keys, s));
+  PetscCall(SceneReadSolver(keys, s));
+  PetscCall(SceneKeysCheck(keys));
+  PetscCall(SceneSetFromOptions(comm, file, s));
+  s->places    = keys->places;
+  keys->places = (ScenePlaces){0};
+  PetscCall(SceneValidate(comm, s));
   PetscCall(SceneKeysDestroy(&keys));
   PetscCall(SceneSetOptions(s));
   *scene = s;
@@ -224,7 +204,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
   PetscCall(PetscFree(s->units));
   PetscCall(PetscFree(s->name));
   PetscCall(PetscFree(s->file));
-  PetscCall(SceneDestroyLines(&s->lines));
+  PetscCall(SceneDestroyPlaces(&s->places));
   PetscCall(PetscFree(*scene));
   PetscFunctionReturn(0);
 }

@@ -9,7 +9,7 @@
 #include "src/scene/sections/sectionsimpl.h"
 
 /* validate.c: Collective. Checks a scene beyond its syntax */
-PETSC_INTERN PetscErrorCode SceneValidate(MPI_Comm, const char file[], Scene);
+PETSC_INTERN PetscErrorCode SceneValidate(MPI_Comm, Scene);
 
 /* key_meanings.c: prints the keys of shapes and the constants of materials as Markdown tables */
 PETSC_INTERN PetscErrorCode SceneViewShapeKeys(PetscViewer), SceneViewConstantKeys(PetscViewer);
@@ -17,6 +17,6 @@ PETSC_INTERN PetscErrorCode SceneViewShapeKeys(PetscViewer), SceneViewConstantKe
 /* describe_loads.c: prints the loads of a scene */
 PETSC_INTERN PetscErrorCode SceneDescribeLoads(Scene, PetscViewer);
 
-/* view.c, describe.c, place.c, scene.c: their functions are declared in the public header */
+/* view.c, describe.c, scene.c: their functions are declared in the public header */
 
 #endif

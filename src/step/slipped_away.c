@@ -100,7 +100,7 @@ PetscErrorCode SlippedAwayWarn(Simulation sim, const StepReport *report)
     PetscCall(SlippedIsFree(sim, farthest, &is_free));
   if (is_free) {
     sim->control->slipped = PETSC_TRUE;
-    PetscCall(ReportWarn(sim->comm, &sim->report,
+    PetscCall(ReportWarn(sim->comm, &sim->report, scene->bodies[farthest].place,
       "body \"%s\" slips away in load step %" PetscInt_FMT ": it moves by %.3g, %.3g times as far as any other body, "
       "and no force acts on it there. Its position is therefore arbitrary: hold it by displacements or springs, or use "
       "smaller load steps",

@@ -7,6 +7,7 @@
 /* A contact pair */
 typedef struct {
   char          *name;              /* name of the pair, for messages */
+  const char    *place;             /* place of the pair in the scene file, which the scene owns; NULL: none */
   ContactSurface mortar, nonmortar; /* the two faces, deformed to the displacement of the last contact update */
   ContactRing    mortar_ring, nonmortar_ring; /* the facets around the two faces, for the normals of smooth pairs */
   GapType        gap;
@@ -26,10 +27,10 @@ typedef struct {
                        body [length] */
   PetscInt nfacing;     /* number of overlapping facet pairs, or of vertices opposite a facet, on this rank in the last
                          contact update */
-  const SceneBody *formula;     /* the rigid surface on the mortar side; NULL if the mortar side is a face of facets */
-  PetscInt         corner[4];   /* global numbers of four corners of the cube that represents the rigid surface in the
+  const SceneBody *formula;   /* the rigid surface on the mortar side; NULL if the mortar side is a face of facets */
+  PetscInt         corner[4]; /* global numbers of four corners of the cube that represents the rigid surface in the
                                  mesh */
-  PetscReal        place[4][3]; /* current coordinates of these corners [length] */
+  PetscReal        corner_at[4][3]; /* current coordinates of these corners [length] */
 } ContactPairData;
 
 /* Returns whether the smooth surfaces of a pair include the bending of order-2 facets between their nodes. For other

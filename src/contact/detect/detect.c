@@ -135,7 +135,7 @@ static PetscErrorCode RuleJoin(Scene scene, const SceneContactPair *rule, const 
 
     PetscCall(PetscRealloc(sizeof(*tie) * (scene->nties + 1), &scene->ties));
     tie  = &scene->ties[scene->nties++];
-    *tie = (SceneTie){.distance = tied};
+    *tie = (SceneTie){.place = rule->place, .distance = tied};
     PetscCall(PetscStrallocpy(name, &tie->name));
     PetscCall(PetscStrallocpy(mortar, &tie->mortar));
     PetscCall(PetscStrallocpy(nonmortar, &tie->nonmortar));
@@ -204,7 +204,7 @@ static PetscErrorCode RuleApply(const DetectModel *model, Scene scene, const Sce
     *tied = rule->tie + model->bulge[found->surface[0]] + model->bulge[found->surface[1]];
     side  = k;
   }
-  PetscCheck(*tied > 0.0 || (!found->tied[0] && !found->tied[1]), model->comm, PETSC_ERR_USER_INPUT,
+  SceneCheck(*tied > 0.0 || (!found->tied[0] && !found->tied[1]), model->comm, PETSC_ERR_USER_INPUT, rule,
     "contact rule \"%s\": only parts of the faces %s and %s are within the distance tie = %g of each other: define "
     "faces that consist of these parts, and list the tie of these faces",
     rule->name, s->name[found->surface[0]], s->name[found->surface[1]], (double)rule->tie);
@@ -225,7 +225,7 @@ static PetscErrorCode RulesCheckTies(const DetectModel *model, Scene scene, Pets
     PetscBool               any  = PETSC_FALSE;
 
     for (PetscInt i = 0; i < n; ++i) any = (PetscBool)(any || (rules[i] == rule && tied[i] > 0.0));
-    PetscCheck(any || !rule->mortar || rule->tie == 0.0, model->comm, PETSC_ERR_USER_INPUT,
+    SceneCheck(any || !rule->mortar || rule->tie == 0.0, model->comm, PETSC_ERR_USER_INPUT, rule,
       "contact rule \"%s\": no surface of %s or %s is within the distance tie = %g of the other body: increase tie, or "
       "list the tie of two faces under ties",
       rule->name, rule->nonmortar, rule->mortar, (double)rule->tie);

@@ -31,7 +31,7 @@ PetscErrorCode ContactSurfacePlace(MPI_Comm comm, ContactPairData *pair)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, found, 16, MPIU_REAL, MPIU_MAX, comm));
   for (PetscInt k = 0; k < 4; ++k) {
     pair->corner[k] = (PetscInt)found[4 * k];
-    PetscCall(PetscArraycpy(pair->place[k], &found[4 * k + 1], 3));
+    PetscCall(PetscArraycpy(pair->corner_at[k], &found[4 * k + 1], 3));
   }
   PetscFunctionReturn(0);
 }
@@ -46,9 +46,9 @@ PetscReal ContactSurfaceDistance(const ContactPairData *pair, const PetscReal x[
 
   SceneSurfaceGetCube(pair->formula, &cube);
   for (PetscInt c = 0; c < 3; ++c) {
-    r[c]      = x[c] - pair->place[0][c];
+    r[c]      = x[c] - pair->corner_at[0][c];
     before[c] = cube.corner[c];
-    for (PetscInt i = 0; i < 3; ++i) edge[i][c] = (pair->place[i + 1][c] - pair->place[0][c]) / cube.size;
+    for (PetscInt i = 0; i < 3; ++i) edge[i][c] = (pair->corner_at[i + 1][c] - pair->corner_at[0][c]) / cube.size;
   }
   for (PetscInt i = 0; i < 3; ++i) {
     for (PetscInt c = 0; c < 3; ++c) before[c] += VectorDot(r, edge[i]) * cube.edge[i][c];

@@ -96,7 +96,7 @@ PetscErrorCode GmshConvert(MPI_Comm comm, PetscInt nbodies, SceneBody bodies[])
     PetscCall(RankErrorBegin(&error));
     if (rank == 0) ierr = GmshConvertFile(&bodies[b], sizeof(path), path);
     PetscCall(RankErrorEnd(comm, ierr, &error));
-    PetscCheck(!error.code, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s", bodies[b].name, error.message);
+    SceneCheck(!error.code, comm, PETSC_ERR_USER_INPUT, &bodies[b], "Body \"%s\": %s", bodies[b].name, error.message);
     PetscCallMPI(MPI_Bcast(path, sizeof(path), MPI_CHAR, 0, comm));
     PetscCall(PetscStrallocpy(path, &bodies[b].gmsh.converted));
   }

@@ -33,11 +33,11 @@ PetscErrorCode GmshFileOpen(MPI_Comm comm, const SceneBody *body, GmshFile *file
   PetscCall(RankErrorBegin(&error));
   if (rank == 0) ierr = GmshReadFile(GmshPath(body), &file->mesh);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s is not a complete Gmsh mesh: %s", body->name,
-    body->gmsh.file, error.message);
+  SceneCheck(!error.code, comm, PETSC_ERR_USER_INPUT, body, "Body \"%s\": %s is not a complete Gmsh mesh: %s",
+    body->name, body->gmsh.file, error.message);
   dim = file->mesh.dim;
   PetscCallMPI(MPI_Bcast(&dim, 1, MPIU_INT, 0, comm));
-  PetscCheck(dim == 3, comm, PETSC_ERR_USER_INPUT,
+  SceneCheck(dim == 3, comm, PETSC_ERR_USER_INPUT, body,
     "Body \"%s\": %s is a mesh of dimension %" PetscInt_FMT ", without volumes", body->name, body->gmsh.file, dim);
   file->name = GmshPath(body);
   PetscFunctionReturn(0);
@@ -320,7 +320,7 @@ PetscErrorCode GmshFileGetGrid(MPI_Comm comm, GmshFile *file, const SceneBody *b
   if (file->mesh.nelements) ierr = GmshCutBody(&file->mesh, body, volume, n, tags, grid);
   if (!ierr && file->mesh.nelements && body->gmsh.nsurfaces) ierr = GmshAddSurfaces(n, grid);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "Body \"%s\": %s", body->name, error.message);
+  SceneCheck(!error.code, comm, error.code, body, "Body \"%s\": %s", body->name, error.message);
   PetscCall(NamesDestroy(&n, &surfaces));
   PetscCall(PetscFree(tags));
   PetscFunctionReturn(0);

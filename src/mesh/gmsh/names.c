@@ -76,11 +76,11 @@ static PetscErrorCode GmshGetPhysicalEntries(MPI_Comm comm, const SceneBody *bod
   PetscFunctionBegin;
   *entries = NULL;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCheck(body->gmsh.file, comm, PETSC_ERR_ARG_NULL, "Body \"%s\" names no mesh file", body->name);
+  SceneCheck(body->gmsh.file, comm, PETSC_ERR_ARG_NULL, body, "Body \"%s\" names no mesh file", body->name);
   PetscCall(RankErrorBegin(&error));
   if (rank == 0) ierr = GmshReadPhysicalNames(body, dim, &size, entries);
   PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "Body \"%s\": %s", body->name, error.message);
+  SceneCheck(!error.code, comm, error.code, body, "Body \"%s\": %s", body->name, error.message);
   length = (PetscInt64)size - 1;
   PetscCall(FileBroadcastText(comm, &length, entries));
   PetscFunctionReturn(0);
@@ -118,7 +118,8 @@ PetscErrorCode GmshGetVolumeTag(MPI_Comm comm, const SceneBody *body, PetscInt *
   PetscBool known = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCheck(body->gmsh.volume, comm, PETSC_ERR_ARG_NULL, "Body \"%s\" names no volume of its mesh file", body->name);
+  SceneCheck(body->gmsh.volume, comm, PETSC_ERR_ARG_NULL, body, "Body \"%s\" names no volume of its mesh file",
+    body->name);
   PetscCall(GmshGetPhysicalNames(comm, body, 3, &n, &volumes, &tags));
   PetscCall(NamesJoin(n, volumes, sizeof(choices), choices));
   for (PetscInt v = 0; v < n && !known; ++v) {
@@ -127,7 +128,7 @@ PetscErrorCode GmshGetVolumeTag(MPI_Comm comm, const SceneBody *body, PetscInt *
   }
   PetscCall(NamesDestroy(&n, &volumes));
   PetscCall(PetscFree(tags));
-  PetscCheck(known, comm, PETSC_ERR_USER_INPUT, "Body \"%s\": %s has no physical volume \"%s\"; it has: %s", body->name,
-    body->gmsh.file, body->gmsh.volume, choices);
+  SceneCheck(known, comm, PETSC_ERR_USER_INPUT, body, "Body \"%s\": %s has no physical volume \"%s\"; it has: %s",
+    body->name, body->gmsh.file, body->gmsh.volume, choices);
   PetscFunctionReturn(0);
 }

@@ -96,14 +96,14 @@ static PetscErrorCode CyclicFindTurn(MPI_Comm comm, const SceneCyclic *cut, cons
   PetscFunctionBegin;
   PetscCall(CyclicMean(comm, cut, axis, n, from, mean[0], size));
   PetscCall(CyclicMean(comm, cut, axis, m, to, mean[1], &other));
-  PetscCheck(PetscMin(VectorNorm(mean[0]), VectorNorm(mean[1])) > cyclic_same * *size, comm, PETSC_ERR_USER_INPUT,
+  SceneCheck(PetscMin(VectorNorm(mean[0]), VectorNorm(mean[1])) > cyclic_same * *size, comm, PETSC_ERR_USER_INPUT, cut,
     "cyclic symmetry \"%s\": the axis goes through the middle of %s or %s, but each face must be on one side of the "
     "axis",
     cut->name, cut->from, cut->to);
   VectorCross(mean[0], mean[1], cross);
   angle   = PetscAtan2Real(VectorDot(cross, axis), VectorDot(mean[0], mean[1]));
   sectors = whole / (PetscAbsReal(angle) * 180.0 / PETSC_PI);
-  PetscCheck(PetscAbsReal(sectors - PetscFloorReal(sectors + 0.5)) < 1e-4 * sectors, comm, PETSC_ERR_USER_INPUT,
+  SceneCheck(PetscAbsReal(sectors - PetscFloorReal(sectors + 0.5)) < 1e-4 * sectors, comm, PETSC_ERR_USER_INPUT, cut,
     "cyclic symmetry \"%s\": the faces %s and %s are %g degrees apart about the axis, and 360 degrees is not a "
     "multiple of this angle",
     cut->name, cut->from, cut->to, (double)(PetscAbsReal(angle) * 180.0 / PETSC_PI));
@@ -204,7 +204,7 @@ PetscErrorCode MeshGetCyclicImages(DM dm, const SceneCyclic *cut, PetscReal turn
   PetscCall(CyclicMatch(cut, axis, &face, cyclic_same * size, *n, to, *nodes, *images, &lost));
   PetscCallMPI(MPI_Allreduce(n, &total, 1, MPIU_INT, MPI_SUM, comm));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &lost, 1, MPIU_REAL, MPIU_MAX, comm));
-  PetscCheck(lost == 0.0 && total == face.n, comm, PETSC_ERR_USER_INPUT,
+  SceneCheck(lost == 0.0 && total == face.n, comm, PETSC_ERR_USER_INPUT, cut,
     "cyclic symmetry \"%s\": the face %s, turned about the axis, is not the face %s node by node (%" PetscInt_FMT
     " and %" PetscInt_FMT " nodes): both faces must have the same mesh",
     cut->name, cut->from, cut->to, face.n, total);

@@ -15,11 +15,14 @@ static PetscErrorCode ProbeRaise(DM dm, Scene scene, const SceneProbe *probe, co
   MPI_Comm    comm   = PetscObjectComm((PetscObject)dm);
 
   PetscFunctionBegin;
-  PetscCheck(place->distance < PETSC_MAX_REAL, comm, PETSC_ERR_USER_INPUT,
+  SceneCheck(place->distance < PETSC_MAX_REAL, comm, PETSC_ERR_USER_INPUT, probe,
     "probe \"%s\": %s, (%g, %g, %g), is not in %s%s", probe->name, what, (double)x[0], (double)x[1], (double)x[2], body,
     advice);
-  SETERRQ(comm, PETSC_ERR_USER_INPUT, "probe \"%s\": %s, (%g, %g, %g), is not in %s; it is %g outside%s", probe->name,
-    what, (double)x[0], (double)x[1], (double)x[2], body, (double)place->distance, advice);
+  SETERRQ(comm, PETSC_ERR_USER_INPUT,
+    "%s"
+    "probe \"%s\": %s, (%g, %g, %g), is not in %s; it is %g outside%s",
+    ScenePlace(probe), probe->name, what, (double)x[0], (double)x[1], (double)x[2], body, (double)place->distance,
+    advice);
 }
 
 /*@C

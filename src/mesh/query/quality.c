@@ -100,9 +100,10 @@ static PetscErrorCode QualityRaise(MPI_Comm comm, PetscInt nbodies, const SceneB
       if (mine > first[d]) candidate = PETSC_FALSE;
     }
     SETERRQ(comm, PETSC_ERR_USER_INPUT,
-      "Body \"%s\"%s%s has %" PetscInt_FMT " inverted or flat cell%s, the first around (%g, %g, %g)", bodies[b].name,
-      *from ? " of " : "", from, total[b], total[b] == 1 ? "" : "s", (double)first[0], (double)first[1],
-      (double)first[2]);
+      "%s"
+      "Body \"%s\"%s%s has %" PetscInt_FMT " inverted or flat cell%s, the first around (%g, %g, %g)",
+      ScenePlace(&bodies[b]), bodies[b].name, *from ? " of " : "", from, total[b], total[b] == 1 ? "" : "s",
+      (double)first[0], (double)first[1], (double)first[2]);
   }
   PetscCall(PetscFree(total));
   PetscFunctionReturn(0);

@@ -170,8 +170,8 @@ PetscErrorCode MeshRefineLocally(const MeshLocalRefinement *local, const SceneBo
       PetscBool has;
 
       PetscCall(DMHasLabel(*dm, local->zones[z].face[k], &has));
-      PetscCheck(has, comm, PETSC_ERR_USER_INPUT, "refinement \"%s\": there is no face \"%s\"", local->zones[z].name,
-        local->zones[z].face[k]);
+      SceneCheck(has, comm, PETSC_ERR_USER_INPUT, &local->zones[z], "refinement \"%s\": there is no face \"%s\"",
+        local->zones[z].name, local->zones[z].face[k]);
     }
   }
   PetscCall(RankErrorBegin(&error));

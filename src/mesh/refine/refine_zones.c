@@ -139,13 +139,14 @@ static PetscErrorCode ZoneError(const SceneBody bodies[], const SceneRefinement 
   const char *const body = refinement->body >= 0 ? bodies[refinement->body].name : "";
 
   PetscFunctionBegin;
-  PetscCheck(!refinement->face[1], PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
+  SceneCheck(!refinement->face[1], PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, refinement,
     "refinement \"%s\": no cell is within the distance %g of both faces, \"%s\" and \"%s\": increase the distance",
     refinement->name, (double)refinement->distance, refinement->face[0], refinement->face[1]);
   SETERRQ(PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
+    "%s"
     "refinement \"%s\": its box, lower: [%g, %g, %g] and upper: [%g, %g, %g], contains no cell of %s%s%s",
-    refinement->name, (double)a[0], (double)a[1], (double)a[2], (double)b[0], (double)b[1], (double)b[2],
-    *body ? "body \"" : "any body", body, *body ? "\"" : "");
+    ScenePlace(refinement), refinement->name, (double)a[0], (double)a[1], (double)a[2], (double)b[0], (double)b[1],
+    (double)b[2], *body ? "body \"" : "any body", body, *body ? "\"" : "");
 }
 
 /* Marks the cells of a zone that have not reached its level. It is an error if the zone contains no cell. */
@@ -160,7 +161,7 @@ static PetscErrorCode ZoneMark(const SceneBody bodies[], const SceneRefinement *
     if (!ZoneHolds(zone, refinement->distance, &box[6 * c])) continue;
     ++n;
     if (hexes->place[4 * c + 3] >= refinement->levels) continue;
-    PetscCheck(bodies[body[c]].order < 2, PETSC_COMM_SELF, PETSC_ERR_SUP,
+    SceneCheck(bodies[body[c]].order < 2, PETSC_COMM_SELF, PETSC_ERR_SUP, refinement,
       "refinement \"%s\": body \"%s\" has order %" PetscInt_FMT ", but only hexahedra of order 1 are refined locally",
       refinement->name, bodies[body[c]].name, bodies[body[c]].order);
     marked[c] = PETSC_TRUE;

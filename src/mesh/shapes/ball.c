@@ -5,7 +5,7 @@
 static PetscErrorCode ShapeSize_Ball(MPI_Comm comm, const SceneBody *body, PetscInt64 *ncells, PetscInt64 *nvertices)
 {
   PetscFunctionBegin;
-  PetscCheck(body->octant.outer.radius > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(body->octant.outer.radius > 0, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the radius of the ball must be positive, but is %g", body->name, (double)body->octant.outer.radius);
   PetscCall(OctantSize(comm, body, PETSC_TRUE, ncells, nvertices));
   PetscFunctionReturn(0);

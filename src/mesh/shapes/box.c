@@ -9,14 +9,14 @@ static PetscErrorCode ShapeSize_Box(MPI_Comm comm, const SceneBody *body, PetscI
   *ncells    = 1;
   *nvertices = 1;
   for (PetscInt d = 0; d < 3; ++d) {
-    PetscCheck(body->lower[d] < body->upper[d] && !PetscIsInfOrNanReal(body->upper[d] - body->lower[d]), comm,
-      PETSC_ERR_ARG_OUTOFRANGE,
+    SceneCheck(body->lower[d] < body->upper[d] && !PetscIsInfOrNanReal(body->upper[d] - body->lower[d]), comm,
+      PETSC_ERR_ARG_OUTOFRANGE, body,
       "Body \"%s\": the box must have lower < upper along each axis, but along %c they are %g and %g", body->name,
       "xyz"[d], (double)body -> lower[d], (double)body -> upper[d]);
-    PetscCheck(body->cells[d] > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    SceneCheck(body->cells[d] > 0, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
       "Body \"%s\": the box must have at least one cell along each axis, but has %" PetscInt_FMT " along %c",
       body->name, body->cells[d], "xyz"[d]);
-    PetscCheck(body->cells[d] < PETSC_MAX_INT / (8 * (*nvertices)), comm, PETSC_ERR_ARG_OUTOFRANGE,
+    SceneCheck(body->cells[d] < PETSC_MAX_INT / (8 * (*nvertices)), comm, PETSC_ERR_ARG_OUTOFRANGE, body,
       "Body \"%s\" has too many level 0 cells for PETSc's integer type: %" PetscInt_FMT " x %" PetscInt_FMT
       " x %" PetscInt_FMT,
       body->name, body->cells[0], body->cells[1], body->cells[2]);

@@ -23,21 +23,21 @@ static PetscErrorCode ShapeSize_Cylinder(MPI_Comm comm, const SceneBody *body, P
   const PetscInt     *n    = body->cells;
 
   PetscFunctionBegin;
-  PetscCheck(tube->radii[1] > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(tube->radii[1] > 0, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the radius of the %s must be positive, but is %g%s", body->name,
     body->shape == SHAPE_CONE ? "cone" : "cylinder", (double)tube->radii[1],
     body->shape == SHAPE_CONE ? ": use a cone without its tip" : "");
-  PetscCheck(tube->radii[0] > 0 || body->shape != SHAPE_CONE, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(tube->radii[0] > 0 || body->shape != SHAPE_CONE, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the radius of the cone must be positive, but is %g: use a cone without its tip", body->name,
     (double)tube->radii[0]);
-  PetscCheck(tube->extent[0] < tube->extent[1], comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(tube->extent[0] < tube->extent[1], comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the extent along the axis must have from < to, but they are %g and %g", body->name,
     (double)tube->extent[0], (double)tube->extent[1]);
   PetscCall(ShapeCheckCount(comm, body, "across the core", n[0]));
   PetscCall(ShapeCheckCount(comm, body, "from the core to the surface", n[1]));
   PetscCall(ShapeCheckCount(comm, body, "along the axis", n[2]));
   for (PetscInt d = 0; d < 3; ++d) PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], n[d]));
-  PetscCheck(body->grading[0] == 0 || body->grading[0] == 1, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(body->grading[0] == 0 || body->grading[0] == 1, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the cells of the core are equal, so its grading must be 1, but is %g", body->name,
     (double)body->grading[0]);
   PetscCall(ShapeCheckTotal(comm, body,

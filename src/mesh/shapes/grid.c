@@ -110,7 +110,7 @@ void ShapeCircle(const PetscReal q[2], PetscReal x[2])
 PetscErrorCode ShapeCheckCount(MPI_Comm comm, const SceneBody *body, const char what[], PetscInt count)
 {
   PetscFunctionBegin;
-  PetscCheck(count > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(count > 0, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\" must have at least one cell %s, but has %" PetscInt_FMT, body->name, what, count);
   PetscFunctionReturn(0);
 }
@@ -118,7 +118,7 @@ PetscErrorCode ShapeCheckCount(MPI_Comm comm, const SceneBody *body, const char 
 PetscErrorCode ShapeCheckTotal(MPI_Comm comm, const SceneBody *body, PetscReal nvertices)
 {
   PetscFunctionBegin;
-  PetscCheck(nvertices < (PetscReal)PETSC_MAX_INT / 16, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(nvertices < (PetscReal)PETSC_MAX_INT / 16, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\" has too many level 0 vertices for PETSc's integer type: %g", body->name, (double)nvertices);
   PetscFunctionReturn(0);
 }
@@ -126,11 +126,11 @@ PetscErrorCode ShapeCheckTotal(MPI_Comm comm, const SceneBody *body, PetscReal n
 PetscErrorCode ShapeCheckGrading(MPI_Comm comm, const SceneBody *body, PetscReal grading, PetscInt even, PetscInt n)
 {
   PetscFunctionBegin;
-  PetscCheck(even >= 0 && even <= n, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(even >= 0 && even <= n, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the number of even cells of a grading must be between 0 and the number of cells, %" PetscInt_FMT
     ", but is %" PetscInt_FMT,
     body->name, n, even);
-  PetscCheck(grading >= 0 && grading <= 1e6 && (grading == 0 || grading >= 1e-6), comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(grading >= 0 && grading <= 1e6 && (grading == 0 || grading >= 1e-6), comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": a grading is the size of the last cell over that of the first, which must lie between 1e-6 and 1e6, "
     "but is %g",
     body->name, (double)grading);

@@ -46,19 +46,19 @@ static PetscErrorCode ShapeSize_HalfEllipse(MPI_Comm comm, const SceneBody *body
   HalfEllipse             e;
 
   PetscFunctionBegin;
-  PetscCheck(ellipse->axis >= 0 && ellipse->axis < 3 && ellipse->depth >= 0 && ellipse->depth < 6 && ellipse->half < 6,
-    comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(ellipse->axis >= 0 && ellipse->axis < 3 && ellipse->depth >= 0 && ellipse->depth < 6 && ellipse->half < 6,
+    comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": one of the keys axis, depth and half is not a direction such as x or -x", body->name);
-  PetscCheck(ellipse->depth % 3 != ellipse->axis, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(ellipse->depth % 3 != ellipse->axis, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the keys depth and axis both have the direction %c, but must be perpendicular", body->name,
     "xyz"[ellipse->axis]);
-  PetscCheck(ellipse->half < 0 || (ellipse->half % 3 != ellipse->axis && ellipse->half % 3 != ellipse->depth % 3), comm,
-    PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(ellipse->half < 0 || (ellipse->half % 3 != ellipse->axis && ellipse->half % 3 != ellipse->depth % 3), comm,
+    PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the direction of the key half must be perpendicular to those of the keys axis and depth", body->name);
-  PetscCheck(ellipse->semi_axes[0] > 0 && ellipse->semi_axes[1] > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(ellipse->semi_axes[0] > 0 && ellipse->semi_axes[1] > 0, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the semi-axes must be positive, but are %g and %g", body->name, (double)ellipse->semi_axes[0],
     (double)ellipse->semi_axes[1]);
-  PetscCheck(ellipse->extent[0] < ellipse->extent[1], comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(ellipse->extent[0] < ellipse->extent[1], comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the extent along the axis must have from < to, but they are %g and %g", body->name,
     (double)ellipse->extent[0], (double)ellipse->extent[1]);
   for (PetscInt d = 0; d < 3; ++d) {

@@ -47,24 +47,24 @@ static PetscErrorCode HoledCheckPlace(MPI_Comm comm, const SceneBody *body)
   const PetscReal radius = body->tube.radii[1];
 
   PetscFunctionBegin;
-  PetscCheck(radius > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(radius > 0, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the radius of the hole must be positive, but is %g", body->name, (double)radius);
   for (PetscInt d = 0; d < 3; ++d) {
-    PetscCheck(body->lower[d] < body->upper[d] && !PetscIsInfOrNanReal(body->upper[d] - body->lower[d]), comm,
-      PETSC_ERR_ARG_OUTOFRANGE,
+    SceneCheck(body->lower[d] < body->upper[d] && !PetscIsInfOrNanReal(body->upper[d] - body->lower[d]), comm,
+      PETSC_ERR_ARG_OUTOFRANGE, body,
       "Body \"%s\": the box must have lower < upper along each axis, but along %c they are %g and %g", body->name,
       "xyz"[d], (double)body -> lower[d], (double)body -> upper[d]);
     for (PetscInt end = 0; end < 2 && d != body->tube.axis; ++end) {
       const PetscReal reach = HoledReach(body, d, end);
 
-      PetscCheck(reach == 0 || reach > radius, comm, PETSC_ERR_ARG_OUTOFRANGE,
+      SceneCheck(reach == 0 || reach > radius, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
         "Body \"%s\": the hole of radius %g must be inside of the box, or its axis must be on a side or an edge of the "
         "box, but the axis is %g from the side %c%s",
         body->name, (double)radius, (double)reach, "xyz"[d], end ? "max" : "min");
     }
-    PetscCheck(d == body->tube.axis ||
+    SceneCheck(d == body->tube.axis ||
                  (body->tube.center[d] >= body->lower[d] && body->tube.center[d] <= body->upper[d]),
-      comm, PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the axis of the hole is outside of the box along %c, at %g",
+      comm, PETSC_ERR_ARG_OUTOFRANGE, body, "Body \"%s\": the axis of the hole is outside of the box along %c, at %g",
       body->name, "xyz"[d], (double)body -> tube.center[d]);
   }
   PetscFunctionReturn(0);
@@ -82,7 +82,7 @@ static PetscErrorCode ShapeSize_HoledBox(MPI_Comm comm, const SceneBody *body, P
   PetscCall(ShapeCheckCount(comm, body, "along an eighth of the hole", n[1]));
   PetscCall(ShapeCheckCount(comm, body, "along the hole", n[2]));
   for (PetscInt d = 0; d < 3; ++d) PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], n[d]));
-  PetscCheck(body->grading[1] == 0 || body->grading[1] == 1, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(body->grading[1] == 0 || body->grading[1] == 1, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the cells around the hole are equal, so their grading must be 1, but is %g", body->name,
     (double)body->grading[1]);
   PetscCall(ShapeCheckTotal(comm, body, (8 * (PetscReal)n[1] + 1) * ((PetscReal)n[0] + 1) * ((PetscReal)n[2] + 1)));

@@ -81,7 +81,7 @@ PetscErrorCode OctantSize(MPI_Comm comm, const SceneBody *body, PetscBool core, 
     const char *const what[] = {"along x (patches)", "along y (patches)", "along z (patches)"};
     const PetscInt    sign   = body->octant.signs[d];
 
-    PetscCheck(sign >= -1 && sign <= OCTANT_BOTH, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    SceneCheck(sign >= -1 && sign <= OCTANT_BOTH, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
       "Body \"%s\": the signs of an octant must be 1, -1 or, for both sides, %d, but that along %c is %" PetscInt_FMT,
       body->name, OCTANT_BOTH, "xyz"[d], sign);
     PetscCall(ShapeCheckCount(comm, body, what[d], n[d]));

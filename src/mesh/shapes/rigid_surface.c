@@ -14,21 +14,21 @@ static PetscErrorCode RigidSurfaceCheckProfile(MPI_Comm comm, const SceneBody *b
   PetscReal        cross = 0.0;
 
   PetscFunctionBegin;
-  PetscCheck(n % 2 == 0 && n >= 4, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(n % 2 == 0 && n >= 4, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the key points has %" PetscInt_FMT " numbers, but needs two numbers for each of at least two points",
     body->name, n);
   for (PetscInt k = 0; k < n; k += 2) {
-    PetscCheck(k + 2 >= n || p[k] != p[k + 2] || p[k + 1] != p[k + 3], comm, PETSC_ERR_ARG_OUTOFRANGE,
+    SceneCheck(k + 2 >= n || p[k] != p[k + 2] || p[k + 1] != p[k + 3], comm, PETSC_ERR_ARG_OUTOFRANGE, body,
       "Body \"%s\": the key points has the point (%g, %g) twice", body->name, (double)p[k], (double)p[k + 1]);
-    PetscCheck(body->shape != SHAPE_RIGID_REVOLVED || p[k] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    SceneCheck(body->shape != SHAPE_RIGID_REVOLVED || p[k] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
       "Body \"%s\": the key points has the point (%g, %g), but its first number is a distance from the axis and must "
       "not be negative",
       body->name, (double)p[k], (double)p[k + 1]);
   }
   for (PetscInt c = 0; c < 3; ++c) cross += PetscSqr(a[c] * b[(c + 1) % 3] - a[(c + 1) % 3] * b[c]);
-  PetscCheck(body->shape != SHAPE_RIGID_EXTRUDED || cross > 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(body->shape != SHAPE_RIGID_EXTRUDED || cross > 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the vectors of the keys across and direction are parallel, but must be perpendicular", body->name);
-  PetscCheck(body->own[SURFACE_OUTSIDE] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(body->own[SURFACE_OUTSIDE] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the key outside is %g, but must be 0 or positive", body->name, (double)body->own[SURFACE_OUTSIDE]);
   PetscFunctionReturn(0);
 }
@@ -44,25 +44,25 @@ static PetscErrorCode ShapeSize_RigidSurface(MPI_Comm comm, const SceneBody *bod
   PetscReal square = 0.0;
 
   PetscFunctionBegin;
-  PetscCheck(body->material.type == MATERIAL_RIGID, comm, PETSC_ERR_ARG_WRONG,
+  SceneCheck(body->material.type == MATERIAL_RIGID, comm, PETSC_ERR_ARG_WRONG, body,
     "Body \"%s\": its shape is a rigid surface, which needs the material rigid, but its material is %s", body->name,
     MaterialTypes[body->material.type]);
   for (PetscInt c = 0; c < 3; ++c) square += PetscSqr(own[SURFACE_AXIS + c]);
-  PetscCheck(body->shape == SHAPE_RIGID_SPHERE || stl || square > 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(body->shape == SHAPE_RIGID_SPHERE || stl || square > 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the vector of its axis or normal has the length 0", body->name);
-  PetscCheck(!round || own[SURFACE_RADIUS] > 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(!round || own[SURFACE_RADIUS] > 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the key radius is %g, but must be positive", body->name, (double)own[SURFACE_RADIUS]);
-  PetscCheck(body->shape != SHAPE_RIGID_TORUS ||
+  SceneCheck(body->shape != SHAPE_RIGID_TORUS ||
                (own[SURFACE_SECTION] > 0.0 && own[SURFACE_SECTION] < own[SURFACE_RADIUS]),
-    comm, PETSC_ERR_ARG_OUTOFRANGE,
+    comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the key section_radius is %g, but must lie between 0 and the radius %g", body->name,
     (double)own[SURFACE_SECTION], (double)own[SURFACE_RADIUS]);
-  PetscCheck(body->shape != SHAPE_RIGID_CONE || (own[SURFACE_ANGLE] > 0.0 && own[SURFACE_ANGLE] < 90.0), comm,
-    PETSC_ERR_ARG_OUTOFRANGE, "Body \"%s\": the key half_angle is %g, but must lie between 0 and 90 degrees",
+  SceneCheck(body->shape != SHAPE_RIGID_CONE || (own[SURFACE_ANGLE] > 0.0 && own[SURFACE_ANGLE] < 90.0), comm,
+    PETSC_ERR_ARG_OUTOFRANGE, body, "Body \"%s\": the key half_angle is %g, but must lie between 0 and 90 degrees",
     body->name, (double)own[SURFACE_ANGLE]);
-  PetscCheck(own[SURFACE_SIZE] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(own[SURFACE_SIZE] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the key size is %g, but must be positive", body->name, (double)own[SURFACE_SIZE]);
-  PetscCheck(own[SURFACE_MASS] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(own[SURFACE_MASS] >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the key mass is %g, but must be 0 or positive", body->name, (double)own[SURFACE_MASS]);
   if (line) PetscCall(RigidSurfaceCheckProfile(comm, body));
   *ncells    = 1;

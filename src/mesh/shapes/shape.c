@@ -10,7 +10,7 @@ static const Shape *const shapes[] = {BODY_SHAPES(SHAPE_ENTRY) NULL};
 PetscErrorCode ShapeGet(MPI_Comm comm, const SceneBody *body, const Shape **shape)
 {
   PetscFunctionBegin;
-  PetscCheck(body->shape >= 0 && body->shape <= SHAPE_GMSH, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(body->shape >= 0 && body->shape <= SHAPE_GMSH, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\" has the unknown shape number %d", body->name, (int)body->shape);
   *shape = shapes[body->shape];
   PetscFunctionReturn(0);

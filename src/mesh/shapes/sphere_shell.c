@@ -35,10 +35,10 @@ static PetscErrorCode ShellCheckCorner(MPI_Comm comm, const SceneBody *body, con
   PetscReal square = 0;
 
   PetscFunctionBegin;
-  PetscCheck(sphere->radius > 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(sphere->radius > 0, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the radius of the %s sphere must be positive, but is %g", body->name, what, (double)sphere->radius);
   for (PetscInt d = 0; d < 3; ++d) square += PetscSqr(sphere->center[d] - body->octant.corner[d]);
-  PetscCheck(square < PetscSqr(sphere->radius), comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(square < PetscSqr(sphere->radius), comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the octant's corner must lie inside of the %s sphere, but is %g away from its center, and the radius "
     "is %g",
     body->name, what, (double)PetscSqrtReal(square), (double)sphere->radius);
@@ -51,7 +51,7 @@ static PetscErrorCode ShapeSize_SphereShell(MPI_Comm comm, const SceneBody *body
   const PetscInt samples = 8; /* number of test directions along an edge of the cube of parameters */
 
   PetscFunctionBegin;
-  PetscCheck(body->octant.cap.radius >= 0, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(body->octant.cap.radius >= 0, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the radius of the cap must be positive, or 0 for none, but is %g", body->name,
     (double)body->octant.cap.radius);
   PetscCall(ShellCheckCorner(comm, body, "inner", &body->octant.inner));
@@ -67,7 +67,7 @@ static PetscErrorCode ShapeSize_SphereShell(MPI_Comm comm, const SceneBody *body
     for (PetscInt d = 0; d < 3; ++d) q[d] *= body->octant.signs[d] == OCTANT_BOTH && side >> d & 1 ? -1 : 1;
     OctantDirection(q, direction);
     ShellDistances(body, direction, &inner, &outer);
-    PetscCheck(inner < outer, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    SceneCheck(inner < outer, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
       "Body \"%s\": the inner surface must lie inside of the outer one, but in the direction (%g, %g, %g) they are %g "
       "and %g away from the corner",
       body->name, (double)direction[0], (double)direction[1], (double)direction[2], (double)inner, (double)outer);

@@ -8,7 +8,7 @@ static PetscErrorCode ShapeSize_SpheroidShell(MPI_Comm comm, const SceneBody *bo
   for (PetscInt d = 0; d < 3; ++d) {
     const PetscReal inner = body->octant.inner_axes[d], outer = body->octant.outer_axes[d];
 
-    PetscCheck(inner > 0 && inner < outer, comm, PETSC_ERR_ARG_OUTOFRANGE,
+    SceneCheck(inner > 0 && inner < outer, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
       "Body \"%s\": the semi-axes must be 0 < inner < outer, but along %c they are %g and %g", body->name, "xyz"[d],
       (double)inner, (double)outer);
   }

@@ -25,25 +25,25 @@ static PetscErrorCode ShapeSize_TubeArc(MPI_Comm comm, const SceneBody *body, Pe
   const PetscReal     angle = tube->angles[1] - tube->angles[0];
 
   PetscFunctionBegin;
-  PetscCheck(tube->axis >= 0 && tube->axis < 3, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(tube->axis >= 0 && tube->axis < 3, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the axis of the tube must be 0, 1 or 2, but is %" PetscInt_FMT, body->name, tube->axis);
-  PetscCheck(tube->radii[0] > 0 && tube->radii[0] < tube->radii[1], comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(tube->radii[0] > 0 && tube->radii[0] < tube->radii[1], comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the radii of the tube must be 0 < inner < outer, but are %g and %g", body->name,
     (double)tube->radii[0], (double)tube->radii[1]);
-  PetscCheck(angle > 0 && angle <= 360, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(angle > 0 && angle <= 360, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the arc must be more than 0 and at most 360 degrees, but goes from %g to %g", body->name,
     (double)tube->angles[0], (double)tube->angles[1]);
-  PetscCheck(tube->extent[0] < tube->extent[1], comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(tube->extent[0] < tube->extent[1], comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the extent along the axis must have from < to, but they are %g and %g", body->name,
     (double)tube->extent[0], (double)tube->extent[1]);
   PetscCall(ShapeCheckCount(comm, body, "radially", n[0]));
   PetscCall(ShapeCheckCount(comm, body, "around the axis", n[1]));
   PetscCall(ShapeCheckCount(comm, body, "along the axis", n[2]));
   for (PetscInt d = 0; d < 3; ++d) PetscCall(ShapeCheckGrading(comm, body, body->grading[d], body->even[d], n[d]));
-  PetscCheck(angle < 360 || body->grading[1] == 0 || body->grading[1] == 1, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(angle < 360 || body->grading[1] == 0 || body->grading[1] == 1, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the cells around a whole tube are equal, so its grading around the axis must be 1, but is %g",
     body->name, (double)body->grading[1]);
-  PetscCheck(angle / (PetscReal)n[1] < 120, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(angle / (PetscReal)n[1] < 120, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": a cell around the axis must have less than 120 degrees, but the arc has %g degrees and its number of "
     "cells is %" PetscInt_FMT,
     body->name, (double)angle, n[1]);

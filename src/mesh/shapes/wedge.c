@@ -27,9 +27,9 @@ static PetscErrorCode ShapeSize_Wedge(MPI_Comm comm, const SceneBody *body, Pets
 
     longest = PetscMax(longest, PetscSqr(b[0] - a[0]) + PetscSqr(b[1] - a[1]));
   }
-  PetscCheck(PetscAbsReal(WedgeArea(body)) > 1e-6 * longest, comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(PetscAbsReal(WedgeArea(body)) > 1e-6 * longest, comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the three corners of a wedge must not lie on a line", body->name);
-  PetscCheck(body->tube.extent[0] < body->tube.extent[1], comm, PETSC_ERR_ARG_OUTOFRANGE,
+  SceneCheck(body->tube.extent[0] < body->tube.extent[1], comm, PETSC_ERR_ARG_OUTOFRANGE, body,
     "Body \"%s\": the extent along the axis must have from < to, but they are %g and %g", body->name,
     (double)body->tube.extent[0], (double)body->tube.extent[1]);
   PetscCall(ShapeCheckCount(comm, body, "along half of a side", n[0]));

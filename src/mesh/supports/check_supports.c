@@ -31,9 +31,9 @@ static PetscErrorCode SupportRaise(const Support *support, Scene scene, const Pe
     PetscInt       nfree = 0;
 
     for (PetscInt k = 0; k < 6; ++k) nfree += outside[6 * b + k] > 1 - 1e-6;
-    PetscCheck(nfree < 6, comm, PETSC_ERR_USER_INPUT,
+    SceneCheck(nfree < 6, comm, PETSC_ERR_USER_INPUT, &scene->bodies[b],
       "nothing holds body \"%s\": prescribe a displacement on one of its faces", scene->bodies[b].name);
-    PetscCheck(mode < 0, comm, PETSC_ERR_USER_INPUT,
+    SceneCheck(mode < 0, comm, PETSC_ERR_USER_INPUT, &scene->bodies[b],
       "body \"%s\" is not held against %s: prescribe a displacement, or add springs, a tie or a contact pair",
       scene->bodies[b].name, modes[mode]);
   }
@@ -42,20 +42,21 @@ static PetscErrorCode SupportRaise(const Support *support, Scene scene, const Pe
 
 /* Collective. Checks that a face has facets. A surface of a Gmsh file has none if it is not on the boundary of the
    body. */
-static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const char owner[], const char face[])
+static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const void *owner, const char face[])
 {
-  IS       facets;
-  PetscInt n, total;
+  const SceneEntry *entry = owner;
+  IS                facets;
+  PetscInt          n, total;
 
   PetscFunctionBegin;
   PetscCall(MeshGetFacets(dm, face, &facets));
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISDestroy(&facets));
   PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)dm)));
-  PetscCheck(total, PetscObjectComm((PetscObject)dm), PETSC_ERR_USER_INPUT,
+  SceneCheck(total, PetscObjectComm((PetscObject)dm), PETSC_ERR_USER_INPUT, entry,
     "%s \"%s\": the face \"%s\" has no facets, because that surface of the mesh file is not on the boundary of the "
     "body",
-    what, owner, face);
+    what, entry->name, face);
   PetscFunctionReturn(0);
 }
 
@@ -127,27 +128,27 @@ PetscErrorCode MeshCheckScene(DM dm, Scene scene)
   PetscCall(MeshLabelPoints(dm, scene));
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
     if (scene->displacements[d].at == DISPLACEMENT_FACE)
-      PetscCall(SupportCheckFacets(dm, "Displacement", scene->displacements[d].name, scene->displacements[d].face));
+      PetscCall(SupportCheckFacets(dm, "Displacement", &scene->displacements[d], scene->displacements[d].face));
   }
   for (PetscInt p = 0; p < scene->npressures; ++p)
-    PetscCall(SupportCheckFacets(dm, "Pressure", scene->pressures[p].name, scene->pressures[p].face));
+    PetscCall(SupportCheckFacets(dm, "Pressure", &scene->pressures[p], scene->pressures[p].face));
   for (PetscInt t = 0; t < scene->ntractions; ++t)
-    PetscCall(SupportCheckFacets(dm, "Load", scene->tractions[t].name, scene->tractions[t].face));
+    PetscCall(SupportCheckFacets(dm, "Load", &scene->tractions[t], scene->tractions[t].face));
   for (PetscInt s = 0; s < scene->nsprings; ++s) {
-    PetscCall(SupportCheckFacets(dm, "Spring", scene->springs[s].name, scene->springs[s].face));
-    if (scene->springs[s].to) PetscCall(SupportCheckFacets(dm, "Spring", scene->springs[s].name, scene->springs[s].to));
+    PetscCall(SupportCheckFacets(dm, "Spring", &scene->springs[s], scene->springs[s].face));
+    if (scene->springs[s].to) PetscCall(SupportCheckFacets(dm, "Spring", &scene->springs[s], scene->springs[s].to));
   }
   for (PetscInt p = 0; p < scene->npairs; ++p) {
-    PetscCall(SupportCheckFacets(dm, "Contact pair", scene->pairs[p].name, scene->pairs[p].mortar));
-    PetscCall(SupportCheckFacets(dm, "Contact pair", scene->pairs[p].name, scene->pairs[p].nonmortar));
+    PetscCall(SupportCheckFacets(dm, "Contact pair", &scene->pairs[p], scene->pairs[p].mortar));
+    PetscCall(SupportCheckFacets(dm, "Contact pair", &scene->pairs[p], scene->pairs[p].nonmortar));
   }
   for (PetscInt t = 0; t < scene->nties; ++t) {
-    PetscCall(SupportCheckFacets(dm, "Tie", scene->ties[t].name, scene->ties[t].mortar));
-    PetscCall(SupportCheckFacets(dm, "Tie", scene->ties[t].name, scene->ties[t].nonmortar));
+    PetscCall(SupportCheckFacets(dm, "Tie", &scene->ties[t], scene->ties[t].mortar));
+    PetscCall(SupportCheckFacets(dm, "Tie", &scene->ties[t], scene->ties[t].nonmortar));
   }
   for (PetscInt k = 0; k < scene->ncyclic; ++k) {
-    PetscCall(SupportCheckFacets(dm, "Cyclic symmetry", scene->cyclic[k].name, scene->cyclic[k].from));
-    PetscCall(SupportCheckFacets(dm, "Cyclic symmetry", scene->cyclic[k].name, scene->cyclic[k].to));
+    PetscCall(SupportCheckFacets(dm, "Cyclic symmetry", &scene->cyclic[k], scene->cyclic[k].from));
+    PetscCall(SupportCheckFacets(dm, "Cyclic symmetry", &scene->cyclic[k], scene->cyclic[k].to));
   }
   if (!SceneIsDynamic(scene)) PetscCall(SupportFindUnsupported(dm, scene, NULL));
   PetscFunctionReturn(0);

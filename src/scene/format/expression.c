@@ -6,7 +6,7 @@ static PetscErrorCode ExpressionError(SceneKeys keys, const char key[], const ch
   const Expression *e)
 {
   PetscFunctionBegin;
-  PetscCall(SceneKeysError(keys, "%s is \"%s\", which is not a valid expression%s%s%s%s%s", key, text,
+  PetscCall(SceneKeysError(keys, key, NULL, "is \"%s\", which is not a valid expression%s%s%s%s%s", text,
     *e->wrong ? " from \"" : " at its end", e->wrong, *e->wrong ? "\" on: numbers, " : "", *e->wrong ? variables : "",
     *e->wrong ? ", pi, + - * / ^, brackets, sin, cos, tan, tanh, exp, log, sqrt, abs, min, max" : ""));
   PetscFunctionReturn(0);
@@ -25,7 +25,7 @@ PetscErrorCode SceneEvaluate(SceneKeys keys, const char key[], const char text[]
   *value = ExpressionEvaluate(&e);
   if (e.wrong) PetscCall(ExpressionError(keys, key, text, "t, s", &e));
   else if (PetscIsInfOrNanReal(*value))
-    PetscCall(SceneKeysError(keys, "%s, \"%s\", is not finite at time %g", key, text, (double)time));
+    PetscCall(SceneKeysError(keys, key, NULL, ", \"%s\", is not finite at time %g", text, (double)time));
   PetscFunctionReturn(0);
 }
 

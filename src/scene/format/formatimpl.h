@@ -9,7 +9,7 @@
 #include <rankerror.h>
 
 /* yaml.c: Not collective. Raises an error if the text is not YAML that can be read */
-PETSC_INTERN PetscErrorCode SceneCheckYAML(size_t length, const char text[], SceneKeyLines *);
+PETSC_INTERN PetscErrorCode SceneCheckYAML(const char file[], size_t length, const char text[], ScenePlaces *);
 
 /* values.c: values sorted by their full keys. Initialize SceneValues with zeros. */
 typedef struct {
@@ -33,8 +33,9 @@ PETSC_INTERN PetscErrorCode SceneValuesDestroy(SceneValues *);
    once, because an unknown key often explains the error better.
 */
 typedef struct {
-  char    *name;
-  Material material;
+  char       *name;
+  const char *place;
+  Material    material;
 } SceneMaterial;
 
 typedef struct {
@@ -45,7 +46,7 @@ typedef struct {
   char                     **asked;
   const struct _n_SceneList *list; /* list that is being read */
   const struct _n_SceneKey  *top;  /* rows of the top level, for messages about unknown keys */
-  SceneKeyLines              lines;
+  ScenePlaces                places;
   char                       error[1024]; /* first error; empty if there is none */
   PetscBool                  decides;     /* true if the error concerns a value that determines which keys are valid;
                                              such an error is reported before unknown keys */
@@ -62,42 +63,30 @@ PETSC_INTERN PetscErrorCode SceneKeysCreate(MPI_Comm, const char file[], SceneKe
 PETSC_INTERN PetscErrorCode SceneKeysGet(SceneKeys, PetscBool required, const char **value, const char format[], ...)
   PETSC_ATTRIBUTE_FORMAT(4, 5);
 /*
-   Records an error unless one has been recorded. The line in the file is found from the message: it must begin with the
-   key, or its first quoted word must be the name of the key or of an entry, as in body "slab".
+   Records an error unless one has been recorded. It is about the key <owner>_<key>, or about `owner` if `key` is NULL.
+   The message is the place and the name of the key, and then the text.
 */
-PETSC_INTERN PetscErrorCode SceneKeysError(SceneKeys, const char format[], ...) PETSC_ATTRIBUTE_FORMAT(2, 3);
-/* Records an error about the key owner_key. The message is the key and the text `wrong`. */
-PETSC_INTERN PetscErrorCode SceneKeysErrorOf(SceneKeys, const char owner[], const char key[], const char wrong[]);
+PETSC_INTERN PetscErrorCode SceneKeysError(SceneKeys, const char owner[], const char key[], const char format[], ...)
+  PETSC_ATTRIBUTE_FORMAT(4, 5);
 PETSC_INTERN PetscErrorCode SceneKeysCheck(SceneKeys);
 PETSC_INTERN PetscErrorCode SceneKeysDestroy(SceneKeys *);
 /* Makes a file name relative to the folder of the scene. */
 PETSC_INTERN PetscErrorCode SceneResolveFile(const char scene[], char **file);
 
 /*
-   lines.c: SceneKeysGetLine() returns the line of a key, 0 if it is not known. SceneKeysAddLine() puts the line before
-   a message if it is known. SceneKeysRaise() raises an error that occurred while the scene was read, with file and
-   line. SceneLinesFind() returns the line of the first entry that a message names, 0 if it names none.
-   SceneDestroyLines() frees the keys and lines.
+   places.c: SceneFindPlace() returns the place of a key; NULL: the file does not have it. SceneGetPlace() returns the
+   place of a key, or else of the entry or list to which it belongs, or else the file.
 */
-PETSC_INTERN size_t         SceneKeysGetLine(SceneKeys, const char key[]);
-PETSC_INTERN PetscErrorCode SceneKeysAddLine(SceneKeys, size_t size, char message[]);
-PETSC_INTERN PetscErrorCode SceneKeysRaise(SceneKeys, const RankError *);
-PETSC_INTERN size_t         SceneLinesFind(const SceneKeyLines *, const char message[]);
-PETSC_INTERN PetscErrorCode SceneDestroyLines(SceneKeyLines *);
+PETSC_INTERN const char    *SceneFindPlace(const ScenePlaces *, const char key[]);
+PETSC_INTERN const char    *SceneGetPlace(const ScenePlaces *, const char key[]);
+PETSC_INTERN PetscErrorCode SceneDestroyPlaces(ScenePlaces *);
 
 /*
-   kinds.c: SceneKindOf() returns the word for an entry of a list: body for bodies. SceneListOf() returns the list whose
-   entries the last word before `end` means: bodies for body; NULL: none.
+   nested.c: SceneKeysSay() writes a full key as a user writes it: bodies_slab_young is key "young" of body "slab".
+   bare: a key of the top level has no quotation marks. SceneKeyOf() returns the last part of a full key.
 */
-PETSC_INTERN const char *SceneKindOf(const char list[]);
-PETSC_INTERN const char *SceneListOf(const char text[], const char *end);
-
-/*
-   nested.c: SceneKeysSayNested() rewrites the full keys of a message as a user writes them: bodies_slab_young becomes
-   key "young" of body "slab". SceneKeyOf() returns the last part of a full key.
-*/
-PETSC_INTERN const char    *SceneKeyOf(SceneKeys, const char key[]);
-PETSC_INTERN PetscErrorCode SceneKeysSayNested(SceneKeys, size_t size, char message[]);
+PETSC_INTERN const char *SceneKeyOf(SceneKeys, const char key[]);
+PETSC_INTERN void        SceneKeysSay(SceneKeys, const char key[], PetscBool bare, size_t size, char text[]);
 
 /*
    parse.c: converts texts to values. key: key for error messages. A list must have *n entries, or any number of entries

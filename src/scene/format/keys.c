@@ -60,7 +60,7 @@ PetscErrorCode SceneKeysCreate(MPI_Comm comm, const char file[], SceneKeys *keys
   k->comm = comm;
   k->file = file;
   PetscCall(RankErrorBegin(&error));
-  ierr = SceneCheckYAML((size_t)length, text, &k->lines);
+  ierr = SceneCheckYAML(file, (size_t)length, text, &k->places);
   if (!ierr) ierr = SceneValuesRead(text, &k->values);
   PetscCall(RankErrorEnd(comm, ierr, &error));
   PetscCheck(error.code != PETSC_ERR_USER_INPUT, comm, PETSC_ERR_USER_INPUT, "%s: %s", file, error.message);
@@ -70,17 +70,20 @@ PetscErrorCode SceneKeysCreate(MPI_Comm comm, const char file[], SceneKeys *keys
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneKeysError(SceneKeys keys, const char format[], ...)
+PetscErrorCode SceneKeysError(SceneKeys keys, const char owner[], const char key[], const char format[], ...)
 {
+  char    full[SCENE_KEY_LENGTH], name[3 * SCENE_KEY_LENGTH], text[1024];
   va_list args;
 
   PetscFunctionBegin;
   if (keys->error[0]) PetscFunctionReturn(0);
   va_start(args, format);
-  PetscCall(PetscVSNPrintf(keys->error, sizeof(keys->error), format, NULL, args));
+  PetscCall(PetscVSNPrintf(text, sizeof(text), format, NULL, args));
   va_end(args);
-  PetscCall(SceneKeysAddLine(keys, sizeof(keys->error), keys->error));
-  PetscCall(SceneKeysSayNested(keys, sizeof(keys->error), keys->error));
+  PetscCall(PetscSNPrintf(full, sizeof(full), "%s%s%s", owner, key ? "_" : "", key ? key : ""));
+  SceneKeysSay(keys, full, PETSC_TRUE, sizeof(name), name);
+  PetscCall(PetscSNPrintf(keys->error, sizeof(keys->error), "%s%s%s%s", SceneGetPlace(&keys->places, full), name,
+    strchr(",:", text[0]) ? "" : " ", text));
   PetscFunctionReturn(0);
 }
 
@@ -98,7 +101,7 @@ static PetscErrorCode SceneKeysRemember(SceneKeys keys, const char key[])
 /* Gets the text of a key. *value: owned by `keys`; NULL if the file does not have the key. */
 PetscErrorCode SceneKeysGet(SceneKeys keys, PetscBool required, const char **value, const char format[], ...)
 {
-  char    key[SCENE_KEY_LENGTH];
+  char    key[SCENE_KEY_LENGTH], name[3 * SCENE_KEY_LENGTH];
   va_list args;
 
   PetscFunctionBegin;
@@ -107,7 +110,10 @@ PetscErrorCode SceneKeysGet(SceneKeys keys, PetscBool required, const char **val
   va_end(args);
   PetscCall(SceneKeysRemember(keys, key));
   *value = SceneValuesUse(&keys->values, key);
-  if (!*value && required) PetscCall(SceneKeysError(keys, "the key \"%s\" is missing", key));
+  if (*value || !required || keys->error[0]) PetscFunctionReturn(0);
+  SceneKeysSay(keys, key, PETSC_FALSE, sizeof(name), name);
+  PetscCall(
+    PetscSNPrintf(keys->error, sizeof(keys->error), "%sthe %s is missing", SceneGetPlace(&keys->places, key), name));
   PetscFunctionReturn(0);
 }
 
@@ -117,13 +123,6 @@ static PetscBool SceneKeyIsNumber(const char key[])
   const char *last = strrchr(key, '_');
 
   return (PetscBool)(last && last[1] && strspn(last + 1, "0123456789.") == strlen(last + 1));
-}
-
-PetscErrorCode SceneKeysErrorOf(SceneKeys keys, const char owner[], const char key[], const char wrong[])
-{
-  PetscFunctionBegin;
-  PetscCall(SceneKeysError(keys, "%s_%s %s", owner, key, wrong));
-  PetscFunctionReturn(0);
 }
 
 /* Names by which other programs or users call a key, and its name in a scene. */
@@ -246,45 +245,30 @@ static PetscErrorCode SceneKeysExplain(SceneKeys keys, const char unknown[], cha
   PetscFunctionReturn(0);
 }
 
-/* Raises an error whose message has full keys. The keys are rewritten as a user writes them. */
-static PetscErrorCode SceneKeysRaiseNamed(SceneKeys keys, const char format[], ...)
-{
-  char    message[2048];
-  va_list args;
-
-  PetscFunctionBegin;
-  va_start(args, format);
-  PetscCall(PetscVSNPrintf(message, sizeof(message), format, NULL, args));
-  va_end(args);
-  PetscCall(SceneKeysSayNested(keys, sizeof(message), message));
-  SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, message);
-}
-
 /*
    Raises an error if the entries of a list have no dashes. In this case the file has the key of the list, but its value
    is a mapping instead of a list.
 */
-static PetscErrorCode SceneKeysRaiseDashes(SceneKeys keys, const char unknown[], const char where[])
+static PetscErrorCode SceneKeysRaiseDashes(SceneKeys keys, const char unknown[], const char place[])
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < keys->nasked; ++i) {
     const char  *asked  = keys->asked[i];
     const size_t length = strlen(asked);
 
-    PetscCheck(strncasecmp(asked, unknown, length) || unknown[length] != '_' || !SceneKeysGetLine(keys, asked) ||
+    PetscCheck(strncasecmp(asked, unknown, length) || unknown[length] != '_' || !SceneFindPlace(&keys->places, asked) ||
                  SceneValuesUse(&keys->values, asked),
       keys->comm, PETSC_ERR_USER_INPUT,
-      "%s: %s%s is a list: each entry begins with a dash and its name, as in - name: {key: value, ...}", keys->file,
-      where, asked);
+      "%s%s is a list: each entry begins with a dash and its name, as in - name: {key: value, ...}", place, asked);
   }
   PetscFunctionReturn(0);
 }
 
 /* Raises an error if a key that must have keys below it has a value. */
-static PetscErrorCode SceneKeysRaiseNested(SceneKeys keys, const char unknown[], const char where[])
+static PetscErrorCode SceneKeysRaiseNested(SceneKeys keys, const char unknown[], const char place[])
 {
   const size_t length     = strlen(unknown);
-  char         below[512] = "";
+  char         below[512] = "", name[3 * SCENE_KEY_LENGTH];
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < keys->nasked; ++i) {
@@ -296,31 +280,28 @@ static PetscErrorCode SceneKeysRaiseNested(SceneKeys keys, const char unknown[],
     PetscCall(PetscStrlcat(below, below[0] ? ", " : "", sizeof(below)));
     PetscCall(PetscStrlcat(below, keys->asked[i] + length + 1, sizeof(below)));
   }
-  if (below[0])
-    PetscCall(SceneKeysRaiseNamed(keys, "%s%s takes no value, but keys below it: %s", where, unknown, below));
+  SceneKeysSay(keys, unknown, PETSC_TRUE, sizeof(name), name);
+  PetscCheck(!below[0], keys->comm, PETSC_ERR_USER_INPUT, "%s%s takes no value, but keys below it: %s", place, name,
+    below);
   PetscFunctionReturn(0);
 }
 
-/* Raises an error for an unknown key, with its line. */
+/* Raises an error for an unknown key. */
 static PetscErrorCode SceneKeysRaiseUnknown(SceneKeys keys, const char unknown[])
 {
-  const size_t line      = SceneKeysGetLine(keys, unknown);
-  char         where[32] = "", meant[1024];
+  const char *found = SceneFindPlace(&keys->places, unknown), *place = found ? found : keys->places.file;
+  char        name[3 * SCENE_KEY_LENGTH], meant[1024];
 
   PetscFunctionBegin;
-  if (line) PetscCall(PetscSNPrintf(where, sizeof(where), "line %zu: ", line));
   PetscCheck(!strchr(unknown, ','), keys->comm, PETSC_ERR_USER_INPUT,
-    "%s: %sthe key \"%s\" contains a comma: a name is a letter, then letters, digits, _ or -", keys->file, where,
-    unknown);
-  if (SceneKeyIsNumber(unknown))
-    PetscCall(SceneKeysRaiseNamed(keys,
-      "%sthe key \"%s\" is a number: write decimals with a point (0.3), and several values in brackets ([1, 2])", where,
-      unknown));
-  PetscCall(SceneKeysRaiseDashes(keys, unknown, where));
-  PetscCall(SceneKeysRaiseNested(keys, unknown, where));
+    "%sthe key \"%s\" contains a comma: a name is a letter, then letters, digits, _ or -", place, unknown);
+  SceneKeysSay(keys, unknown, PETSC_FALSE, sizeof(name), name);
+  PetscCheck(!SceneKeyIsNumber(unknown), keys->comm, PETSC_ERR_USER_INPUT,
+    "%sthe %s is a number: write decimals with a point (0.3), and several values in brackets ([1, 2])", place, name);
+  PetscCall(SceneKeysRaiseDashes(keys, unknown, place));
+  PetscCall(SceneKeysRaiseNested(keys, unknown, place));
   PetscCall(SceneKeysExplain(keys, unknown, meant, sizeof(meant)));
-  PetscCall(SceneKeysRaiseNamed(keys, "%sunknown key \"%s\"; %s", where, unknown, meant));
-  PetscFunctionReturn(0);
+  SETERRQ(keys->comm, PETSC_ERR_USER_INPUT, "%sunknown %s; %s", place, name, meant);
 }
 
 /* Raises the first error of the file: an unknown key, or otherwise the first wrong value. */
@@ -330,7 +311,7 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
   size_t      shortest = 0, length;
 
   PetscFunctionBegin;
-  PetscCheck(!keys->decides, keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, keys->error);
+  PetscCheck(!keys->decides, keys->comm, PETSC_ERR_USER_INPUT, "%s", keys->error);
   /* the shortest unknown key is the outermost one, since below a misspelt list every key is unknown */
   for (PetscInt i = 0; i < keys->values.n; ++i) {
     if (keys->values.values[i].used) continue;
@@ -341,7 +322,7 @@ PetscErrorCode SceneKeysCheck(SceneKeys keys)
     }
   }
   if (unknown) PetscCall(SceneKeysRaiseUnknown(keys, unknown));
-  PetscCheck(!keys->error[0], keys->comm, PETSC_ERR_USER_INPUT, "%s: %s", keys->file, keys->error);
+  PetscCheck(!keys->error[0], keys->comm, PETSC_ERR_USER_INPUT, "%s", keys->error);
   PetscFunctionReturn(0);
 }
 
@@ -364,7 +345,7 @@ PetscErrorCode SceneKeysDestroy(SceneKeys *keys)
   PetscFunctionBegin;
   for (PetscInt i = 0; i < (*keys)->nasked; ++i) PetscCall(PetscFree((*keys)->asked[i]));
   PetscCall(PetscFree((*keys)->asked));
-  PetscCall(SceneDestroyLines(&(*keys)->lines));
+  PetscCall(SceneDestroyPlaces(&(*keys)->places));
   for (PetscInt i = 0; i < (*keys)->nmaterials; ++i) PetscCall(PetscFree((*keys)->materials[i].name));
   PetscCall(PetscFree((*keys)->materials));
   PetscCall(SceneValuesDestroy(&(*keys)->values));

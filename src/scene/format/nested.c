@@ -1,12 +1,10 @@
 /*
-   Rewrites the full keys of a message as a user writes them: bodies_slab_young becomes key "young" of body "slab", and
-   dynamics_time_step becomes key "time_step" of dynamics.
+   Says full keys as a user writes them: bodies_slab_young is key "young" of body "slab", and dynamics_time_step is key
+   "time_step" of dynamics.
 */
 #include "formatimpl.h"
 #include <string.h>
 #include <strings.h>
-
-#define WORD_ENDS " \t\",:;={}()[]"
 
 /* Parts of a full key: its list or section, the entry of the list, and the key. */
 typedef struct {
@@ -56,8 +54,8 @@ static PetscBool NestedSplit(SceneKeys keys, const char word[], size_t length, N
     name = NestedFindName(word + n + 1, length - n - 1, keys->values.values[i].text);
     if (name) *parts = (NestedParts){n, name, length - n - 1 - name};
   }
-  for (PetscInt i = 0; i < keys->lines.n && !parts->list; ++i) {
-    const char  *section = keys->lines.keys[i];
+  for (PetscInt i = 0; i < keys->places.n && !parts->list; ++i) {
+    const char  *section = keys->places.keys[i];
     const size_t n       = strlen(section);
 
     if (!strchr(section, '_') && n + 1 < length && NestedBegins(word, length, section, n))
@@ -75,47 +73,33 @@ const char *SceneKeyOf(SceneKeys keys, const char word[])
   return NestedSplit(keys, word, strlen(word), &parts) ? word + strlen(word) - parts.key : word;
 }
 
-/* Appends the parts of a full key to a text. quoted: the message has the word "key" and quotation marks already. */
-static PetscErrorCode NestedAppend(const char word[], const NestedParts *parts, PetscBool quoted, size_t size,
-  char text[])
+/* Returns the word for an entry of a list: body for bodies. */
+static const char *NestedKindOf(const char list[])
 {
-  char        list[SCENE_KEY_LENGTH], piece[4 * SCENE_KEY_LENGTH] = "";
-  const char *entry = word + parts->list + 1, *key = entry + (parts->entry ? parts->entry + 1 : 0);
+  static const char *const kinds[][2] = {{"bodies", "body"}, {"contact", "contact pair"}, {"cyclic", "cyclic symmetry"},
+    {"symmetry", "symmetry plane"}, {"body_forces", "body force"}, {"displacements", "displacement"},
+    {"pressures", "pressure"}, {"tractions", "traction"}, {"forces", "force"}, {"springs", "spring"}, {"bolts", "bolt"},
+    {"connectors", "connector"}, {"ties", "tie"}, {"temperatures", "temperature"}, {"refinements", "refinement"},
+    {"ramps", "ramp"}, {"materials", "material"}, {"faces", "face"}, {"probes", "probe"}};
 
-  PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(list, sizeof(list), "%.*s", (int)parts->list, word));
-  if (parts->key)
-    PetscCall(PetscSNPrintf(piece, sizeof(piece), "%s\"%.*s\" of ", quoted ? "" : "key ", (int)parts->key, key));
-  PetscCall(PetscStrlcat(text, piece, size));
-  if (parts->entry)
-    PetscCall(PetscSNPrintf(piece, sizeof(piece), "%s \"%.*s\"", SceneKindOf(list), (int)parts->entry, entry));
-  else PetscCall(PetscSNPrintf(piece, sizeof(piece), "%s", list));
-  PetscCall(PetscStrlcat(text, piece, size));
-  PetscFunctionReturn(0);
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(kinds); ++k) {
+    if (!strcasecmp(list, kinds[k][0])) return kinds[k][1];
+  }
+  return list;
 }
 
-PetscErrorCode SceneKeysSayNested(SceneKeys keys, size_t size, char message[])
+void SceneKeysSay(SceneKeys keys, const char word[], PetscBool bare, size_t size, char text[])
 {
-  char        text[2048] = "", plain[2] = "";
-  const char *at = message;
+  char        list[SCENE_KEY_LENGTH], key[2 * SCENE_KEY_LENGTH] = "";
+  NestedParts parts;
 
-  PetscFunctionBegin;
-  while (*at) {
-    const size_t    before = (size_t)(at - message);
-    const PetscBool quoted = (PetscBool)(before >= 5 && !strncmp(at - 5, "key \"", 5));
-    const PetscBool starts = (PetscBool)(!before || at[-1] == ' ' || quoted);
-    const size_t    length = starts ? strcspn(at, WORD_ENDS) : 0;
-    NestedParts     parts;
-
-    if (length && NestedSplit(keys, at, length, &parts)) {
-      if (quoted) text[strlen(text) - 1] = 0;
-      PetscCall(NestedAppend(at, &parts, quoted, sizeof(text), text));
-      at += length + (quoted && at[length] == '"');
-    } else {
-      plain[0] = *at++;
-      PetscCall(PetscStrlcat(text, plain, sizeof(text)));
-    }
+  if (!NestedSplit(keys, word, strlen(word), &parts)) {
+    (void)snprintf(text, size, bare ? "%s" : "key \"%s\"", word);
+    return;
   }
-  PetscCall(PetscStrncpy(message, text, size));
-  PetscFunctionReturn(0);
+  (void)snprintf(list, sizeof(list), "%.*s", (int)parts.list, word);
+  if (parts.key) (void)snprintf(key, sizeof(key), "key \"%s\" of ", word + strlen(word) - parts.key);
+  if (parts.entry)
+    (void)snprintf(text, size, "%s%s \"%.*s\"", key, NestedKindOf(list), (int)parts.entry, word + parts.list + 1);
+  else (void)snprintf(text, size, "%s%s", key, list);
 }

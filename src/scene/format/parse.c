@@ -29,10 +29,10 @@ PetscErrorCode SceneParseReal(SceneKeys keys, const char key[], const char text[
     if (end == start) end = (char *)text;
   }
   if (end == text || !SceneParseAtEnd(end))
-    PetscCall(SceneKeysError(keys, "%s is \"%s\", which is not a number%s", key, text,
+    PetscCall(SceneKeysError(keys, key, NULL, "is \"%s\", which is not a number%s", text,
       strchr(text, ',') ? ": decimals have a point" : ""));
   else if (PetscIsInfOrNanReal(number) || PetscIsInfOrNanReal(divisor) || PetscIsInfOrNanReal(number / divisor))
-    PetscCall(SceneKeysError(keys, "%s is \"%s\", which is not a finite number", key, text));
+    PetscCall(SceneKeysError(keys, key, NULL, "is \"%s\", which is not a finite number", text));
   else *value = (PetscReal)(number / divisor);
   PetscFunctionReturn(0);
 }
@@ -46,9 +46,9 @@ PetscErrorCode SceneParseInt(SceneKeys keys, const char key[], const char text[]
   errno  = 0;
   number = strtoll(text, &end, 10);
   if (end == text || !SceneParseAtEnd(end))
-    PetscCall(SceneKeysError(keys, "%s is \"%s\", which is not a whole number", key, text));
+    PetscCall(SceneKeysError(keys, key, NULL, "is \"%s\", which is not a whole number", text));
   else if (errno == ERANGE || number > PETSC_MAX_INT || number < PETSC_MIN_INT)
-    PetscCall(SceneKeysError(keys, "%s is %s, which PETSc's integer type cannot hold", key, text));
+    PetscCall(SceneKeysError(keys, key, NULL, "is %s, which PETSc's integer type cannot hold", text));
   else *value = (PetscInt)number;
   PetscFunctionReturn(0);
 }
@@ -72,7 +72,7 @@ PetscErrorCode SceneParseEnum(SceneKeys keys, const char key[], const char text[
     if (i) PetscCall(PetscStrlcat(choices, ", ", sizeof(choices)));
     PetscCall(PetscStrlcat(choices, names[i], sizeof(choices)));
   }
-  PetscCall(SceneKeysError(keys, "%s is \"%s\"; it can be: %s", key, text, choices));
+  PetscCall(SceneKeysError(keys, key, NULL, "is \"%s\"; it can be: %s", text, choices));
   PetscFunctionReturn(0);
 }
 
@@ -99,7 +99,7 @@ PetscErrorCode SceneParseList(SceneKeys keys, const char key[], const char text[
   PetscCall(PetscStrToArray(text, ',', &count, words));
   if (*n != PETSC_DECIDE && *n != count) {
     PetscCall(
-      SceneKeysError(keys, "%s has %d value%s, it needs %" PetscInt_FMT, key, count, count == 1 ? "" : "s", *n));
+      SceneKeysError(keys, key, NULL, "has %d value%s, it needs %" PetscInt_FMT, count, count == 1 ? "" : "s", *n));
     PetscCall(PetscStrToArrayDestroy(count, *words));
     *words = NULL;
     count  = 0;
@@ -160,7 +160,7 @@ PetscErrorCode SceneParseBody(SceneKeys keys, Scene scene, const char key[], con
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     if (!strcmp(text, scene->bodies[b].name)) *body = b;
   }
-  if (*body < 0) PetscCall(SceneKeysError(keys, "%s is \"%s\", which is no body of the scene", key, text));
+  if (*body < 0) PetscCall(SceneKeysError(keys, key, NULL, "is \"%s\", which is no body of the scene", text));
   PetscFunctionReturn(0);
 }
 
@@ -179,7 +179,7 @@ PetscErrorCode SceneParseRamp(SceneKeys keys, Scene scene, const char key[], con
     if (r) PetscCall(PetscStrlcat(choices, ", ", sizeof(choices)));
     PetscCall(PetscStrlcat(choices, scene->ramps[r].name, sizeof(choices)));
   }
-  PetscCall(SceneKeysError(keys, "%s is \"%s\"; it can be: %s", key, text, choices));
+  PetscCall(SceneKeysError(keys, key, NULL, "is \"%s\"; it can be: %s", text, choices));
   PetscFunctionReturn(0);
 }
 
@@ -212,14 +212,13 @@ PetscErrorCode SceneGetNames(SceneKeys keys, const char key[], PetscBool require
   for (PetscInt i = 0; i < *n; ++i) {
     PetscCall(PetscStrallocpy(words[i], &(*names)[i]));
     if (!SceneIsName(words[i]))
-      PetscCall(SceneKeysError(keys, "%s \"%s\" has no valid name: a letter, then letters, digits, _ or -",
-        SceneKindOf(key), words[i]));
+      PetscCall(SceneKeysError(keys, key, words[i], "has no valid name: a letter, then letters, digits, _ or -"));
     for (PetscInt j = 0; j < i; ++j) {
       PetscCall(PetscStrcasecmp(words[i], words[j], &same));
-      if (same) PetscCall(SceneKeysErrorOf(keys, key, words[i], "occurs twice; each name in a list must be unique"));
+      if (same) PetscCall(SceneKeysError(keys, key, words[i], "occurs twice; each name in a list must be unique"));
     }
   }
-  if (required && !*n) PetscCall(SceneKeysError(keys, "%s is empty", key));
+  if (required && !*n) PetscCall(SceneKeysError(keys, key, NULL, "is empty"));
   PetscCall(PetscStrToArrayDestroy((int)*n, words));
   PetscFunctionReturn(0);
 }

@@ -155,17 +155,25 @@ PetscErrorCode RepeatedKeysCheck(RepeatedKeys *keys)
   PetscFunctionReturn(0);
 }
 
-/*
-   Moves the keys, in the form that messages use, and their lines to the caller. Call this function after the last
-   event.
-*/
-void RepeatedKeysGetLines(RepeatedKeys *keys, SceneKeyLines *lines)
+/* Moves the keys, in the form that messages use, to the caller, with their places. Call this after the last event. */
+PetscErrorCode RepeatedKeysGetPlaces(RepeatedKeys *keys, const char file[], ScenePlaces *places)
 {
-  for (PetscInt i = 0; i < keys->n; ++i) RepeatedStrip(keys->paths[i]);
-  *lines      = (SceneKeyLines){keys->n, keys->paths, keys->lines};
-  keys->n     = 0;
-  keys->paths = NULL;
-  keys->lines = NULL;
+  const size_t length = strlen(file) + 32;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(keys->n, &places->places));
+  for (PetscInt i = 0; i < keys->n; ++i) {
+    RepeatedStrip(keys->paths[i]);
+    PetscCall(PetscMalloc1(length, &places->places[i]));
+    PetscCall(PetscSNPrintf(places->places[i], length, "%s: line %zu: ", file, keys->lines[i]));
+  }
+  PetscCall(PetscMalloc1(length, &places->file));
+  PetscCall(PetscSNPrintf(places->file, length, "%s: ", file));
+  places->n    = keys->n;
+  places->keys = keys->paths;
+  keys->n      = 0;
+  keys->paths  = NULL;
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode RepeatedKeysDestroy(RepeatedKeys *keys)

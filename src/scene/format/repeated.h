@@ -25,7 +25,7 @@ typedef struct {
 /* repeated.c: Not collective. Pass each event to RepeatedKeysRead() in turn, then call RepeatedKeysCheck() */
 PETSC_INTERN PetscErrorCode RepeatedKeysRead(RepeatedKeys *, const yaml_event_t *);
 PETSC_INTERN PetscErrorCode RepeatedKeysCheck(RepeatedKeys *);
-PETSC_INTERN void           RepeatedKeysGetLines(RepeatedKeys *, SceneKeyLines *);
+PETSC_INTERN PetscErrorCode RepeatedKeysGetPlaces(RepeatedKeys *, const char file[], ScenePlaces *);
 PETSC_INTERN PetscErrorCode RepeatedKeysDestroy(RepeatedKeys *);
 
 #endif

@@ -24,9 +24,9 @@ static PetscErrorCode RowCheckRange(SceneKeys keys, const SceneKey *row, const c
   PetscFunctionBegin;
   for (PetscInt i = 0; i < row->n; ++i) {
     if (row->range == SCENE_ABOVE_0 && !(value[i] > 0))
-      PetscCall(SceneKeysError(keys, "%s is %s, which must be above 0", key, text));
+      PetscCall(SceneKeysError(keys, key, NULL, "is %s, which must be above 0", text));
     if (row->range == SCENE_FROM_0 && !(value[i] >= 0))
-      PetscCall(SceneKeysError(keys, "%s is %s, which must not be negative", key, text));
+      PetscCall(SceneKeysError(keys, key, NULL, "is %s, which must not be negative", text));
   }
   PetscFunctionReturn(0);
 }
@@ -112,9 +112,9 @@ PetscErrorCode SceneHasOneOf(SceneKeys keys, const char owner[], const char kind
   PetscCall(SceneHasKey(keys, owner, first, &has_first));
   PetscCall(SceneHasKey(keys, owner, second, has_second));
   if (has_first && *has_second)
-    PetscCall(SceneKeysError(keys, "%s has %s and %s; a %s has one of the two", owner, first, second, kind));
+    PetscCall(SceneKeysError(keys, owner, NULL, "has %s and %s; a %s has one of the two", first, second, kind));
   if (!has_first && !*has_second)
-    PetscCall(SceneKeysError(keys, "%s has neither %s nor %s; a %s has one of the two", owner, first, second, kind));
+    PetscCall(SceneKeysError(keys, owner, NULL, "has neither %s nor %s; a %s has one of the two", first, second, kind));
   PetscFunctionReturn(0);
 }
 
@@ -136,8 +136,9 @@ PetscErrorCode SceneReadList(SceneKeys keys, Scene scene, const SceneList *list,
 
     PetscCall(PetscMemzero(entry, list->size));
     if (list->initial) PetscCall(PetscMemcpy(entry, list->initial, list->size));
-    *(char **)entry = names[i];
     PetscCall(PetscSNPrintf(owner, sizeof(owner), "%s_%s", list->name, names[i]));
+    ((SceneEntry *)entry)->name  = names[i];
+    ((SceneEntry *)entry)->place = SceneGetPlace(&keys->places, owner);
     PetscCall(SceneReadRows(keys, scene, owner, list->rows, NULL, PETSC_FALSE, entry));
     keys->list = list;
     if (list->finish) PetscCall(list->finish(keys, scene, owner, entry));

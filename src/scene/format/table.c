@@ -37,10 +37,10 @@ static PetscErrorCode TableRead(SceneKeys keys, const char owner[], const char t
   PetscFunctionBegin;
   PetscCall(TableReadColumn(keys, owner, "times", times, &n, &time));
   PetscCall(TableReadColumn(keys, owner, "values", values, &n, &value));
-  if (!n) PetscCall(SceneKeysError(keys, "%s_times is empty, or the numbers of times and values differ", owner));
+  if (!n) PetscCall(SceneKeysError(keys, owner, "times", "is empty, or the numbers of times and values differ"));
   for (PetscInt i = 1; i < n; ++i) {
     if (!(time[i] > time[i - 1]))
-      PetscCall(SceneKeysError(keys, "%s_times must ascend, but %g comes after %g", owner, (double)time[i],
+      PetscCall(SceneKeysError(keys, owner, "times", "must ascend, but %g comes after %g", (double)time[i],
         (double)time[i - 1]));
   }
   if (n && SceneIsDynamic(scene)) ramp->start = TableInterpolate(n, time, value, 0.0);
@@ -64,10 +64,10 @@ PetscErrorCode SceneReadProgram(SceneKeys keys, const char owner[], Scene scene,
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &values, "%s_values", owner));
   *found = (PetscBool)(expression || times || values);
   if (expression && (times || values))
-    PetscCall(SceneKeysError(keys, "%s has an expression and a table; give only one of the two", owner));
+    PetscCall(SceneKeysError(keys, owner, NULL, "has an expression and a table; give only one of the two"));
   else if (!times != !values)
     PetscCall(
-      SceneKeysError(keys, "%s has %s and no %s", owner, times ? "times" : "values", times ? "values" : "times"));
+      SceneKeysError(keys, owner, NULL, "has %s and no %s", times ? "times" : "values", times ? "values" : "times"));
   else if (times) PetscCall(TableRead(keys, owner, times, values, scene, ramp));
   if (expression && SceneIsDynamic(scene)) PetscCall(SceneEvaluate(keys, key, expression, 0.0, end, &ramp->start));
   for (PetscInt k = 0; expression && k < scene->nsteps; ++k)

@@ -93,8 +93,10 @@ static PetscErrorCode YAMLReadEvents(yaml_parser_t *parser, const char text[], R
   PetscFunctionReturn(0);
 }
 
-/* Checks the text. *lines: line of every key. Keys that are not names, or are repeated, raise PETSC_ERR_USER_INPUT. */
-PetscErrorCode SceneCheckYAML(size_t length, const char text[], SceneKeyLines *lines)
+/*
+   Checks the text. *places: place of every key. Keys that are not names, or are repeated, raise PETSC_ERR_USER_INPUT.
+*/
+PetscErrorCode SceneCheckYAML(const char file[], size_t length, const char text[], ScenePlaces *places)
 {
   yaml_parser_t  parser;
   RepeatedKeys   keys = {0};
@@ -108,7 +110,7 @@ PetscErrorCode SceneCheckYAML(size_t length, const char text[], SceneKeyLines *l
   yaml_parser_set_encoding(&parser, YAML_UTF8_ENCODING);
   ierr = YAMLReadEvents(&parser, text, &keys);
   yaml_parser_delete(&parser);
-  RepeatedKeysGetLines(&keys, lines);
+  PetscCall(RepeatedKeysGetPlaces(&keys, file, places));
   PetscCall(RepeatedKeysDestroy(&keys));
   PetscCall(ierr);
   PetscFunctionReturn(0);

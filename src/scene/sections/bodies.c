@@ -3,7 +3,7 @@
 #include <petscviewer.h>
 #include <string.h>
 
-static PetscErrorCode SceneRefuseOfRigid(SceneKeys keys, const char owner[], const SceneBody *body)
+static PetscErrorCode SceneRefuseOfRigid(SceneKeys keys, const char owner[])
 {
   static const char *const elastic[] = {"young", "poisson", "element", "order"};
   PetscBool                has;
@@ -11,7 +11,7 @@ static PetscErrorCode SceneRefuseOfRigid(SceneKeys keys, const char owner[], con
   PetscFunctionBegin;
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(elastic); ++i) {
     PetscCall(SceneHasKey(keys, owner, elastic[i], &has));
-    if (has) PetscCall(SceneKeysError(keys, "body \"%s\" is rigid, and so has no %s", body->name, elastic[i]));
+    if (has) PetscCall(SceneKeysError(keys, owner, NULL, "is rigid, and so has no %s", elastic[i]));
   }
   PetscFunctionReturn(0);
 }
@@ -24,24 +24,23 @@ PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], 
   const char *text;
 
   PetscFunctionBegin;
-  PetscCall(SceneReadShape(keys, body));
+  PetscCall(SceneReadShape(keys, owner, body));
   PetscCall(PetscSNPrintf(key, sizeof(key), "%s_material", owner));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneFindMaterial(keys, key, text, &listed, &body->material));
   else if (SceneBodyIsSurface(body)) body->material.type = MATERIAL_RIGID;
   if (body->material.type == MATERIAL_RIGID) {
     body->order = 1;
-    PetscCall(SceneRefuseOfRigid(keys, owner, body));
+    PetscCall(SceneRefuseOfRigid(keys, owner));
     PetscCall(SceneReadConstants(keys, owner, listed, &body->material));
-    PetscCall(SceneFinishInertia(keys, scene, body));
+    PetscCall(SceneFinishInertia(keys, scene, owner, body));
     PetscFunctionReturn(0);
   }
   PetscCall(SceneReadConstants(keys, owner, listed, &body->material));
-  PetscCall(SceneFinishInertia(keys, scene, body));
+  PetscCall(SceneFinishInertia(keys, scene, owner, body));
   PetscCall(SceneReadRows(keys, scene, owner, keys->list->rows, "elastic", PETSC_FALSE, body));
   PetscCall(SceneHasKey(keys, owner, "order", &listed));
-  if (listed && !body->order)
-    PetscCall(SceneKeysError(keys, "body \"%s\" has order = 0, which must be 1 or 2", body->name));
+  if (listed && !body->order) PetscCall(SceneKeysError(keys, owner, NULL, "has order = 0, which must be 1 or 2"));
   PetscFunctionReturn(0);
 }
 

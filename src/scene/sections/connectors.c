@@ -26,12 +26,12 @@ PetscErrorCode SceneFinishConnector(SceneKeys keys, Scene scene, const char owne
   if (!there) PetscCall(PetscArraycpy(connector->point[1], connector->point[0], 3));
   for (int d = 0; d < 3; ++d) line[d] = connector->point[1][d] - connector->point[0][d];
   if (connector->axial && VectorNorm(line) == 0.0)
-    PetscCall(SceneKeysError(keys,
-      "%s_stiffness acts along the line from point to to_point, which must be two different points", owner));
+    PetscCall(SceneKeysError(keys, owner, "stiffness",
+      "acts along the line from point to to_point, which must be two different points"));
   if (value && VectorNorm(connector->value) == 0.0 && connector->damping == 0.0)
-    PetscCall(SceneKeysError(keys, "%s_value is (0, 0, 0): such a connector holds nothing", owner));
+    PetscCall(SceneKeysError(keys, owner, "value", "is (0, 0, 0): such a connector holds nothing"));
   if (connector->to == connector->body)
     PetscCall(
-      SceneKeysError(keys, "%s_to is its body, %s; a connector joins two bodies, or one to the ground", owner, text));
+      SceneKeysError(keys, owner, "to", "is its body, %s; a connector joins two bodies, or one to the ground", text));
   PetscFunctionReturn(0);
 }

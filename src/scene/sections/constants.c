@@ -39,9 +39,8 @@ static PetscErrorCode SceneReadNoExpansion(SceneKeys keys, const char owner[], c
   if (!MaterialIsFinite(material)) PetscFunctionReturn(0);
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s_expansion", owner));
   if (text)
-    PetscCall(
-      SceneKeysError(keys, "%s_expansion is for laws of small strain, linear and orthotropic: %s does not expand",
-        owner, MaterialTypes[material->type]));
+    PetscCall(SceneKeysError(keys, owner, "expansion",
+      "is for laws of small strain, linear and orthotropic: %s does not expand", MaterialTypes[material->type]));
   PetscFunctionReturn(0);
 }
 
@@ -55,8 +54,8 @@ static PetscErrorCode SceneReadConstantList(SceneKeys keys, const char key[], co
   PetscCall(SceneParseList(keys, key, text, &list->n, &words));
   PetscCall(PetscStrToArrayDestroy((int)list->n, words));
   if (list->n > MATERIAL_LIST) {
-    PetscCall(
-      SceneKeysError(keys, "%s has %" PetscInt_FMT " numbers, which must be at most %d", key, list->n, MATERIAL_LIST));
+    PetscCall(SceneKeysError(keys, key, NULL, "has %" PetscInt_FMT " numbers, which must be at most %d", list->n,
+      MATERIAL_LIST));
     list->n = 0;
   } else PetscCall(SceneParseReals(keys, key, text, list->n, list->value));
   PetscFunctionReturn(0);
@@ -73,14 +72,14 @@ static PetscErrorCode SceneCheckHardening(SceneKeys keys, const char owner[], Ma
   PetscFunctionBegin;
   if (!MaterialYields(material)) PetscFunctionReturn(0);
   if (h->stresses.n && h->yield != 0.0 && h->yield != h->stresses.value[0])
-    PetscCall(SceneKeysError(keys, "%s_yield is %g, but is not the first of yield_stresses, %g: omit it", owner,
+    PetscCall(SceneKeysError(keys, owner, "yield", "is %g, but is not the first of yield_stresses, %g: omit it",
       (double)h->yield, (double)h->stresses.value[0]));
   if (h->stresses.n) h->yield = h->stresses.value[0];
   PetscCall(SceneHasKey(keys, owner, "yield", &has));
   if (!has && h->yield == 0.0)
-    PetscCall(SceneKeysError(keys,
-      "the key \"%s_yield\" is missing; a table of plastic_strains and yield_stresses may replace it", owner));
-  if (!MaterialCheckHardening(h, &key, why, sizeof(why))) PetscCall(SceneKeysErrorOf(keys, owner, key, why));
+    PetscCall(
+      SceneKeysError(keys, owner, "yield", "is missing; a table of plastic_strains and yield_stresses may replace it"));
+  if (!MaterialCheckHardening(h, &key, why, sizeof(why))) PetscCall(SceneKeysError(keys, owner, key, "%s", why));
   PetscFunctionReturn(0);
 }
 
@@ -105,7 +104,7 @@ PetscErrorCode SceneReadConstants(SceneKeys keys, const char owner[], PetscBool 
     else if (text && !c->n) PetscCall(SceneReadConstantList(keys, key, text, (MaterialList *)value));
     else if (text) PetscCall(SceneParseReals(keys, key, text, c->n, value));
     if (text && MaterialConstantIsAxis(c) && !MaterialConstantIsSet(c, c->n, value))
-      PetscCall(SceneKeysError(keys, "%s is \"%s\", which is no direction", key, text));
+      PetscCall(SceneKeysError(keys, key, NULL, "is \"%s\", which is no direction", text));
   }
   PetscCall(SceneReadNoExpansion(keys, owner, material));
   PetscCall(SceneCheckHardening(keys, owner, material));
@@ -170,7 +169,7 @@ PetscErrorCode SceneDescribeConstants(const Material *material, PetscViewer view
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SceneValidateOrthotropic(MPI_Comm comm, const char file[], const SceneBody *body)
+static PetscErrorCode SceneValidateOrthotropic(MPI_Comm comm, const SceneBody *body)
 {
   const Material *m = &body->material;
   MaterialModuli  moduli;
@@ -178,25 +177,24 @@ static PetscErrorCode SceneValidateOrthotropic(MPI_Comm comm, const char file[],
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < 3; ++i) {
-    PetscCheck(m->youngs[i] > 0, comm, PETSC_ERR_USER_INPUT,
-      "%s: body \"%s\" has Young's modulus young = %g along axis %" PetscInt_FMT ", which must be above 0", file,
-      body->name, (double)m->youngs[i], i + 1);
-    PetscCheck(m->shears[i] > 0, comm, PETSC_ERR_USER_INPUT,
-      "%s: body \"%s\" has a shear modulus shear = %g, which must be above 0", file, body->name, (double)m->shears[i]);
+    SceneRequire(m->youngs[i] > 0, body,
+      "body \"%s\" has Young's modulus young = %g along axis %" PetscInt_FMT ", which must be above 0", body->name,
+      (double)m->youngs[i], i + 1);
+    SceneRequire(m->shears[i] > 0, body, "body \"%s\" has a shear modulus shear = %g, which must be above 0",
+      body->name, (double)m->shears[i]);
   }
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
   ierr = MaterialGetModuli(m, &moduli, NULL);
   PetscCall(PetscPopErrorHandler());
-  PetscCheck(!ierr, comm, PETSC_ERR_USER_INPUT,
-    "%s: body \"%s\" is orthotropic with Poisson's ratios %g, %g, %g for the axes 12, 23, 13, for which some strain "
+  SceneRequire(!ierr, body,
+    "body \"%s\" is orthotropic with Poisson's ratios %g, %g, %g for the axes 12, 23, 13, for which some strain "
     "has no positive energy, or its first_axis and second_axis are parallel",
-    file, body->name, (double)m->poissons[0], (double)m->poissons[1], (double)m->poissons[2]);
+    body->name, (double)m->poissons[0], (double)m->poissons[1], (double)m->poissons[2]);
   PetscFunctionReturn(0);
 }
 
 /* Checks that a constant lies within the bounds of its law. */
-static PetscErrorCode ConstantValidate(MPI_Comm comm, const char file[], const SceneBody *body,
-  const MaterialConstant *c)
+static PetscErrorCode ConstantValidate(MPI_Comm comm, const SceneBody *body, const MaterialConstant *c)
 {
   const PetscReal *value;
   const PetscInt   n     = MaterialConstantGet(c, &body->material, &value);
@@ -208,28 +206,27 @@ static PetscErrorCode ConstantValidate(MPI_Comm comm, const char file[], const S
                                                                    would print 0. for 0 */
   (void)snprintf(upper, sizeof(upper), "%g", (double)c->upper);
   for (PetscInt i = 0; i < n && c->lower < c->upper; ++i) {
-    PetscCheck(value[i] > c->lower || c->upper < PETSC_INFINITY, comm, PETSC_ERR_USER_INPUT,
-      "%s: body \"%s\" has %s %s = %g, which must be above %s", file, body->name, label, c->name, (double)value[i],
-      lower);
-    PetscCheck(value[i] > c->lower && value[i] < c->upper, comm, PETSC_ERR_USER_INPUT,
-      "%s: body \"%s\" has %s %s = %g, which must lie between %s and %s, both excluded", file, body->name, label,
-      c->name, (double)value[i], lower, upper);
+    SceneRequire(value[i] > c->lower || c->upper < PETSC_INFINITY, body,
+      "body \"%s\" has %s %s = %g, which must be above %s", body->name, label, c->name, (double)value[i], lower);
+    SceneRequire(value[i] > c->lower && value[i] < c->upper, body,
+      "body \"%s\" has %s %s = %g, which must lie between %s and %s, both excluded", body->name, label, c->name,
+      (double)value[i], lower, upper);
   }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneValidateConstants(MPI_Comm comm, const char file[], const SceneBody *body)
+PetscErrorCode SceneValidateConstants(MPI_Comm comm, const SceneBody *body)
 {
   const Material    *m = &body->material;
   const MaterialLaw *law;
 
   PetscFunctionBegin;
   if (m->type == MATERIAL_MOONEY_RIVLIN)
-    PetscCheck(m->c10 >= 0 && m->c01 >= 0 && m->c10 + m->c01 > 0, comm, PETSC_ERR_USER_INPUT,
-      "%s: body \"%s\" has c10 = %g and c01 = %g, but neither may be negative, and not both may be 0", file, body->name,
+    SceneRequire(m->c10 >= 0 && m->c01 >= 0 && m->c10 + m->c01 > 0, body,
+      "body \"%s\" has c10 = %g and c01 = %g, but neither may be negative, and not both may be 0", body->name,
       (double)m->c10, (double)m->c01);
-  if (m->type == MATERIAL_ORTHOTROPIC) PetscCall(SceneValidateOrthotropic(comm, file, body));
+  if (m->type == MATERIAL_ORTHOTROPIC) PetscCall(SceneValidateOrthotropic(comm, body));
   PetscCall(MaterialGetLaw(m, &law));
-  for (const MaterialConstant *c = law->constants; c->name; ++c) PetscCall(ConstantValidate(comm, file, body, c));
+  for (const MaterialConstant *c = law->constants; c->name; ++c) PetscCall(ConstantValidate(comm, body, c));
   PetscFunctionReturn(0);
 }

@@ -17,7 +17,7 @@ static PetscErrorCode InterferenceRead(SceneKeys keys, Scene scene, const char k
   if (any || none) PetscFunctionReturn(0);
   PetscCall(SceneParseReal(keys, key, text, &pair->interference));
   if (pair->interference < 0.0)
-    PetscCall(SceneKeysError(keys, "%s is %s; it must be true, false, or the largest intended overlap", key, text));
+    PetscCall(SceneKeysError(keys, key, NULL, "is %s; it must be true, false, or the largest intended overlap", text));
   PetscFunctionReturn(0);
 }
 
@@ -52,7 +52,7 @@ static PetscErrorCode StickRead(SceneKeys keys, Scene scene, const char key[], c
   (void)scene;
   PetscCall(SceneParseAnswer(keys, key, text, &sticks));
   if (sticks && (pair->friction > 0.0 || pair->shear_limit < PETSC_INFINITY))
-    PetscCall(SceneKeysError(keys, "%s is true, so that the keys friction and shear_limit are not allowed", key));
+    PetscCall(SceneKeysError(keys, key, NULL, "is true, so that the keys friction and shear_limit are not allowed"));
   if (sticks) pair->friction = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
@@ -138,7 +138,7 @@ static PetscErrorCode FinishSelf(SceneKeys keys, Scene scene, const char owner[]
 
   PetscFunctionBegin;
   if (pair->mortar || pair->nonmortar)
-    PetscCall(SceneKeysErrorOf(keys, owner, pair->mortar ? "mortar" : "nonmortar",
+    PetscCall(SceneKeysError(keys, owner, pair->mortar ? "mortar" : "nonmortar",
       "cannot be combined with self, which is both sides: omit one of the two"));
   PetscCall(PetscStrcasecmp(pair->name, "auto", &any));
   if (any) {
@@ -151,19 +151,20 @@ static PetscErrorCode FinishSelf(SceneKeys keys, Scene scene, const char owner[]
 /* Checks which sides of a pair are given, and that only rules have the keys of rules. */
 static PetscErrorCode FinishSides(SceneKeys keys, Scene scene, const char owner[], SceneContactPair *pair)
 {
-  PetscBool any;
+  const char *text;
+  PetscBool   any;
 
   PetscFunctionBegin;
   PetscCall(PetscStrcasecmp(pair->name, "auto", &any));
   if (pair->self) PetscCall(FinishSelf(keys, scene, owner, pair));
   if (any && (pair->mortar || pair->nonmortar))
-    PetscCall(SceneKeysError(keys, "%s_%s is given, but the entry %s is for all surfaces: give the entry another name",
-      owner, pair->mortar ? "mortar" : "nonmortar", pair->name));
-  if (!any && !pair->mortar) PetscCall(SceneKeysError(keys, "the key \"%s_mortar\" is missing", owner));
-  if (!any && !pair->nonmortar) PetscCall(SceneKeysError(keys, "the key \"%s_nonmortar\" is missing", owner));
-  if (!any && pair->except) PetscCall(SceneKeysErrorOf(keys, owner, "except", "is only for the entry auto of contact"));
+    PetscCall(SceneKeysError(keys, owner, pair->mortar ? "mortar" : "nonmortar",
+      "is given, but the entry %s is for all surfaces: give the entry another name", pair->name));
+  if (!any && !pair->mortar) PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s_mortar", owner));
+  if (!any && !pair->nonmortar) PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "%s_nonmortar", owner));
+  if (!any && pair->except) PetscCall(SceneKeysError(keys, owner, "except", "is only for the entry auto of contact"));
   if (pair->tie > 0.0 && !PairIsRule(pair))
-    PetscCall(SceneKeysErrorOf(keys, owner, "tie",
+    PetscCall(SceneKeysError(keys, owner, "tie",
       "is only for the entry auto of contact, and for pairs of bodies; two faces are tied under ties"));
   PetscFunctionReturn(0);
 }
@@ -200,8 +201,8 @@ PetscErrorCode SceneViewPairs(Scene scene, PetscViewer viewer, const SceneList *
 }
 
 /* Checks that a part of a text, `length` characters from `text` on, names a body or a face of a body. */
-static PetscErrorCode ValidateSurface(MPI_Comm comm, const char file[], Scene scene, const char owner[],
-  const char text[], size_t length)
+static PetscErrorCode ValidateSurface(MPI_Comm comm, Scene scene, const SceneContactPair *owner, const char text[],
+  size_t length)
 {
   char name[SCENE_KEY_LENGTH];
 
@@ -211,67 +212,66 @@ static PetscErrorCode ValidateSurface(MPI_Comm comm, const char file[], Scene sc
     PetscBool found = PETSC_FALSE;
 
     for (PetscInt b = 0; b < scene->nbodies; ++b) found = (PetscBool)(found || !strcmp(name, scene->bodies[b].name));
-    PetscCheck(found, comm, PETSC_ERR_USER_INPUT, "%s: contact pair \"%s\" names \"%s\", which is no body of the scene",
-      file, owner, name);
-  } else PetscCall(SceneValidateFace(comm, file, scene, "contact pair", owner, name));
+    SceneRequire(found, owner, "contact pair \"%s\" names \"%s\", which is no body of the scene", owner->name, name);
+  } else PetscCall(SceneValidateFace(comm, scene, "contact pair", owner, name));
   PetscFunctionReturn(0);
 }
 
 /* Checks an entry with the key `self`: a pair in contact with itself */
-PetscErrorCode SceneValidateSelf(MPI_Comm comm, const char file[], Scene scene, const SceneContactPair *pair)
+PetscErrorCode SceneValidateSelf(MPI_Comm comm, Scene scene, const SceneContactPair *pair)
 {
   const char     *face;
   const PetscBool whole = (PetscBool)!strchr(pair->self, '.');
   PetscInt        body;
 
   PetscFunctionBegin;
-  PetscCall(ValidateSurface(comm, file, scene, pair->name, pair->self, strlen(pair->self)));
+  PetscCall(ValidateSurface(comm, scene, pair, pair->self, strlen(pair->self)));
   body = SceneFindBody(scene, pair->mortar, &face);
-  PetscCheck(scene->bodies[body].material.type != MATERIAL_RIGID, comm, PETSC_ERR_USER_INPUT,
-    "%s: contact pair \"%s\" with self: %s: the body \"%s\" is rigid and cannot come into contact with itself", file,
-    pair->name, pair->self, scene->bodies[body].name);
-  PetscCheck(pair->gap != GAP_NODE, comm, PETSC_ERR_USER_INPUT,
-    "%s: contact pair \"%s\" with self: %s cannot have gap: node, which needs two different faces; use gap: mortar or "
+  SceneRequire(scene->bodies[body].material.type != MATERIAL_RIGID, pair,
+    "contact pair \"%s\" with self: %s: the body \"%s\" is rigid and cannot come into contact with itself", pair->name,
+    pair->self, scene->bodies[body].name);
+  SceneRequire(pair->gap != GAP_NODE, pair,
+    "contact pair \"%s\" with self: %s cannot have gap: node, which needs two different faces; use gap: mortar or "
     "gap: dual",
-    file, pair->name, pair->self);
-  PetscCheck(pair->interference == 0.0, comm, PETSC_ERR_USER_INPUT,
-    "%s: contact pair \"%s\" with self: %s cannot have an interference, because the surface must not overlap itself at "
+    pair->name, pair->self);
+  SceneRequire(pair->interference == 0.0, pair,
+    "contact pair \"%s\" with self: %s cannot have an interference, because the surface must not overlap itself at "
     "the start; name the two faces that overlap as mortar and nonmortar",
-    file, pair->name, pair->self);
+    pair->name, pair->self);
   for (PetscInt c = 0; c < scene->ncyclic; ++c)
-    PetscCheck(SceneFindBody(scene, scene->cyclic[c].from, &face) != body, comm, PETSC_ERR_USER_INPUT,
-      "%s: contact pair \"%s\" with self: %s: the body is a sector of cyclic symmetry \"%s\": name two faces as "
+    SceneRequire(SceneFindBody(scene, scene->cyclic[c].from, &face) != body, pair,
+      "contact pair \"%s\" with self: %s: the body is a sector of cyclic symmetry \"%s\": name two faces as "
       "mortar and nonmortar",
-      file, pair->name, pair->self, scene->cyclic[c].name);
+      pair->name, pair->self, scene->cyclic[c].name);
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *other  = &scene->pairs[p];
     const PetscBool         within = (PetscBool)(other != pair && SceneFindBody(scene, other->mortar, &face) == body &&
                                          SceneFindBody(scene, other->nonmortar, &face) == body);
 
-    PetscCheck(!within || !whole, comm, PETSC_ERR_USER_INPUT,
-      "%s: contact pair \"%s\" with self: %s is the whole surface of the body, which includes the faces of contact "
+    SceneRequire(!within || !whole, pair,
+      "contact pair \"%s\" with self: %s is the whole surface of the body, which includes the faces of contact "
       "pair \"%s\": omit one of the pairs",
-      file, pair->name, pair->self, other->name);
+      pair->name, pair->self, other->name);
   }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneValidateRules(MPI_Comm comm, const char file[], Scene scene)
+PetscErrorCode SceneValidateRules(MPI_Comm comm, Scene scene)
 {
   PetscFunctionBegin;
   for (PetscInt r = 0; r < scene->nrules; ++r) {
     const SceneContactPair *rule = &scene->rules[r];
 
     if (rule->mortar) {
-      PetscCall(ValidateSurface(comm, file, scene, rule->name, rule->mortar, strlen(rule->mortar)));
-      PetscCall(ValidateSurface(comm, file, scene, rule->name, rule->nonmortar, strlen(rule->nonmortar)));
-      PetscCheck(strcmp(rule->mortar, rule->nonmortar), comm, PETSC_ERR_USER_INPUT,
-        "%s: contact pair \"%s\" has the same body \"%s\" on both sides", file, rule->name, rule->mortar);
+      PetscCall(ValidateSurface(comm, scene, rule, rule->mortar, strlen(rule->mortar)));
+      PetscCall(ValidateSurface(comm, scene, rule, rule->nonmortar, strlen(rule->nonmortar)));
+      SceneRequire(strcmp(rule->mortar, rule->nonmortar), rule,
+        "contact pair \"%s\" has the same body \"%s\" on both sides", rule->name, rule->mortar);
     }
     for (const char *at = rule->except; at && *at;) {
       const size_t length = strcspn(at, ",/");
 
-      PetscCall(ValidateSurface(comm, file, scene, rule->name, at, length));
+      PetscCall(ValidateSurface(comm, scene, rule, at, length));
       at += length + (at[length] != 0);
     }
   }
@@ -294,14 +294,14 @@ PetscErrorCode SceneFinishPair(SceneKeys keys, Scene scene, const char owner[], 
   PetscCall(SceneHasKey(keys, owner, "shear_limit", &limit));
   if (pair->interference_ramp >= 0 && !interference)
     PetscCall(
-      SceneKeysError(keys, "%s_ramp is the ramp of an interference, but the key interference is missing", owner));
+      SceneKeysError(keys, owner, "ramp", "is the ramp of an interference, but the key interference is missing"));
   if (pair->interference_ramp >= 0 && interference &&
       (pair->interference >= PETSC_INFINITY || pair->interference == 0.0))
-    PetscCall(SceneKeysError(keys,
-      "%s_interference must be the largest intended overlap if it has a ramp; it is true, false or 0", owner));
+    PetscCall(SceneKeysError(keys, owner, "interference",
+      "must be the largest intended overlap if it has a ramp; it is true, false or 0"));
   if (pair->friction_ramp >= 0 && !coefficient)
     PetscCall(
-      SceneKeysError(keys, "%s_friction_ramp is the ramp of a coefficient, but the key friction is missing", owner));
+      SceneKeysError(keys, owner, "friction_ramp", "is the ramp of a coefficient, but the key friction is missing"));
   if (limit && !coefficient) pair->friction = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }

@@ -146,7 +146,7 @@ PetscErrorCode SceneSetWholeBody(SceneKeys keys, Scene scene, const char owner[]
     PetscFunctionReturn(0);
   }
   if (scene->bodies[body].material.type != MATERIAL_RIGID)
-    PetscCall(SceneKeysError(keys, "%s_body is \"%s\", which is not rigid: %s", owner, scene->bodies[body].name, why));
+    PetscCall(SceneKeysError(keys, owner, "body", "is \"%s\", which is not rigid: %s", scene->bodies[body].name, why));
   PetscCall(PetscFree(*face));
   PetscCall(PetscSNPrintf(whole, sizeof(whole), "%s" SCENE_WHOLE_BODY, scene->bodies[body].name));
   PetscCall(PetscStrallocpy(whole, face));
@@ -168,21 +168,17 @@ static PetscErrorCode DisplacementSetPlace(SceneKeys keys, Scene scene, const ch
   PetscCall(SceneHasKey(keys, owner, "to", &to));
   PetscCall(SceneHasKey(keys, owner, "face", &face));
   if (point ? from || to : !from || !to)
-    PetscCall(SceneKeysError(keys,
-      "displacement \"%s\" is either at a point, {body, point: [x, y, z]}, or along an edge, {body, from: [x, y, z], "
-      "to: [x, y, z]}",
-      d->name));
+    PetscCall(SceneKeysError(keys, owner, NULL,
+      "is either at a point, {body, point: [x, y, z]}, or along an edge, {body, from: [x, y, z], "
+      "to: [x, y, z]}"));
   if (d->body < 0)
-    PetscCall(
-      SceneKeysError(keys, "displacement \"%s\" is at a point or along an edge, but the key body is missing", d->name));
+    PetscCall(SceneKeysError(keys, owner, NULL, "is at a point or along an edge, but the key body is missing"));
   else if (scene->bodies[d->body].material.type == MATERIAL_RIGID)
-    PetscCall(SceneKeysError(keys,
-      "displacement \"%s\" is at a point or an edge of the rigid body \"%s\", which moves as a whole: use the key body "
+    PetscCall(SceneKeysError(keys, owner, NULL,
+      "is at a point or an edge of the rigid body \"%s\", which moves as a whole: use the key body "
       "alone",
-      d->name, scene->bodies[d->body].name));
-  if (face)
-    PetscCall(
-      SceneKeysError(keys, "displacement \"%s\" has a face, and a point or an edge; give only one of them", d->name));
+      scene->bodies[d->body].name));
+  if (face) PetscCall(SceneKeysError(keys, owner, NULL, "has a face, and a point or an edge; give only one of them"));
   d->at = point ? DISPLACEMENT_POINT : DISPLACEMENT_EDGE;
   if (point) PetscCall(PetscArraycpy(d->to, d->from, 3));
   PetscCall(PetscFree(d->face));
@@ -195,14 +191,13 @@ static PetscErrorCode DisplacementSetPlace(SceneKeys keys, Scene scene, const ch
    Finds which motions of a rigid body are free. A component is prescribed at all nodes only if neither this component
    nor a rotation that changes it is free.
 */
-static PetscErrorCode DisplacementRelease(SceneKeys keys, SceneDisplacement *d)
+static PetscErrorCode DisplacementRelease(SceneKeys keys, const char owner[], SceneDisplacement *d)
 {
   PetscFunctionBegin;
   if (SceneTurnsFreely(d) && SceneRotates(d))
-    PetscCall(SceneKeysError(keys,
-      "displacement \"%s\" prescribes one rotation of a rigid body while another one is free; if one rotation is free, "
-      "the others must be 0 or free",
-      d->name));
+    PetscCall(SceneKeysError(keys, owner, NULL,
+      "prescribes one rotation of a rigid body while another one is free; if one rotation is free, "
+      "the others must be 0 or free"));
   for (PetscInt i = 0; i < 3; ++i) d->released[i] = (PetscBool)!d->fixed[i];
   for (PetscInt i = 0; i < 3; ++i)
     d->fixed[i] = (PetscBool) !(d->released[i] || d->released[3 + (i + 1) % 3] || d->released[3 + (i + 2) % 3]);
@@ -210,22 +205,21 @@ static PetscErrorCode DisplacementRelease(SceneKeys keys, SceneDisplacement *d)
 }
 
 /* rotation: whether the entry has this key, whose value may be 0 */
-static PetscErrorCode DisplacementSetMotion(SceneKeys keys, PetscBool center, PetscBool rotation, SceneDisplacement *d)
+static PetscErrorCode DisplacementSetMotion(SceneKeys keys, const char owner[], PetscBool center, PetscBool rotation,
+  SceneDisplacement *d)
 {
   const PetscBool whole = SceneIsWholeBody(d->face), turns = RotationIsShown(d);
 
   PetscFunctionBegin;
   d->moves = (PetscBool)(whole || turns);
-  if (turns && !center) PetscCall(SceneKeysError(keys, "displacement \"%s\" has a rotation, but no center", d->name));
-  if (center && !rotation)
-    PetscCall(SceneKeysError(keys, "displacement \"%s\" has a center, but no rotation", d->name));
+  if (turns && !center) PetscCall(SceneKeysError(keys, owner, NULL, "has a rotation, but no center"));
+  if (center && !rotation) PetscCall(SceneKeysError(keys, owner, NULL, "has a center, but no rotation"));
   if (!whole && SceneTurnsFreely(d))
-    PetscCall(SceneKeysError(keys,
-      "displacement \"%s\" has a free rotation, which only a rigid body can have, as {body: <body>, ...}", d->name));
+    PetscCall(SceneKeysError(keys, owner, NULL,
+      "has a free rotation, which only a rigid body can have, as {body: <body>, ...}"));
   else if (d->moves && !whole && !(d->fixed[0] && d->fixed[1] && d->fixed[2]))
-    PetscCall(SceneKeysError(keys, "displacement \"%s\" has a rotation, so that no component of its value may be free",
-      d->name));
-  if (whole) PetscCall(DisplacementRelease(keys, d));
+    PetscCall(SceneKeysError(keys, owner, NULL, "has a rotation, so that no component of its value may be free"));
+  if (whole) PetscCall(DisplacementRelease(keys, owner, d));
   PetscFunctionReturn(0);
 }
 
@@ -245,11 +239,10 @@ PetscErrorCode SceneFinishDisplacement(SceneKeys keys, Scene scene, const char o
   if (point || from || to) PetscCall(DisplacementSetPlace(keys, scene, owner, point, d));
   else {
     PetscCall(SceneKeysGet(keys, (PetscBool)!body, &face, "%s_face", owner));
-    if (body && face)
-      PetscCall(SceneKeysError(keys, "displacement \"%s\" names a face and a body; give only one of the two", d->name));
+    if (body && face) PetscCall(SceneKeysError(keys, owner, NULL, "names a face and a body; give only one of the two"));
     PetscCall(SceneSetWholeBody(keys, scene, owner,
       "displacements of an elastic body are prescribed at a face, a point or an edge", d->body, &d->face));
   }
-  PetscCall(DisplacementSetMotion(keys, center, rotation, d));
+  PetscCall(DisplacementSetMotion(keys, owner, center, rotation, d));
   PetscFunctionReturn(0);
 }

@@ -44,9 +44,8 @@ PetscErrorCode SceneReadFaces(SceneKeys keys, Scene scene, const SceneList *list
 
     if (b < 0) {
       if (faces[f].of[0])
-        PetscCall(
-          SceneKeysError(keys, "faces_%s_of is \"%s\", a face of an unknown body; faces are written <body>.<face>",
-            faces[f].name, faces[f].of));
+        PetscCall(SceneKeysError(keys, "faces", faces[f].name,
+          "is of \"%s\", a face of an unknown body; faces are written <body>.<face>", faces[f].of));
       PetscCall(PetscFree(faces[f].name));
     } else {
       SceneBody    *body = &scene->bodies[b];
@@ -115,25 +114,25 @@ static PetscErrorCode FacesDescribe(MPI_Comm comm, SceneBody *body, const char f
    Collective. Checks that a face exists. what, owner: describe the entry that refers to the face, as in displacement
    "bottom".
 */
-PetscErrorCode SceneValidateFace(MPI_Comm comm, const char file[], Scene scene, const char what[], const char owner[],
-  const char name[])
+PetscErrorCode SceneValidateFace(MPI_Comm comm, Scene scene, const char what[], const void *owner, const char name[])
 {
-  const char    *face;
-  const PetscInt b = SceneFindBody(scene, name, &face);
-  PetscBool      found;
-  char           choices[512];
+  const SceneEntry *entry = owner;
+  const char       *face;
+  const PetscInt    b = SceneFindBody(scene, name, &face);
+  PetscBool         found;
+  char              choices[512];
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < scene->nbodies; ++i) {
     if (strcmp(name, scene->bodies[i].name)) continue;
     PetscCall(FacesDescribe(comm, &scene->bodies[i], "", sizeof(choices), choices, &found));
-    SETERRQ(comm, PETSC_ERR_USER_INPUT, "%s: %s \"%s\" names the body \"%s\" where it needs a face; %s has %s", file,
-      what, owner, name, name, choices);
+    SceneRequire(PETSC_FALSE, entry, "%s \"%s\" names the body \"%s\" where it needs a face; %s has %s", what,
+      entry->name, name, name, choices);
   }
-  PetscCheck(b >= 0, comm, PETSC_ERR_USER_INPUT,
-    "%s: %s \"%s\" names the face \"%s\" of an unknown body; faces are written <body>.<face>", file, what, owner, name);
+  SceneRequire(b >= 0, entry, "%s \"%s\" names the face \"%s\" of an unknown body; faces are written <body>.<face>",
+    what, entry->name, name);
   PetscCall(FacesDescribe(comm, &scene->bodies[b], face, sizeof(choices), choices, &found));
-  PetscCheck(found, comm, PETSC_ERR_USER_INPUT, "%s: %s \"%s\" names the face \"%s\", which does not exist; %s has %s",
-    file, what, owner, name, scene->bodies[b].name, choices);
+  SceneRequire(found, entry, "%s \"%s\" names the face \"%s\", which does not exist; %s has %s", what, entry->name,
+    name, scene->bodies[b].name, choices);
   PetscFunctionReturn(0);
 }

@@ -34,8 +34,7 @@ PetscErrorCode SceneFinishForce(SceneKeys keys, Scene scene, const char owner[],
   PetscCall(SceneHasKey(keys, owner, "body", &body));
   PetscCall(SceneKeysGet(keys, (PetscBool)!turns, &text, "%s_value", owner));
   PetscCall(SceneKeysGet(keys, (PetscBool)!body, &text, "%s_face", owner));
-  if (body && text)
-    PetscCall(SceneKeysError(keys, "force \"%s\" names a face and a body; give only one of the two", force->name));
+  if (body && text) PetscCall(SceneKeysError(keys, owner, NULL, "names a face and a body; give only one of the two"));
   PetscCall(SceneSetWholeBody(keys, scene, owner, "forces act on a face of an elastic body: use the key face",
     force->body, &force->face));
   PetscFunctionReturn(0);
@@ -53,7 +52,7 @@ static PetscErrorCode SceneBodyExpands(const SceneBody *body, PetscBool *expands
 }
 
 /* Checks that bodies with a temperature have a thermal expansion. */
-PetscErrorCode SceneValidateTemperatures(MPI_Comm comm, const char file[], Scene scene)
+PetscErrorCode SceneValidateTemperatures(MPI_Comm comm, Scene scene)
 {
   PetscFunctionBegin;
   for (PetscInt t = 0; t < scene->ntemperatures; ++t) {
@@ -63,10 +62,10 @@ PetscErrorCode SceneValidateTemperatures(MPI_Comm comm, const char file[], Scene
     for (PetscInt b = 0; b < scene->nbodies && !any; ++b) {
       if (here->body == PETSC_DECIDE || here->body == b) PetscCall(SceneBodyExpands(&scene->bodies[b], &any));
     }
-    PetscCheck(any, comm, PETSC_ERR_USER_INPUT,
-      "%s: temperature \"%s\" applies to %s, whose material has no thermal expansion; add one, for example "
+    SceneRequire(any, here,
+      "temperature \"%s\" applies to %s, whose material has no thermal expansion; add one, for example "
       "expansion: 12e-6 (small-strain laws only)",
-      file, here->name, here->body < 0 ? "every body" : scene->bodies[here->body].name);
+      here->name, here->body < 0 ? "every body" : scene->bodies[here->body].name);
   }
   PetscFunctionReturn(0);
 }

@@ -14,15 +14,13 @@ PetscErrorCode SceneFinishMaterial(SceneKeys keys, Scene scene, const char owner
   PetscFunctionBegin;
   (void)scene;
   if (material->material.type == MATERIAL_RIGID) {
-    PetscCall(SceneKeysError(keys, "%s_law is rigid: write material: rigid in the body instead", owner));
+    PetscCall(SceneKeysError(keys, owner, "law", "is rigid: write material: rigid in the body instead"));
     material->material.type = MATERIAL_LINEAR; /* avoids a second error about the constants of the material */
   }
   PetscCall(SceneReadConstants(keys, owner, PETSC_FALSE, &material->material));
   for (PetscInt t = 0; MaterialTypes[t + 2]; ++t) {
     PetscCall(PetscStrcasecmp(material->name, MaterialTypes[t], &same));
-    if (same)
-      PetscCall(
-        SceneKeysError(keys, "material \"%s\": this is the name of a law; choose another name", material->name));
+    if (same) PetscCall(SceneKeysError(keys, owner, NULL, ": this is the name of a law; choose another name"));
   }
   PetscFunctionReturn(0);
 }
@@ -44,8 +42,8 @@ static PetscErrorCode MaterialsReadList(SceneKeys keys, const SceneList *rows, P
     for (PetscInt m = 0; m < first; ++m) {
       PetscCall(PetscStrcasecmp(scene->materials[i].name, scene->materials[m].name, &same));
       if (same)
-        PetscCall(SceneKeysError(keys, "the material \"%s\" is defined both in the scene and in its library",
-          scene->materials[i].name));
+        PetscCall(SceneKeysError(keys, "materials", scene->materials[i].name,
+          "is defined both in the scene and in its library"));
     }
   }
   PetscFunctionReturn(0);
@@ -65,15 +63,16 @@ static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const SceneList *rows
   PetscCall(PetscStrallocpy(name, &file));
   PetscCall(SceneResolveFile(keys->file, &file));
   PetscCall(PetscTestFile(file, 'r', &exists));
-  PetscCheck(exists, keys->comm, PETSC_ERR_FILE_OPEN, "%s: line %zu: library is \"%s\", which cannot be read",
-    keys->file, SceneKeysGetLine(keys, "library"), file);
+  PetscCheck(exists, keys->comm, PETSC_ERR_FILE_OPEN, "%slibrary is \"%s\", which cannot be read",
+    SceneGetPlace(&keys->places, "library"), file);
   PetscCall(PetscSNPrintf(keys->library, sizeof(keys->library), "the scene or its library %s", file));
   PetscCall(SceneKeysCreate(keys->comm, file, &library));
   PetscCall(SceneKeysGet(library, PETSC_TRUE, &units, "units"));
   PetscCall(MaterialsReadList(library, rows, PETSC_TRUE, keys));
   if (units && scene->units) PetscCall(PetscStrcmp(units, scene->units, &same));
   if (!same)
-    PetscCall(SceneKeysError(keys, "units are \"%s\", those of the library %s are \"%s\"", scene->units, file, units));
+    PetscCall(
+      SceneKeysError(keys, "units", NULL, "are \"%s\", those of the library %s are \"%s\"", scene->units, file, units));
   if (units && !scene->units) PetscCall(PetscStrallocpy(units, &scene->units));
   PetscCall(SceneKeysCheck(library));
   PetscCall(SceneKeysDestroy(&library));
@@ -118,7 +117,7 @@ static PetscErrorCode MaterialsError(SceneKeys keys, const char key[], const cha
     PetscCall(PetscStrlcat(meant, k ? ", " : " ", sizeof(meant)));
     PetscCall(PetscStrlcat(meant, names[k], sizeof(meant)));
   }
-  PetscCall(SceneKeysError(keys, "%s is \"%s\", which is neither a law nor a material of %s; %s", key, name,
+  PetscCall(SceneKeysError(keys, key, NULL, "is \"%s\", which is neither a law nor a material of %s; %s", name,
     keys->library[0] ? keys->library : "the scene (it names no library)", meant));
   keys->decides = PETSC_TRUE;
   PetscCall(PetscFree(names));

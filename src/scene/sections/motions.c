@@ -28,30 +28,28 @@ PetscErrorCode SceneJoinMotions(Scene scene)
 }
 
 /* Checks two displacements of the same face or body. Both must be rigid motions about the same center. */
-PetscErrorCode SceneValidateMotions(MPI_Comm comm, const char file[], const SceneDisplacement *a,
-  const SceneDisplacement *b)
+PetscErrorCode SceneValidateMotions(MPI_Comm comm, const SceneDisplacement *a, const SceneDisplacement *b)
 {
   PetscFunctionBegin;
-  PetscCheck(a->moves && b->moves, comm, PETSC_ERR_USER_INPUT,
-    "%s: displacement \"%s\" is a rigid motion of %s, but \"%s\" displaces the same face: remove one of them", file,
+  SceneRequire(a->moves && b->moves, a->moves ? a : b,
+    "displacement \"%s\" is a rigid motion of %s, but \"%s\" displaces the same face: remove one of them",
     a->moves ? a->name : b->name, a->face, a->moves ? b->name : a->name);
   for (PetscInt i = 0; i < 6; ++i)
-    PetscCheck(a->released[i] == b->released[i], comm, PETSC_ERR_USER_INPUT,
-      "%s: displacements \"%s\" and \"%s\" add up to one rigid motion, but only \"%s\" has a free %s %c: make it free "
+    SceneRequire(a->released[i] == b->released[i], a,
+      "displacements \"%s\" and \"%s\" add up to one rigid motion, but only \"%s\" has a free %s %c: make it free "
       "in both or in neither",
-      file, a->name, b->name, a->released[i] ? a->name : b->name, i < 3 ? "translation along" : "rotation about",
+      a->name, b->name, a->released[i] ? a->name : b->name, i < 3 ? "translation along" : "rotation about",
       "xyz"[i % 3]);
   for (PetscInt i = 0; i < 3; ++i)
-    PetscCheck((!SceneTurnsFreely(a) && !(SceneRotates(a) && SceneRotates(b))) || a->center[i] == b->center[i], comm,
-      PETSC_ERR_USER_INPUT,
-      "%s: displacements \"%s\" and \"%s\" add up to one rigid motion, but rotate about different centers: give both "
+    SceneRequire((!SceneTurnsFreely(a) && !(SceneRotates(a) && SceneRotates(b))) || a->center[i] == b->center[i], a,
+      "displacements \"%s\" and \"%s\" add up to one rigid motion, but rotate about different centers: give both "
       "the same center",
-      file, a->name, b->name);
+      a->name, b->name);
   PetscFunctionReturn(0);
 }
 
 /* Checks that there is something to compute: an elastic body, or a free motion of a rigid one. */
-static PetscErrorCode SceneValidateUnknowns(MPI_Comm comm, const char file[], Scene scene)
+static PetscErrorCode SceneValidateUnknowns(MPI_Comm comm, Scene scene)
 {
   PetscBool some = PETSC_FALSE;
 
@@ -61,12 +59,12 @@ static PetscErrorCode SceneValidateUnknowns(MPI_Comm comm, const char file[], Sc
   for (PetscInt d = 0; d < scene->ndisplacements; ++d)
     some = (PetscBool)(some || SceneFreesMotion(&scene->displacements[d]));
   PetscCheck(some, comm, PETSC_ERR_USER_INPUT,
-    "%s: every body is rigid, and no motion of any of them is free: there is nothing to compute", file);
+    "%severy body is rigid, and no motion of any of them is free: there is nothing to compute", scene->places.file);
   PetscFunctionReturn(0);
 }
 
 /* Checks that every rigid body is moved as a whole, and that no other displacement applies to its faces. */
-PetscErrorCode SceneValidateRigid(MPI_Comm comm, const char file[], Scene scene)
+PetscErrorCode SceneValidateRigid(MPI_Comm comm, Scene scene)
 {
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
@@ -79,16 +77,16 @@ PetscErrorCode SceneValidateRigid(MPI_Comm comm, const char file[], Scene scene)
 
       if (SceneFindBody(scene, scene->displacements[d].face, &face) != b) continue;
       moved = PETSC_TRUE;
-      PetscCheck(SceneIsWholeBody(scene->displacements[d].face), comm, PETSC_ERR_USER_INPUT,
-        "%s: displacement \"%s\" names the face \"%s\" of a rigid body; a rigid body moves as a whole: - %s: {body: "
+      SceneRequire(SceneIsWholeBody(scene->displacements[d].face), &scene->displacements[d],
+        "displacement \"%s\" names the face \"%s\" of a rigid body; a rigid body moves as a whole: - %s: {body: "
         "%s, value: [0, 0, 0]}",
-        file, scene->displacements[d].name, scene->displacements[d].face, scene->displacements[d].name, body->name);
+        scene->displacements[d].name, scene->displacements[d].face, scene->displacements[d].name, body->name);
     }
-    PetscCheck(moved, comm, PETSC_ERR_USER_INPUT,
-      "%s: no displacement says how the rigid body \"%s\" moves; add for example displacements: - %s: {body: %s, "
+    SceneRequire(moved, body,
+      "no displacement says how the rigid body \"%s\" moves; add for example displacements: - %s: {body: %s, "
       "value: [0, 0, 0]}",
-      file, body->name, body->name, body->name);
+      body->name, body->name, body->name);
   }
-  PetscCall(SceneValidateUnknowns(comm, file, scene));
+  PetscCall(SceneValidateUnknowns(comm, scene));
   PetscFunctionReturn(0);
 }

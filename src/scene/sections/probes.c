@@ -25,15 +25,15 @@ PetscErrorCode SceneFinishProbe(SceneKeys keys, Scene scene, const char owner[],
   PetscCall(SceneHasKey(keys, owner, "points", &count));
   if (point) {
     if (from || to || count)
-      PetscCall(SceneKeysError(keys, "%s is a point, which has neither from, to nor points", owner));
+      PetscCall(SceneKeysError(keys, owner, NULL, "is a point, which has neither from, to nor points"));
     PetscFunctionReturn(0);
   }
   if (!from || !to || !count)
-    PetscCall(SceneKeysError(keys,
-      "%s is neither a point, {point: [x, y, z]}, nor a line, {from: [x, y, z], to: [x, y, z], points: N}", owner));
+    PetscCall(SceneKeysError(keys, owner, NULL,
+      "is neither a point, {point: [x, y, z]}, nor a line, {from: [x, y, z], to: [x, y, z], points: N}"));
   probe->line = PETSC_TRUE;
   if (probe->n < 2 || probe->n > PROBE_MAX_POINTS) {
-    PetscCall(SceneKeysError(keys, "%s_points is %" PetscInt_FMT "; a line has from 2 to %d", owner, probe->n,
+    PetscCall(SceneKeysError(keys, owner, "points", "is %" PetscInt_FMT "; a line has from 2 to %d", probe->n,
       PROBE_MAX_POINTS));
     probe->n = 2;
   }

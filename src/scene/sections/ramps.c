@@ -45,10 +45,10 @@ static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, PetscInt nramps
   PetscCall(PetscStrallocpy(SCENE_LOAD_RAMP, &ramp->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &steps, "load_steps"));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &factors, "load_factors"));
-  if (steps && factors) PetscCall(SceneKeysError(keys, "load_steps and factors of load exclude each other"));
+  if (steps && factors) PetscCall(SceneKeysError(keys, "load_steps", NULL, "and factors of load exclude each other"));
   if ((steps || factors) && SceneIsDynamic(scene))
-    PetscCall(SceneKeysError(keys, "%s and dynamics exclude each other: time_step and end_time set the load steps",
-      steps ? "load_steps" : "load_factors"));
+    PetscCall(SceneKeysError(keys, steps ? "load_steps" : "load_factors", NULL,
+      "and dynamics exclude each other: time_step and end_time set the load steps"));
   if (SceneIsDynamic(scene)) {
     PetscCall(PetscMalloc1(scene->nsteps, &ramp->factor));
     for (PetscInt i = 0; i < scene->nsteps; ++i) ramp->factor[i] = 1.0;
@@ -64,15 +64,16 @@ static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, PetscInt nramps
     PetscCall(SceneCountFactors(keys, nramps, ramps, &scene->nsteps));
     if (steps) PetscCall(SceneParseInt(keys, "load_steps", steps, &scene->nsteps));
     if (scene->nsteps > SCENE_MAX_STEPS) {
-      PetscCall(SceneKeysError(keys, "load_steps is %" PetscInt_FMT ", which must be at most %d", scene->nsteps,
-        SCENE_MAX_STEPS));
+      PetscCall(SceneKeysError(keys, "load_steps", NULL, "is %" PetscInt_FMT ", which must be at most %d",
+        scene->nsteps, SCENE_MAX_STEPS));
       scene->nsteps = SCENE_MAX_STEPS;
     }
     PetscCall(SceneSetUniformLoad(ramp, scene->nsteps));
     PetscCall(SceneReadProgram(keys, "load", scene, ramp, &program));
   }
   if (scene->nsteps < 1)
-    PetscCall(SceneKeysError(keys, "load_steps is %" PetscInt_FMT ", which must be at least 1", scene->nsteps));
+    PetscCall(
+      SceneKeysError(keys, "load_steps", NULL, "is %" PetscInt_FMT ", which must be at least 1", scene->nsteps));
   PetscFunctionReturn(0);
 }
 
@@ -84,22 +85,20 @@ static PetscErrorCode SceneReadRamp(SceneKeys keys, Scene scene, SceneRamp *ramp
   PetscBool      reserved, program;
 
   PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(owner, sizeof(owner), "ramps_%s", ramp->name));
+  ramp->place = SceneGetPlace(&keys->places, owner);
   PetscCall(PetscStrcasecmp(ramp->name, SCENE_LOAD_RAMP, &reserved));
   if (reserved)
-    PetscCall(SceneKeysError(keys,
-      "ramp \"%s\": this name is reserved for the load program, whose factors are in load: {factors: [...]}",
-      ramp->name));
+    PetscCall(SceneKeysError(keys, owner, NULL,
+      ": this name is reserved for the load program, whose factors are in load: {factors: [...]}"));
   PetscCall(PetscSNPrintf(key, sizeof(key), "ramps_%s_factors", ramp->name));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   PetscCall(PetscCalloc1(PetscMax(0, nsteps), &ramp->factor));
-  PetscCall(PetscSNPrintf(owner, sizeof(owner), "ramps_%s", ramp->name));
   PetscCall(SceneReadProgram(keys, owner, scene, ramp, &program));
   if (!text && !program)
-    PetscCall(
-      SceneKeysError(keys, "the ramp \"%s\" has neither factors nor an expression nor times and values", ramp->name));
+    PetscCall(SceneKeysError(keys, owner, NULL, "has neither factors nor an expression nor times and values"));
   if (text && program)
-    PetscCall(
-      SceneKeysError(keys, "the ramp \"%s\" has factors and another program; give only one of the two", ramp->name));
+    PetscCall(SceneKeysError(keys, owner, NULL, "has factors and another program; give only one of the two"));
   if (text && nsteps > 0) PetscCall(SceneParseReals(keys, key, text, nsteps, ramp->factor));
   PetscFunctionReturn(0);
 }

@@ -15,16 +15,17 @@ static PetscErrorCode NearRead(SceneKeys keys, Scene scene, const char key[], co
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     if (strcmp(scene->pairs[p].name, text)) continue;
     if (scene->pairs[p].self && !strchr(scene->pairs[p].self, '.'))
-      PetscCall(
-        SceneKeysError(keys, "%s is %s, the contact of the whole surface of %s with itself: name a face, or a box", key,
-          text, scene->pairs[p].self));
+      PetscCall(SceneKeysError(keys, key, NULL,
+        "is %s, the contact of the whole surface of %s with itself: name a face, or a box", text,
+        scene->pairs[p].self));
     PetscCall(PetscStrallocpy(scene->pairs[p].mortar, &refinement->face[0]));
     PetscCall(PetscStrallocpy(scene->pairs[p].nonmortar, &refinement->face[1]));
     PetscFunctionReturn(0);
   }
   PetscCall(PetscStrallocpy(text, &refinement->face[0]));
   if (SceneFindBody(scene, text, &face) < 0)
-    PetscCall(SceneKeysError(keys, "%s is %s, which is neither a contact pair nor a face, <body>.<face>", key, text));
+    PetscCall(
+      SceneKeysError(keys, key, NULL, "is %s, which is neither a contact pair nor a face, <body>.<face>", text));
   PetscFunctionReturn(0);
 }
 
@@ -66,33 +67,32 @@ PetscErrorCode SceneFinishRefinement(SceneKeys keys, Scene scene, const char own
   PetscCall(SceneHasKey(keys, owner, "lower", &lower));
   PetscCall(SceneHasKey(keys, owner, "upper", &upper));
   if (!r->face[0] && !(lower && upper))
-    PetscCall(SceneKeysError(keys,
-      "%s has neither near: <contact pair or face> nor both corners of a box, lower: [x, y, z] and upper: [x, y, z]",
-      owner));
+    PetscCall(SceneKeysError(keys, owner, NULL,
+      "has neither near: <contact pair or face> nor both corners of a box, lower: [x, y, z] and upper: [x, y, z]"));
   for (PetscInt d = 0; d < 3 && !r->face[0]; ++d) {
     if (!(r->lower[d] <= r->upper[d]))
-      PetscCall(SceneKeysError(keys, "%s has lower above upper along %c: %g and %g", owner, "xyz"[d],
+      PetscCall(SceneKeysError(keys, owner, NULL, "has lower above upper along %c: %g and %g", "xyz"[d],
         (double)r -> lower[d], (double)r -> upper[d]));
   }
   if (r->face[0] && !r->face[1]) r->body = SceneFindBody(scene, r->face[0], &face);
   if (r->levels < 1 || r->levels > REFINEMENT_MAX_LEVELS)
-    PetscCall(SceneKeysError(keys, "%s_levels is %" PetscInt_FMT "; it is a number from 1 to %d", owner, r->levels,
+    PetscCall(SceneKeysError(keys, owner, "levels", "is %" PetscInt_FMT "; it is a number from 1 to %d", r->levels,
       REFINEMENT_MAX_LEVELS));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneValidateRefinements(MPI_Comm comm, const char file[], Scene scene)
+PetscErrorCode SceneValidateRefinements(MPI_Comm comm, Scene scene)
 {
   PetscFunctionBegin;
   for (PetscInt r = 0; r < scene->nrefinements; ++r) {
     const SceneRefinement *refinement = &scene->refinements[r];
 
     for (PetscInt k = 0; k < 2 && refinement->face[k]; ++k)
-      PetscCall(SceneValidateFace(comm, file, scene, "refinement", refinement->name, refinement->face[k]));
-    PetscCheck(refinement->body < 0 || scene->bodies[refinement->body].order < 2, comm, PETSC_ERR_USER_INPUT,
-      "%s: refinement \"%s\" is of body \"%s\", which has order %" PetscInt_FMT
+      PetscCall(SceneValidateFace(comm, scene, "refinement", refinement, refinement->face[k]));
+    SceneRequire(refinement->body < 0 || scene->bodies[refinement->body].order < 2, refinement,
+      "refinement \"%s\" is of body \"%s\", which has order %" PetscInt_FMT
       ": only hexahedra of order 1 are refined locally",
-      file, refinement->name, scene->bodies[refinement->body].name, scene->bodies[refinement->body].order);
+      refinement->name, scene->bodies[refinement->body].name, scene->bodies[refinement->body].order);
   }
   PetscFunctionReturn(0);
 }

@@ -5,6 +5,9 @@
 #include "src/mesh/shapes/shapesimpl.h"
 #include "src/scene/format/formatimpl.h"
 
+/* Checks an entry of the scene. Every rank of `comm` has the same scene, so that every rank finds the same error */
+#define SceneRequire(cond, entry, ...) SceneCheck(cond, comm, PETSC_ERR_USER_INPUT, entry, __VA_ARGS__)
+
 /* keytable.c: all lists of keys, beginning with the top level */
 PETSC_INTERN const SceneList  SceneLists[]; /* the first list is the top level; the last one has the name NULL */
 PETSC_INTERN const SceneList *SceneFindList(const char name[]);
@@ -17,13 +20,13 @@ PETSC_INTERN PetscErrorCode SceneResample(Scene, PetscInt nsteps);
 
 /* dynamics.c: time steps, which are read before the ramps; and properties of bodies that time steps require */
 PETSC_INTERN PetscErrorCode SceneReadDynamics(SceneKeys, Scene, const SceneList *);
-PETSC_INTERN PetscErrorCode SceneFinishInertia(SceneKeys, Scene, const SceneBody *);
+PETSC_INTERN PetscErrorCode SceneFinishInertia(SceneKeys, Scene, const char owner[], const SceneBody *);
 
 /* constants.c: constants of a material's law, with the keys <owner>_<constant> */
 PETSC_INTERN PetscErrorCode SceneReadConstants(SceneKeys, const char owner[], PetscBool listed, Material *);
 PETSC_INTERN PetscErrorCode SceneViewConstants(const Material *, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneDescribeConstants(const Material *, PetscViewer);
-PETSC_INTERN PetscErrorCode SceneValidateConstants(MPI_Comm, const char file[], const SceneBody *);
+PETSC_INTERN PetscErrorCode SceneValidateConstants(MPI_Comm, const SceneBody *);
 
 /* materials.c: named materials; SceneFindMaterial() finds the material of a body, and whether its name is in a list */
 PETSC_INTERN PetscErrorCode SceneReadMaterials(SceneKeys, Scene, const SceneList *);
@@ -32,7 +35,7 @@ PETSC_INTERN PetscErrorCode SceneFindMaterial(SceneKeys, const char key[], const
   Material *);
 
 /* shapes.c: shape, mesh of level 0 and mesh file of a body */
-PETSC_INTERN PetscErrorCode SceneReadShape(SceneKeys, SceneBody *);
+PETSC_INTERN PetscErrorCode SceneReadShape(SceneKeys, const char owner[], SceneBody *);
 PETSC_INTERN PetscErrorCode SceneViewShape(const SceneBody *, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneGetShapeKeys(const SceneBody *, const ShapeKey **);
 
@@ -48,9 +51,8 @@ PETSC_INTERN PetscErrorCode SceneViewBodies(Scene, PetscViewer, const SceneList 
 PETSC_INTERN PetscInt       SceneFindBody(Scene, const char name[], const char **face);
 PETSC_INTERN PetscErrorCode SceneReadFaces(SceneKeys, Scene, const SceneList *);
 PETSC_INTERN PetscErrorCode SceneViewFaces(Scene, PetscViewer, const SceneList *);
-/* Collective. what, owner: describe the entry that refers to the face, as in displacement "bottom" */
-PETSC_INTERN PetscErrorCode SceneValidateFace(MPI_Comm, const char file[], Scene, const char what[], const char owner[],
-  const char name[]);
+/* Collective. what, owner: kind and struct of the entry that refers to the face, as in displacement "bottom" */
+PETSC_INTERN PetscErrorCode SceneValidateFace(MPI_Comm, Scene, const char what[], const void *owner, const char name[]);
 
 /* displacements.c: displacements of faces, at points and along edges, and rigid motions */
 PETSC_INTERN const SceneOwn SceneOwnComponents, SceneOwnRotation;
@@ -66,9 +68,8 @@ PETSC_INTERN PetscErrorCode SceneFinishDisplacement(SceneKeys, Scene, const char
 
 /* motions.c: checks of rigid motions */
 PETSC_INTERN PetscErrorCode SceneJoinMotions(Scene);
-PETSC_INTERN PetscErrorCode SceneValidateMotions(MPI_Comm, const char file[], const SceneDisplacement *,
-  const SceneDisplacement *);
-PETSC_INTERN PetscErrorCode SceneValidateRigid(MPI_Comm, const char file[], Scene);
+PETSC_INTERN PetscErrorCode SceneValidateMotions(MPI_Comm, const SceneDisplacement *, const SceneDisplacement *);
+PETSC_INTERN PetscErrorCode SceneValidateRigid(MPI_Comm, Scene);
 
 /* symmetry.c: symmetry planes, which are read after bodies and displacements */
 PETSC_INTERN PetscErrorCode SceneReadSymmetry(SceneKeys, Scene);
@@ -78,7 +79,7 @@ PETSC_INTERN PetscBool      SceneTractionIsForce(const void *entry);
 PETSC_INTERN PetscBool      SceneTractionIsNone(const void *entry);
 PETSC_INTERN PetscBool      SceneForceHides(const void *entry, const char key[]);
 PETSC_INTERN PetscErrorCode SceneFinishForce(SceneKeys, Scene, const char owner[], void *entry);
-PETSC_INTERN PetscErrorCode SceneValidateTemperatures(MPI_Comm, const char file[], Scene);
+PETSC_INTERN PetscErrorCode SceneValidateTemperatures(MPI_Comm, Scene);
 
 /* connectors.c: keys of connectors that depend on one another */
 PETSC_INTERN PetscBool      SceneConnectorHides(const void *entry, const char key[]);
@@ -87,13 +88,13 @@ PETSC_INTERN PetscErrorCode SceneFinishConnector(SceneKeys, Scene, const char ow
 /* bolts.c: keys of bolts that depend on one another */
 PETSC_INTERN PetscBool      SceneBoltHides(const void *entry, const char key[]);
 PETSC_INTERN PetscErrorCode SceneFinishBolt(SceneKeys, Scene, const char owner[], void *entry);
-PETSC_INTERN PetscErrorCode SceneValidateBolts(MPI_Comm, const char file[], Scene);
+PETSC_INTERN PetscErrorCode SceneValidateBolts(MPI_Comm, Scene);
 
 /* springs.c: springs and weak springs */
 #define SCENE_WEAK_SPRINGS 1e-7 /* relative stiffness if the scene has weak_springs: true */
 PETSC_INTERN const SceneOwn SceneOwnWeakSprings;
 PETSC_INTERN PetscErrorCode SceneFinishSpring(SceneKeys, Scene, const char owner[], void *entry);
-PETSC_INTERN PetscErrorCode SceneValidateSprings(MPI_Comm, const char file[], Scene);
+PETSC_INTERN PetscErrorCode SceneValidateSprings(MPI_Comm, Scene);
 
 /* contact.c, ties.c, refinements.c, probes.c: keys that are not single values */
 PETSC_INTERN const SceneOwn SceneOwnInterference, SceneOwnStick, SceneOwnExcept, SceneOwnNear;
@@ -101,12 +102,12 @@ PETSC_INTERN PetscBool      ScenePairHides(const void *entry, const char key[]);
 PETSC_INTERN PetscErrorCode SceneFinishPair(SceneKeys, Scene, const char owner[], void *entry);
 PETSC_INTERN PetscErrorCode SceneSplitRules(Scene);
 PETSC_INTERN PetscErrorCode SceneViewPairs(Scene, PetscViewer, const SceneList *);
-PETSC_INTERN PetscErrorCode SceneValidateRules(MPI_Comm, const char file[], Scene);
-PETSC_INTERN PetscErrorCode SceneValidateSelf(MPI_Comm, const char file[], Scene, const SceneContactPair *);
-PETSC_INTERN PetscErrorCode SceneValidateTies(MPI_Comm, const char file[], Scene);
+PETSC_INTERN PetscErrorCode SceneValidateRules(MPI_Comm, Scene);
+PETSC_INTERN PetscErrorCode SceneValidateSelf(MPI_Comm, Scene, const SceneContactPair *);
+PETSC_INTERN PetscErrorCode SceneValidateTies(MPI_Comm, Scene);
 PETSC_INTERN PetscBool      SceneRefinementHides(const void *entry, const char key[]);
 PETSC_INTERN PetscErrorCode SceneFinishRefinement(SceneKeys, Scene, const char owner[], void *entry);
-PETSC_INTERN PetscErrorCode SceneValidateRefinements(MPI_Comm, const char file[], Scene);
+PETSC_INTERN PetscErrorCode SceneValidateRefinements(MPI_Comm, Scene);
 PETSC_INTERN PetscBool      SceneProbeHides(const void *entry, const char key[]);
 PETSC_INTERN PetscErrorCode SceneFinishProbe(SceneKeys, Scene, const char owner[], void *entry);
 

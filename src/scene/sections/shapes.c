@@ -33,21 +33,21 @@ static PetscErrorCode SceneReadNumbers(SceneKeys keys, const char name[], const 
   PetscFunctionBegin;
   PetscCall(SceneParseList(keys, name, text, &count, &words));
   if (count > n)
-    PetscCall(SceneKeysError(keys, "%s has %" PetscInt_FMT " values, and may have %" PetscInt_FMT, name, count, n));
+    PetscCall(SceneKeysError(keys, name, NULL, "has %" PetscInt_FMT " values, and may have %" PetscInt_FMT, count, n));
   values[0] = (PetscReal)PetscMin(count, n);
   for (PetscInt i = 0; i < PetscMin(count, n); ++i) PetscCall(SceneParseReal(keys, name, words[i], &values[1 + i]));
   PetscCall(PetscStrToArrayDestroy((int)count, words));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const ShapeKey *key, SceneBody *body)
+static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const char owner[], const ShapeKey *key, SceneBody *body)
 {
   char        name[SCENE_KEY_LENGTH];
   const char *text;
   void       *value = (char *)body + key->offset;
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(name, sizeof(name), "bodies_%s_%s", body->name, key->name));
+  PetscCall(PetscSNPrintf(name, sizeof(name), "%s_%s", owner, key->name));
   PetscCall(SceneKeysGet(keys, key->required, &text, "%s", name));
   if (!text) PetscFunctionReturn(0);
   switch (key->type) {
@@ -62,18 +62,18 @@ static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const ShapeKey *key, Sce
 }
 
 /* Reads the name of the shape. If it is missing and the key `mesh` exists, the shape is gmsh. */
-static PetscErrorCode SceneReadShapeName(SceneKeys keys, SceneBody *body)
+static PetscErrorCode SceneReadShapeName(SceneKeys keys, const char owner[], SceneBody *body)
 {
   char        key[SCENE_KEY_LENGTH];
   const char *text;
   PetscInt    shape = PETSC_DECIDE;
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_shape", body->name));
+  PetscCall(PetscSNPrintf(key, sizeof(key), "%s_shape", owner));
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneParseEnum(keys, key, text, BodyShapes, &shape));
   else {
-    PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_mesh", body->name));
+    PetscCall(PetscSNPrintf(key, sizeof(key), "%s_mesh", owner));
     if (SceneValuesUse(&keys->values, key)) shape = SHAPE_GMSH;
   }
   if (shape < 0) { /* the shape is unknown; this error is reported first, since the valid keys depend on the shape */
@@ -85,20 +85,20 @@ static PetscErrorCode SceneReadShapeName(SceneKeys keys, SceneBody *body)
 }
 
 /* Reads the file of a rigid surface, and sets its point and the size of its cube from the facets */
-static PetscErrorCode SceneReadStl(SceneKeys keys, SceneBody *body)
+static PetscErrorCode SceneReadStl(SceneKeys keys, const char owner[], SceneBody *body)
 {
   const PetscReal scale = body->gmsh.scale != 0 ? body->gmsh.scale : 1.0;
 
   PetscFunctionBegin;
   if (scale <= 0 || PetscIsInfOrNanReal(scale))
-    PetscCall(SceneKeysError(keys, "bodies_%s_scale is %g, which must be above 0", body->name, (double)scale));
+    PetscCall(SceneKeysError(keys, owner, "scale", "is %g, which must be above 0", (double)scale));
   else
-    PetscCall(SceneStlCreate(keys->comm, body->gmsh.file, scale, &body->stl, &body->own[SURFACE_POINT],
-      &body->own[SURFACE_SIZE]));
+    PetscCall(SceneStlCreate(keys->comm, ScenePlace(body), body->gmsh.file, scale, &body->stl,
+      &body->own[SURFACE_POINT], &body->own[SURFACE_SIZE]));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
+PetscErrorCode SceneReadShape(SceneKeys keys, const char owner[], SceneBody *body)
 {
   char            key[SCENE_KEY_LENGTH];
   const char     *text;
@@ -107,14 +107,14 @@ PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
   const ShapeKey *shape_keys = NULL;
 
   PetscFunctionBegin;
-  PetscCall(SceneReadShapeName(keys, body));
+  PetscCall(SceneReadShapeName(keys, owner, body));
   body->curved       = PETSC_TRUE;
   body->ellipse.half = PETSC_DECIDE;
   octant->layer_even = 1;
   for (PetscInt d = 0; d < 3; ++d) octant->signs[d] = body->even[d] = 1;
   PetscCall(SceneGetShapeKeys(body, &shape_keys));
   for (const ShapeKey *k = shape_keys; k->name; ++k) {
-    PetscCall(SceneReadShapeKey(keys, k, body));
+    PetscCall(SceneReadShapeKey(keys, owner, k, body));
     /* The centre of each sphere is the corner of the body unless the sphere has its own centre, whose key comes
        later in the table. */
     if (k->offset == offsetof(SceneBody, octant.corner)) {
@@ -122,9 +122,9 @@ PetscErrorCode SceneReadShape(SceneKeys keys, SceneBody *body)
     }
   }
   if (body->gmsh.file) PetscCall(SceneResolveFile(keys->file, &body->gmsh.file));
-  if (body->shape == SHAPE_RIGID_STL && body->gmsh.file) PetscCall(SceneReadStl(keys, body));
+  if (body->shape == SHAPE_RIGID_STL && body->gmsh.file) PetscCall(SceneReadStl(keys, owner, body));
   if (body->shape != SHAPE_BOX) {
-    PetscCall(PetscSNPrintf(key, sizeof(key), "bodies_%s_curved", body->name));
+    PetscCall(PetscSNPrintf(key, sizeof(key), "%s_curved", owner));
     PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
     if (text) PetscCall(SceneParseAnswer(keys, key, text, &body->curved));
   }

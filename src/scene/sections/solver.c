@@ -29,8 +29,8 @@ PetscErrorCode SceneReadSolver(SceneKeys keys, Scene scene)
   PetscFunctionBegin;
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "solver"));
   if (text && text[0])
-    PetscCall(SceneKeysError(keys,
-      "solver is \"%s\"; it is a mapping of PETSc options, as solver: {tao_ipfilter_tol: 1e-8}", text));
+    PetscCall(SceneKeysError(keys, "solver", NULL,
+      "is \"%s\"; it is a mapping of PETSc options, as solver: {tao_ipfilter_tol: 1e-8}", text));
   for (PetscInt i = 0; i < keys->values.n; ++i) {
     const SceneValue *value = &keys->values.values[i];
 
@@ -39,7 +39,7 @@ PetscErrorCode SceneReadSolver(SceneKeys keys, Scene scene)
     name = value->key + sizeof(SOLVER_PREFIX) - 1;
     PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
     PetscCall(PetscOptionsValidKey(option, &valid));
-    if (!valid) PetscCall(SceneKeysError(keys, "\"%s\" in solver is not the name of an option", name));
+    if (!valid) PetscCall(SceneKeysError(keys, "solver", name, "is not the name of an option"));
     PetscCall(SceneAddOption(scene, name, value->text));
     PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", value->key));
   }

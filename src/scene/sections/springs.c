@@ -20,8 +20,8 @@ static PetscErrorCode WeakSpringsRead(SceneKeys keys, Scene scene, const char ke
   if (yes || no) PetscFunctionReturn(0);
   PetscCall(SceneParseReal(keys, key, text, stiffness));
   if (!(*stiffness > 0 && *stiffness <= 0.01))
-    PetscCall(SceneKeysError(keys,
-      "%s is %s; it must be true, false, or a fraction of the body's stiffness, above 0 and at most 0.01", key, text));
+    PetscCall(SceneKeysError(keys, key, NULL,
+      "is %s; it must be true, false, or a fraction of the body's stiffness, above 0 and at most 0.01", text));
   PetscFunctionReturn(0);
 }
 
@@ -48,30 +48,29 @@ PetscErrorCode SceneFinishSpring(SceneKeys keys, Scene scene, const char owner[]
   PetscFunctionBegin;
   (void)scene;
   if (spring->distance > 0 && !spring->to)
-    PetscCall(SceneKeysError(keys,
-      "%s_distance is for springs between two faces, but these are to the ground: name the other face by the key to",
-      owner));
+    PetscCall(SceneKeysError(keys, owner, "distance",
+      "is for springs between two faces, but these are to the ground: name the other face by the key to"));
   for (PetscInt d = 0; d < 3; ++d) {
     if (spring->value[d] < 0)
-      PetscCall(SceneKeysError(keys, "%s_value has a stiffness of %g along %c, which must not be negative", owner,
+      PetscCall(SceneKeysError(keys, owner, "value", "has a stiffness of %g along %c, which must not be negative",
         (double)spring->value[d], "xyz"[d]));
   }
   if (spring->value[0] == 0 && spring->value[1] == 0 && spring->value[2] == 0)
-    PetscCall(SceneKeysError(keys, "%s_value is zero along each axis: such springs hold nothing", owner));
+    PetscCall(SceneKeysError(keys, owner, "value", "is zero along each axis: such springs hold nothing"));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneValidateSprings(MPI_Comm comm, const char file[], Scene scene)
+PetscErrorCode SceneValidateSprings(MPI_Comm comm, Scene scene)
 {
   PetscFunctionBegin;
   for (PetscInt s = 0; s < scene->nsprings; ++s) {
     const SceneSpring *spring = &scene->springs[s];
 
-    PetscCall(SceneValidateFace(comm, file, scene, "spring", spring->name, spring->face));
+    PetscCall(SceneValidateFace(comm, scene, "spring", spring, spring->face));
     if (!spring->to) continue;
-    PetscCall(SceneValidateFace(comm, file, scene, "spring", spring->name, spring->to));
-    PetscCheck(strcmp(spring->face, spring->to), comm, PETSC_ERR_USER_INPUT,
-      "%s: spring \"%s\" has the same face \"%s\" at both ends", file, spring->name, spring->face);
+    PetscCall(SceneValidateFace(comm, scene, "spring", spring, spring->to));
+    SceneRequire(strcmp(spring->face, spring->to), spring, "spring \"%s\" has the same face \"%s\" at both ends",
+      spring->name, spring->face);
   }
   PetscFunctionReturn(0);
 }

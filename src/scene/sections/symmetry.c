@@ -125,7 +125,7 @@ static PetscErrorCode SceneReadSymmetryNamed(SceneKeys keys, const char name[], 
   PetscFunctionBegin;
   PetscCall(PetscStrallocpy(name, &displacement->name));
   if (!SceneIsName(name))
-    PetscCall(SceneKeysError(keys, "\"%s\" in symmetry is neither a face, <body>.<face>, nor a name", name));
+    PetscCall(SceneKeysError(keys, "symmetry", name, "is neither a face, <body>.<face>, nor a name"));
   PetscCall(SceneKeysGet(keys, PETSC_TRUE, &text, "symmetry_%s_face", name));
   PetscCall(PetscStrallocpy(text ? text : "", &displacement->face));
   PetscCall(PetscSNPrintf(key, sizeof(key), "symmetry_%s_normal", name));
@@ -133,7 +133,7 @@ static PetscErrorCode SceneReadSymmetryNamed(SceneKeys keys, const char name[], 
   if (text && strchr(text, ',')) {
     PetscCall(SceneParseReals(keys, key, text, 3, normal));
     if (normal[0] == 0 && normal[1] == 0 && normal[2] == 0)
-      PetscCall(SceneKeysError(keys, "%s is zero; it is x, y, z or a vector", key));
+      PetscCall(SceneKeysError(keys, key, NULL, "is zero; it is x, y, z or a vector"));
     SymmetrySetNormal(normal, displacement);
   } else {
     if (text) PetscCall(SceneParseEnum(keys, key, text, axes, &axis));
@@ -162,14 +162,15 @@ PetscErrorCode SceneReadSymmetry(SceneKeys keys, Scene scene)
     SceneDisplacement *displacement = &scene->displacements[scene->ndisplacements++];
     PetscBool          same;
 
-    displacement->body = PETSC_DECIDE;
+    displacement->body  = PETSC_DECIDE;
+    displacement->place = SceneGetPlace(&keys->places, "symmetry");
     if (strchr(words[i], '.')) PetscCall(SceneReadSymmetryFace(scene, words[i], displacement));
     else PetscCall(SceneReadSymmetryNamed(keys, words[i], displacement));
     for (PetscInt d = 0; d < scene->ndisplacements - 1; ++d) {
       PetscCall(PetscStrcasecmp(scene->displacements[d].name, displacement->name, &same));
       if (same)
-        PetscCall(SceneKeysError(keys, "\"%s\" in symmetry is also the name of another displacement or symmetry plane",
-          words[i]));
+        PetscCall(
+          SceneKeysError(keys, "symmetry", words[i], "is also the name of another displacement or symmetry plane"));
     }
   }
   PetscCall(PetscStrToArrayDestroy((int)n, words));

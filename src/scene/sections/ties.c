@@ -4,7 +4,7 @@
 #include <string.h>
 #include <vector3.h>
 
-static PetscErrorCode SceneValidateCyclic(MPI_Comm comm, const char file[], Scene scene)
+static PetscErrorCode SceneValidateCyclic(MPI_Comm comm, Scene scene)
 {
   PetscFunctionBegin;
   for (PetscInt k = 0; k < scene->ncyclic; ++k) {
@@ -12,30 +12,28 @@ static PetscErrorCode SceneValidateCyclic(MPI_Comm comm, const char file[], Scen
     const char        *face = NULL;
     PetscInt           body;
 
-    PetscCall(SceneValidateFace(comm, file, scene, "cyclic symmetry", cut->name, cut->from));
-    PetscCall(SceneValidateFace(comm, file, scene, "cyclic symmetry", cut->name, cut->to));
+    PetscCall(SceneValidateFace(comm, scene, "cyclic symmetry", cut, cut->from));
+    PetscCall(SceneValidateFace(comm, scene, "cyclic symmetry", cut, cut->to));
     body = SceneFindBody(scene, cut->from, &face);
-    PetscCheck(body == SceneFindBody(scene, cut->to, &face) && strcmp(cut->from, cut->to), comm, PETSC_ERR_USER_INPUT,
-      "%s: cyclic symmetry \"%s\" has the faces \"%s\" and \"%s\": they must be two faces of one body", file, cut->name,
+    SceneRequire(body == SceneFindBody(scene, cut->to, &face) && strcmp(cut->from, cut->to), cut,
+      "cyclic symmetry \"%s\" has the faces \"%s\" and \"%s\": they must be two faces of one body", cut->name,
       cut->from, cut->to);
-    PetscCheck(scene->bodies[body].material.type != MATERIAL_RIGID, comm, PETSC_ERR_USER_INPUT,
-      "%s: cyclic symmetry \"%s\": its body \"%s\" is rigid; model all of it", file, cut->name,
-      scene->bodies[body].name);
-    PetscCheck(VectorNorm(cut->axis) > 0.0, comm, PETSC_ERR_USER_INPUT,
-      "%s: cyclic symmetry \"%s\": the axis is (0, 0, 0), which is no direction", file, cut->name);
+    SceneRequire(scene->bodies[body].material.type != MATERIAL_RIGID, cut,
+      "cyclic symmetry \"%s\": its body \"%s\" is rigid; model all of it", cut->name, scene->bodies[body].name);
+    SceneRequire(VectorNorm(cut->axis) > 0.0, cut,
+      "cyclic symmetry \"%s\": the axis is (0, 0, 0), which is no direction", cut->name);
     for (PetscInt other = 0; other < k; ++other) {
       const SceneCyclic *before = &scene->cyclic[other];
 
-      PetscCheck(strcmp(cut->from, before->from) && strcmp(cut->from, before->to) && strcmp(cut->to, before->from) &&
-                   strcmp(cut->to, before->to),
-        comm, PETSC_ERR_USER_INPUT, "%s: cyclic symmetries \"%s\" and \"%s\" have a common face", file, before->name,
-        cut->name);
+      SceneRequire(strcmp(cut->from, before->from) && strcmp(cut->from, before->to) && strcmp(cut->to, before->from) &&
+                     strcmp(cut->to, before->to),
+        before, "cyclic symmetries \"%s\" and \"%s\" have a common face", before->name, cut->name);
     }
   }
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode SceneValidateTies(MPI_Comm comm, const char file[], Scene scene)
+PetscErrorCode SceneValidateTies(MPI_Comm comm, Scene scene)
 {
   PetscFunctionBegin;
   for (PetscInt t = 0; t < scene->nties; ++t) {
@@ -43,19 +41,19 @@ PetscErrorCode SceneValidateTies(MPI_Comm comm, const char file[], Scene scene)
     const char     *face = NULL;
     PetscInt        mortar, nonmortar;
 
-    PetscCall(SceneValidateFace(comm, file, scene, "tie", tie->name, tie->mortar));
-    PetscCall(SceneValidateFace(comm, file, scene, "tie", tie->name, tie->nonmortar));
+    PetscCall(SceneValidateFace(comm, scene, "tie", tie, tie->mortar));
+    PetscCall(SceneValidateFace(comm, scene, "tie", tie, tie->nonmortar));
     mortar    = SceneFindBody(scene, tie->mortar, &face);
     nonmortar = SceneFindBody(scene, tie->nonmortar, &face);
-    PetscCheck(strcmp(tie->mortar, tie->nonmortar), comm, PETSC_ERR_USER_INPUT,
-      "%s: tie \"%s\" has the same face \"%s\" on both sides", file, tie->name, tie->mortar);
-    PetscCheck(scene->bodies[nonmortar].material.type != MATERIAL_RIGID, comm, PETSC_ERR_USER_INPUT,
-      "%s: tie \"%s\" has a face of the rigid body \"%s\" as its nonmortar face; swap the two", file, tie->name,
+    SceneRequire(strcmp(tie->mortar, tie->nonmortar), tie, "tie \"%s\" has the same face \"%s\" on both sides",
+      tie->name, tie->mortar);
+    SceneRequire(scene->bodies[nonmortar].material.type != MATERIAL_RIGID, tie,
+      "tie \"%s\" has a face of the rigid body \"%s\" as its nonmortar face; swap the two", tie->name,
       scene->bodies[nonmortar].name);
-    PetscCheck(!SceneBodyIsSurface(&scene->bodies[mortar]), comm, PETSC_ERR_USER_INPUT,
-      "%s: tie \"%s\" has the rigid surface \"%s\" as its mortar face: a rigid surface is only for contact", file,
-      tie->name, scene->bodies[mortar].name);
+    SceneRequire(!SceneBodyIsSurface(&scene->bodies[mortar]), tie,
+      "tie \"%s\" has the rigid surface \"%s\" as its mortar face: a rigid surface is only for contact", tie->name,
+      scene->bodies[mortar].name);
   }
-  PetscCall(SceneValidateCyclic(comm, file, scene));
+  PetscCall(SceneValidateCyclic(comm, scene));
   PetscFunctionReturn(0);
 }

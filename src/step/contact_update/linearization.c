@@ -89,7 +89,7 @@ static PetscErrorCode ContactUpdateWarnDamped(Simulation sim, const StepReport *
   PetscFunctionBegin;
   for (PetscInt s = 0; s < sim->report.nsteps; ++s) before += sim->report.steps[s].gap_damped;
   if (!before)
-    PetscCall(ReportWarn(sim->comm, &sim->report,
+    PetscCall(ReportWarn(sim->comm, &sim->report, NULL,
       "load step %" PetscInt_FMT ": contact iterations do not converge; they are damped from now on. Use smaller load "
       "steps, or swap mortar and nonmortar",
       report->step));
