@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""Draws columns of a table that contact -output BASE wrote: the history BASE.csv, or the points of a line,
-BASE_<line>.csv.
+"""Draws columns of a table that contact -output BASE wrote: of the history BASE.csv or of a line BASE_<line>.csv.
 
     share/plot/curves.py BASE.csv PICTURE.png [COLUMN ...] [-x COLUMN] [--steps all|N,...]
-    share/plot/curves.py BASE.csv                            # says which columns there are
+    share/plot/curves.py BASE.csv                            # prints the names of the columns
 
-A column may hold wildcards: '*.normal_force', 'slab.zmin.reaction_?'; each has axes of its own. Of a history, by
-default energy and work and each pair's normal force over time; of a line the displacement and von Mises stress along
-it, a curve each load step.
+A COLUMN may have wildcards: '*.normal_force', 'slab.zmin.reaction_?'. Each COLUMN has axes of its own. By default a
+history is drawn with energy, work and the normal force of each pair over time, and a line with displacement and von
+Mises stress, one curve per load step.
 """
 import argparse
 import csv
@@ -75,11 +74,12 @@ def draw(axis, table, along, group, curves):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("table")
-    parser.add_argument("picture", nargs="?")
-    parser.add_argument("columns", nargs="*", metavar="COLUMN")
-    parser.add_argument("-x", help="what is drawn to the right: time by default, of a line its arc")
-    parser.add_argument("--steps", help="of a line: all, or their numbers; the last by default")
+    parser.add_argument("table", help="BASE.csv or BASE_<line>.csv")
+    parser.add_argument("picture", nargs="?", help="a PNG file; without it the columns of the table are printed")
+    parser.add_argument("columns", nargs="*", metavar="COLUMN",
+                        help="columns to draw; '*.normal_force' is all columns with this ending")
+    parser.add_argument("-x", help="column of the horizontal axis; default: time, for a line its arc")
+    parser.add_argument("--steps", help="for a line: all, or numbers of load steps; default: the last one")
     args = parser.parse_args()
     table = read(args.table)
     if not args.picture:

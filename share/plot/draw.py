@@ -82,22 +82,27 @@ CAPTION = 44  # below the bodies [pixels]
 
 def arguments(words=None):
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("base", help="what contact -output named")
+    parser.add_argument("base", help="BASE of contact -output BASE")
     parser.add_argument("picture", help="a PNG file")
-    parser.add_argument("--step", type=int, help="load step; the last one by default")
-    parser.add_argument("--field", default="von_mises")
-    parser.add_argument("--scale", default="1", help="factor of the displacement; auto draws a tenth of the size")
+    parser.add_argument("--step", type=int, help="load step; default: the last one")
+    parser.add_argument("--field", default="von_mises",
+                        help="field of the files, for example contact_pressure or displacement_z; default: von_mises")
+    parser.add_argument("--scale", default="1",
+                        help="factor of the displacements; auto: the largest one is a tenth of the model's size")
     view = ("ELEVATION", "AZIMUTH")
-    parser.add_argument("--view", type=float, nargs=2, default=(20, -60), metavar=view, help="[degrees]")
-    parser.add_argument("--up", choices="xyz", default="z")
-    parser.add_argument("--only", help="names of the bodies to draw, e.g. slab,die")
-    parser.add_argument("--hide", default="", help="leave out the cells whose centre is on this side, e.g. 'y<0'")
-    parser.add_argument("--mirror", default="", help="draw also what the planes x = 0, y = 0 or z = 0 mirror, e.g. xy")
-    zoom = "show only as much as FACTOR times the size of the contact"
+    parser.add_argument("--view", type=float, nargs=2, default=(20, -60), metavar=view,
+                        help="direction of view [degrees]; default: 20 -60")
+    parser.add_argument("--up", choices="xyz", default="z", help="axis that points upwards; default: z")
+    parser.add_argument("--only", help="names of the bodies to draw, for example slab,die")
+    parser.add_argument("--hide", default="", help="omit cells whose centre is on this side, for example 'y<0'")
+    parser.add_argument("--mirror", default="",
+                        help="draw also the mirror images in the planes x = 0, y = 0 or z = 0, for example xy")
+    zoom = "show a region of FACTOR times the size of the contact area"
     parser.add_argument("--around-contact", type=float, metavar="FACTOR", help=zoom)
-    parser.add_argument("--contact-only", action="store_true", help="of a contact field: only the faces that have it")
-    parser.add_argument("--limit", type=float, help="upper end of the colours")
-    parser.add_argument("--title", default="")
+    parser.add_argument("--contact-only", action="store_true",
+                        help="contact fields: draw only the faces that have them")
+    parser.add_argument("--limit", type=float, help="largest value of the colour bar")
+    parser.add_argument("--title", default="", help="title above the picture")
     parser.add_argument("--no-edges", action="store_true", help="do not draw the cells' edges")
     return parser.parse_args(words)
 
@@ -197,7 +202,7 @@ def part_of(skin, keep):
     """Some faces of a surface, with the values of its vertices"""
     part, array, faces, (ends, nodes) = vtkPolyData(), vtkCellArray(), np.flatnonzero(keep), faces_of(skin)
     sizes = np.diff(ends)[faces]
-    chosen = np.concatenate([nodes[ends[f] : ends[f + 1]] for f in faces]) if len(faces) else np.zeros(0, np.int64)
+    chosen = np.concatenate([nodes[ends[f]:ends[f + 1]] for f in faces]) if len(faces) else np.zeros(0, np.int64)
     array.SetData(ids(np.concatenate([[0], np.cumsum(sizes)])), ids(chosen))
     part.SetPoints(skin.GetPoints())
     part.SetPolys(array)

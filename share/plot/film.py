@@ -29,10 +29,10 @@ def steps(base):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("base", help="what contact -output named")
+    parser.add_argument("base", help="BASE of contact -output BASE")
     parser.add_argument("film", help="a GIF file")
-    parser.add_argument("--every", type=int, default=1, help="take each Nth load step")
-    parser.add_argument("--rate", type=float, default=10, help="pictures a second")
+    parser.add_argument("--every", type=int, default=1, metavar="N", help="draw every Nth load step; default: 1")
+    parser.add_argument("--rate", type=float, default=10, help="pictures per second; default: 10")
     args, options = parser.parse_known_args()
     if args.every < 1 or args.rate <= 0:
         sys.exit("film.py: --every and --rate must be above 0")

@@ -8,8 +8,9 @@ import sys
 TOP = os.environ["AMGF_DIR"]
 COLUMNS = 100  # of a page
 PAGES = sorted(
-    os.path.relpath(path, TOP) for pattern in ("*.md", "share/*/*.md", "tests/README.md", "apps/README.md",
-                                               "pc_amgf/**/README.md", "tao_ipfilter/**/README.md", "src/**/README.md")
+    os.path.relpath(path, TOP)
+    for pattern in ("*.md", "share/*/*.md", "tests/README.md", "apps/README.md", "pc_amgf/**/README.md",
+                    "tao_ipfilter/**/README.md", "src/**/README.md")
     for path in glob.glob(os.path.join(TOP, pattern), recursive=True))
 
 

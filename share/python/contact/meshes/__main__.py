@@ -1,5 +1,5 @@
-"""contact-mesh IN OUT turns a mesh into a Gmsh file, or results BASE.xmf into files of VTK, OUT.pvd; contact-mesh IN
--check says what is in a mesh, and -picture FILE.png draws it."""
+"""contact-mesh IN OUT converts a mesh, or results BASE.xmf to VTK files OUT.pvd. contact-mesh IN -check lists the
+volumes and faces of a mesh, and -picture FILE.png draws it."""
 import argparse
 import os
 import sys
@@ -76,15 +76,15 @@ def main():
     parser.add_argument("input")
     parser.add_argument("output", nargs="?")
     parser.add_argument("-scale", "--scale", type=float, default=1.0,
-                        help="factor of all coordinates: 1e-3 takes mm to m")
+                        help="factor of all coordinates; 1e-3 converts mm to m")
     parser.add_argument("-check", "--check", action="store_true",
                         help="prints volumes, faces, sizes and the quality of the cells")
     parser.add_argument("-picture", "--picture", metavar="FILE.png",
                         help="draws the volumes with the edges of their cells; needs VTK")
-    parser.add_argument("-quiet", "--quiet", action="store_true", help="prints nothing where all is well")
+    parser.add_argument("-quiet", "--quiet", action="store_true", help="prints errors only")
     given = parser.parse_args()
     if given.output is None and not given.check and not given.picture:
-        parser.error("an output file, -check or -picture")
+        parser.error("give an output file, -check or -picture")
     if not np.isfinite(given.scale) or given.scale <= 0:
         sys.exit(f"contact-mesh: error: -scale {given.scale}: a factor above 0 is expected")
     if given.input.endswith(".xmf") and given.output:
