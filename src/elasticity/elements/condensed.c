@@ -116,8 +116,8 @@ static void CondensedSolve(const CellBasis *basis, const BodyMaterial *m, PetscR
 {
   const PetscReal negligible = 1e-26, little = PETSC_SQRT_MACHINE_EPSILON, progress = 0.25, fraction = 1e-4;
   PetscReal       predicted = PETSC_INFINITY;
-  BodyMaterial    exact = *m;
-  PetscBool       last  = PETSC_FALSE;
+  BodyMaterial    exact     = *m;
+  PetscBool       last      = PETSC_FALSE;
 
   exact.moduli.secant = 0;
   CondensedSetPoints(basis, X, U, c);
@@ -134,7 +134,7 @@ static void CondensedSolve(const CellBasis *basis, const BodyMaterial *m, PetscR
     CondensedForward(c, step);
     for (int k = 0; k < MODES; ++k) promised += step[k] * step[k];
     CondensedBackward(c, step);
-    last = (PetscBool)(!(promised > negligible * c->energy) ||
+    last      = (PetscBool)(!(promised > negligible * c->energy) ||
                        (promised < little * c->energy && promised > progress * predicted));
     predicted = promised;
     for (;; t *= 0.5) {
