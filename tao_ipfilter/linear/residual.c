@@ -51,8 +51,8 @@ PetscBool IPResidualReached(const TAO_IPFILTER *ip, KSPConvergedReason reason)
 }
 
 /*
-   Returns whether the target was missed. In contrast to IPResidualReached(), rounding is no excuse with adaptive
-   forcing.
+   Returns whether the target was missed. With adaptive forcing, in contrast to IPResidualReached(), a residual that
+   rounding keeps above the target counts as missed.
 */
 static PetscBool ResidualMissed(const TAO_IPFILTER *ip, KSPConvergedReason reason)
 {

@@ -160,8 +160,8 @@ PetscErrorCode IPErrorBoundTerms(Tao tao, PetscReal *terms)
 }
 
 /*
-   Computes that magnitude for the start. All unknowns may be zero there. Therefore the gains of Newton steps of single
-   unknowns, and the complementarity gap, are added.
+   Computes the magnitude of the objective at the start. All unknowns may be zero there. Therefore the gains of Newton
+   steps of single unknowns, and the complementarity gap, are added to the terms.
 */
 static PetscErrorCode ErrorBoundFirst(Tao tao, PetscReal terms)
 {

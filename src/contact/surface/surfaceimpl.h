@@ -41,10 +41,9 @@ typedef struct {
   PetscBT    rim;       /* Bit p is set if the local DMPlex point p is a vertex on the border. NULL unless bordered. */
   PetscBool  bordered;  /* whether `border` has been computed; equal on all ranks */
   PetscBool  self;      /* whether the face comes into contact with itself; equal on all ranks */
-  PetscReal *rank;      /* [nfacets] of such a face: of two facets in contact, the one with the smaller rank is
-                           nonmortar; else NULL */
-  PetscReal *below;     /* [nfacets] of such a face: smallest depth of the undeformed cell below the facet; else NULL
-                           [length] */
+  PetscReal *rank;      /* [nfacets] rank of each facet: of two facets in contact, that with the smaller rank is
+                           nonmortar; NULL unless self */
+  PetscReal *below;     /* [nfacets] smallest depth of the undeformed cell below the facet [length]; NULL unless self */
   PetscReal  area;      /* area of the whole undeformed face, summed over all ranks [length^2] */
   PetscInt   body;      /* number of the body that the face belongs to */
   PetscReal  thickness; /* mean thickness of that body [length] */

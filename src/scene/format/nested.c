@@ -1,6 +1,6 @@
 /*
-   Says full keys as a user writes them: bodies_slab_young is key "young" of body "slab", and dynamics_time_step is key
-   "time_step" of dynamics.
+   Rewrites full keys as a user writes them: bodies_slab_young becomes key "young" of body "slab", and
+   dynamics_time_step becomes key "time_step" of dynamics.
 */
 #include "formatimpl.h"
 #include <string.h>

@@ -18,7 +18,8 @@
 /* contact updates within which the change of the gap must fall to a tenth; otherwise the updates end without success */
 #define CONTACT_UPDATES_PATIENCE 12
 
-/* cuts of a load step after which an increment is short: forces of the last state are an eighth of those before */
+/* number of cuts after which the increment of a load step counts as short; the undeformed bodies are then tried as the
+   solution of a load step with friction to zero load */
 #define CONTACT_UPDATES_SHORT 3
 
 /*
@@ -264,8 +265,9 @@ PetscErrorCode ContactUpdatesSolve(StepProblem *p, PetscBool foreseen, Vec u, St
     if (!report->converged) break;
   }
   /*
-     If all forces are rounding errors, residuals relative to them are meaningless, and the undeformed bodies are tried.
-     Friction may, however, hold bodies in a deformed state without load, and a long increment may miss that state.
+     If all forces are rounding errors, residuals relative to them are meaningless, and the undeformed bodies are tried
+     as the solution. With friction this is done only if the last state was undeformed or the increment is short:
+     friction may hold bodies in a deformed state without load, and a long increment may miss that state.
   */
   if (!report->converged && vanished && (rested || report->cuts >= CONTACT_UPDATES_SHORT) && !sim->control->interrupted)
     PetscCall(ContactUpdatesUndeformed(p, PETSC_TRUE, u, report, sol, at_u, &end));
