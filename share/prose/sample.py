@@ -74,7 +74,8 @@ def comments():
 
 
 def messages():
-    calls = r"(?:PetscCheck|SETERRQ|PetscInfo|\w*[Pp]rintf|\w*Warn\w*|\w*Fail\w*|\w*Say\w*|\w*Reason\w*|PetscOptions\w+)"
+    words = ("Check", "Require", "Error", "ERRQ", "Info", "rintf", "Warn", "Fail", "Say", "Reason", "PetscOptions")
+    calls = rf"\w*(?:{'|'.join(words)})\w*"
     for path, content in sources():
         content = re.sub(r"/\*.*?\*/", lambda comment: re.sub(r"\S", " ", comment[0]), content, flags=re.S)
         for match in re.finditer(calls + r"\s*\((.*?)\);", content, flags=re.S):

@@ -465,8 +465,9 @@ static PetscErrorCode EndTerms(Tao tao)
       (double)ip->rec->best_error));
   else
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
-      "friction: no equilibrium with stick and slip consistent everywhere was found. The method needs inequality "
-      "constraints alone and a Hessian that is positive definite on the unknowns with friction"));
+      "friction: no equilibrium with stick and slip consistent everywhere was found. Friction requires a problem "
+      "without "
+      "equality constraints, and a Hessian that is positive definite on the unknowns with friction"));
   PetscFunctionReturn(0);
 }
 

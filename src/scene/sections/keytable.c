@@ -293,9 +293,9 @@ static const SceneKey dynamics_rows[] = {
     "length of the time steps, above 0. It is reduced if `end_time` is not a multiple of it"),
   REALS("end_time", NULL, 1, SceneDynamics, end_time, REQUIRED, ANY, "T", "", "at least `time_step`"),
   REALS("tolerance", NULL, 1, SceneDynamics, tolerance, OPTIONAL, ANY, "", "",
-    "allowed error of a time step, divided by the length of the step and the largest speed so far, for example 1e-3. "
-    "The program then chooses the lengths of the time steps. `time_step` is the length of the longest one, and results "
-    "are written at its multiples. Without `tolerance` all time steps have the length `time_step`"),
+    "allowed error of the displacement in a time step, divided by the length of the step times the largest speed so "
+    "far; for example 1e-3. The program then chooses the lengths of the time steps, at most `time_step`, and writes "
+    "results at the multiples of `time_step`. Without `tolerance` all time steps have the length `time_step`"),
   NAMED("scheme", NULL, CHOICE, SceneDynamics, scheme, SHOWN, DynamicsSchemes, "`impact`",
     "`impact`: trapezoidal rule with implicit contact forces, which never add energy. `generalized_alpha`: dissipates "
     "high frequencies; `spectral_radius` sets how much"),
