@@ -22,7 +22,7 @@ typedef struct {
                        mean of the forces at its ends (ElasticityExcess()), at the last iterate [force]; NULL if all
                        bodies have a quadratic energy */
   PetscReal  inertia;    /* c in the current time step [1/time^2] */
-  Vec        centre;     /* centre of the current time step [length] */
+  Vec        centre;     /* displacement at which the mass term of the current time step is zero [length] */
   PetscReal  viscosity;  /* factor of the elastic energy of u - viscous in the current time step, for damping in
                           proportion to stiffness; 0 without such damping */
   Vec        viscous;    /* displacement at which that damping, and that of dampers, vanishes [length]; NULL without
