@@ -51,7 +51,7 @@ static PetscErrorCode TermDenseMakeBlock(IPTermSystem *t, PetscInt n, const Pets
 /* Computes those columns of C that are missing for the given rows */
 static PetscErrorCode TermDenseMakeColumns(IPTermSystem *t, PetscInt n, const PetscInt rows[])
 {
-  const PetscInt most = 128; /* columns at a time */
+  const PetscInt most = 32; /* columns at a time: the work matrices then remain in the cache */
   PetscInt       nw, missing = 0, *list;
 
   PetscFunctionBegin;

@@ -44,6 +44,7 @@ static PetscErrorCode TermFactorRows(IPTermSystem *t, PetscBool *factored)
 static PetscErrorCode TermFactorAll(IPTermSystem *t, PetscBool *factored)
 {
   PetscFunctionBegin;
+  if (!t->G) PetscCall(IPTermSystemMakeRows(t));
   PetscCall(MatDestroy(&t->Pv));
   PetscCall(MatDestroy(&t->Pf));
   PetscCall(MatDuplicate(t->Bv, MAT_COPY_VALUES, &t->Pv));

@@ -27,7 +27,8 @@ typedef struct {
   PetscInt         m, k;                 /* number of rows; number of directions in V */
   PetscInt         nconstraints, nterms; /* numbers of constraints and terms */
   Mat              K, FK;                /* K_WW; its factors */
-  Mat              R, RD, G;             /* R; R D and R D R^T with D = diag(K_WW)^-1 */
+  Mat              R, RD, G;             /* R; R D and R D R^T with D = diag(K_WW)^-1; NULL before
+                                            they are needed */
   Mat              Bv, Bf;               /* coefficients of the motions v and of the forces f in the rows' equations */
   Mat              A, F;                 /* A = B_v R D R^T + B_f in scaled rows; its incomplete factors */
   Mat              Pv, Pf;               /* values of B_v and B_f for which A was factored */
@@ -74,9 +75,6 @@ typedef struct {
   PetscReal   *F, *Fy;
   IPTermSystem system;
 } IPTermSet;
-
-/* A term with at least this coefficient of friction sticks whenever its constraint is closed */
-#define IP_TERM_STICKS 100.0
 
 /* The tableau of tableau.c */
 typedef struct {
@@ -134,6 +132,7 @@ static inline PetscInt IPTableauTerm(const IPTableau *p, PetscInt row, PetscInt 
 PETSC_INTERN PetscErrorCode IPTermSystemSetUp(IPTermSystem *, PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat factors,
   Mat R, PetscBool *definite);
 PETSC_INTERN PetscErrorCode IPTermSystemDestroy(IPTermSystem *);
+PETSC_INTERN PetscErrorCode IPTermSystemMakeRows(IPTermSystem *);
 PETSC_INTERN PetscErrorCode IPTermSystemSetRow(IPTermSystem *, PetscInt row, PetscInt n, const PetscInt columns[],
   const PetscReal by_v[], const PetscReal by_f[], PetscReal scale);
 PETSC_INTERN PetscErrorCode IPTermSystemAssemble(IPTermSystem *);

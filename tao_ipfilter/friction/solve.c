@@ -248,18 +248,12 @@ static PetscErrorCode TermSolveStrongly(TermSolveShell *solve, PetscReal rtol, P
   PetscFunctionReturn(0);
 }
 
-/*
-   Solves by factors if GMRES fails: by dense ones if there are few rows, otherwise by sparse ones, or by dense ones if
-   MUMPS is not available
-*/
+/* Solves by sparse factors if GMRES fails, or by dense ones if MUMPS is not available */
 static PetscErrorCode TermSolveByFactors(IPTermSystem *t, const IPReducedSystem *s, PetscReal rf[], PetscReal ry[],
   PetscBool *solved)
 {
-  const PetscInt few = 500;
-
   PetscFunctionBegin;
-  PetscCall(IPTermDenseSolve(t, s, few, rf, ry, solved));
-  if (!*solved) PetscCall(IPTermSparseSolve(t, s, rf, ry, solved));
+  PetscCall(IPTermSparseSolve(t, s, rf, ry, solved));
   if (!*solved && IPTermDenseFits(t)) PetscCall(IPTermDenseSolve(t, s, PETSC_MAX_INT, rf, ry, solved));
   PetscFunctionReturn(0);
 }
@@ -272,7 +266,7 @@ static PetscErrorCode TermSolveByFactors(IPTermSystem *t, const IPReducedSystem 
 PetscErrorCode IPTermSolve(IPTermSystem *t, const IPReducedSystem *s, PetscReal rtol, PetscReal rf[], PetscReal ry[],
   PetscBool *solved)
 {
-  const PetscInt small = t->spring ? 1000 : 200; /* springs: W is large, and GMRES converges slowly */
+  const PetscInt small = t->spring ? 1000 : 600; /* springs: W is large, and GMRES converges slowly */
   TermSolveShell solve = {.system = t, .s = s};
   PetscBool      fits, stop;
 

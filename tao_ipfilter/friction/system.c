@@ -52,31 +52,58 @@ static PetscErrorCode TermSystemCreateBlocks(PetscInt m, PetscInt n, Mat *B)
   PetscFunctionReturn(0);
 }
 
-/*
-   Computes R D and G = R D R^T, with the nonzero pattern of the blocks included, and the estimated compliances of all
-   rows
-*/
-static PetscErrorCode TermSystemMakeRows(IPTermSystem *t)
+/* Gets the inverse of the diagonal of K_WW. The caller destroys it. */
+static PetscErrorCode TermSystemInvertDiagonal(const IPTermSystem *t, Vec *d)
 {
-  const PetscScalar *a;
-  Mat                Rt;
-  Vec                d;
+  PetscFunctionBegin;
+  PetscCall(MatCreateVecs(t->K, d, NULL));
+  PetscCall(MatGetDiagonal(t->K, *d));
+  PetscCall(VecReciprocal(*d));
+  PetscFunctionReturn(0);
+}
+
+/* Computes the estimated compliances of all rows, diag(R D R^T) */
+static PetscErrorCode TermSystemEstimateCompliance(IPTermSystem *t)
+{
+  const PetscScalar *d;
+  Vec                inverse;
 
   PetscFunctionBegin;
-  PetscCall(MatCreateVecs(t->K, &d, NULL));
-  PetscCall(MatGetDiagonal(t->K, d));
-  PetscCall(VecReciprocal(d));
+  PetscCall(TermSystemInvertDiagonal(t, &inverse));
+  PetscCall(VecGetArrayRead(inverse, &d));
+  for (PetscInt i = 0; i < t->m; i++) {
+    const PetscInt    *columns;
+    const PetscScalar *values;
+    PetscInt           nc;
+
+    t->compliance[i] = 0.0;
+    PetscCall(MatGetRow(t->R, i, &nc, &columns, &values));
+    for (PetscInt c = 0; c < nc; c++)
+      t->compliance[i] += PetscSqr(PetscRealPart(values[c])) * PetscRealPart(d[columns[c]]);
+    PetscCall(MatRestoreRow(t->R, i, &nc, &columns, &values));
+  }
+  PetscCall(VecRestoreArrayRead(inverse, &d));
+  PetscCall(VecDestroy(&inverse));
+  PetscFunctionReturn(0);
+}
+
+/* Computes R D and G = R D R^T, with the nonzero pattern of the blocks included */
+PetscErrorCode IPTermSystemMakeRows(IPTermSystem *t)
+{
+  Mat Rt, pattern;
+  Vec d;
+
+  PetscFunctionBegin;
+  PetscCall(TermSystemInvertDiagonal(t, &d));
   PetscCall(MatDuplicate(t->R, MAT_COPY_VALUES, &t->RD));
   PetscCall(MatDiagonalScale(t->RD, NULL, d));
   PetscCall(VecDestroy(&d));
   PetscCall(MatTranspose(t->R, MAT_INITIAL_MATRIX, &Rt));
   PetscCall(MatMatMult(t->RD, Rt, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &t->G));
   PetscCall(MatDestroy(&Rt));
-  PetscCall(MatAXPY(t->G, 1.0, t->Bf, DIFFERENT_NONZERO_PATTERN)); /* B_f is zero so far */
-  PetscCall(MatGetDiagonal(t->G, t->r));
-  PetscCall(VecGetArrayRead(t->r, &a));
-  for (PetscInt i = 0; i < t->m; i++) t->compliance[i] = PetscRealPart(a[i]);
-  PetscCall(VecRestoreArrayRead(t->r, &a));
+  PetscCall(MatDuplicate(t->Bf, MAT_DO_NOT_COPY_VALUES, &pattern));
+  PetscCall(MatAXPY(t->G, 1.0, pattern, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&pattern));
   PetscFunctionReturn(0);
 }
 
@@ -144,7 +171,7 @@ PetscErrorCode IPTermSystemSetUp(IPTermSystem *t, PetscInt m, PetscInt n, PetscI
     PetscMalloc4((size_t)t->m * (size_t)kmax, &t->V, kmax * kmax, &t->ZV, kmax * kmax, &t->H, kmax, &t->pivots));
   PetscCall(TermSystemCreateBlocks(m, n, &t->Bv));
   PetscCall(TermSystemCreateBlocks(m, n, &t->Bf));
-  PetscCall(TermSystemMakeRows(t));
+  PetscCall(TermSystemEstimateCompliance(t));
   PetscCall(TermSystemFactorStiffness(t, factors, definite));
   PetscFunctionReturn(0);
 }

@@ -80,20 +80,36 @@ static PetscErrorCode FilteredAddNeighbours(Tao tao, IS filter, IS *W)
 }
 
 /*
+   Finds whether W may contain neighbours of the constraints' unknowns: not with Newton's method, since K may be
+   indefinite there, and not if norm terms stick, since their method needs K_WW^-1 for all rows
+*/
+static PetscErrorCode FilteredMayAddNeighbours(Tao tao, PetscBool *may)
+{
+  const IPTerms *terms   = ((TAO_IPFILTER *)tao->data)->terms;
+  PetscReal      largest = 0.0;
+
+  PetscFunctionBegin;
+  if (terms->n && terms->coefficient) PetscCall(VecMax(terms->coefficient, NULL, &largest));
+  *may = (PetscBool)(!IPFilteredOf(tao)->newton && largest < IP_TERM_STICKS);
+  PetscFunctionReturn(0);
+}
+
+/*
    Chooses W: the unknowns of the constraints, one or two layers of neighbours, and W of earlier solves with the same K.
    With the neighbours, W and its factors need not change when the contact area moves. They are left out if there are
-   too many of them, or if K may be indefinite there.
+   too many of them.
 */
 static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt most, IS *W)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
   const IS      filter = ip->cond->filter;
-  PetscBool     same   = PETSC_FALSE;
-  PetscInt      n      = 1;
+  PetscBool     same = PETSC_FALSE, wide = PETSC_FALSE;
+  PetscInt      n = 1;
   IS            rest, all;
 
   PetscFunctionBegin;
-  if (!IPFilteredOf(tao)->newton && !ip->terms->n) PetscCall(IPReducedIsOf(before, ip->hess->H, &same));
+  PetscCall(FilteredMayAddNeighbours(tao, &wide));
+  if (wide) PetscCall(IPReducedIsOf(before, ip->hess->H, &same));
   if (same) {
     PetscCall(ISDifference(filter, before->W, &rest));
     PetscCall(ISGetSize(rest, &n));
@@ -106,7 +122,7 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt
   }
   PetscCall(FilteredAddNeighbours(tao, filter, W));
   PetscCall(ISGetSize(*W, &n));
-  if (n > most || IPFilteredOf(tao)->newton || ip->terms->n) {
+  if (n > most || !wide) {
     PetscCall(ISDestroy(W));
     PetscCall(PetscObjectReference((PetscObject)filter));
     *W = filter;

@@ -8,6 +8,9 @@
 #include "tao_ipfilter/step/stepimpl.h"
 #include "tao_ipfilter/solver/method.h"
 
+/* A term with at least this coefficient of friction sticks whenever its constraint is closed */
+#define IP_TERM_STICKS 100.0
+
 /* Directions P of the filtered subspace, the oldest first. They are zero on the constraints' unknowns W. */
 typedef struct {
   PetscInt      n, max;

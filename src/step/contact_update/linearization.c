@@ -50,21 +50,35 @@ static PetscErrorCode ContactUpdateMakeRigid(StepProblem *p, Vec u)
   PetscFunctionReturn(0);
 }
 
+/* Finds whether vertices of any pair stick in the load step */
+static PetscErrorCode ContactUpdateFindSticking(const StepProblem *p, PetscBool *sticks)
+{
+  PetscFunctionBegin;
+  *sticks = PETSC_FALSE;
+  for (PetscInt k = 0; k < p->sim->scene->npairs; ++k) {
+    PetscReal mu = 0.0;
+
+    PetscCall(FrictionGetCoefficient(p->sim->scene, p->time, k, &mu));
+    if (mu >= PETSC_INFINITY) *sticks = PETSC_TRUE;
+  }
+  PetscFunctionReturn(0);
+}
+
 /*
    Sets sim->solved->linearization, and creates *u_linearized, the displacement of this linearization. It is u if u is a
    forecast; an extrapolation of the path if the gap may be linearized again; otherwise the last state. The last state
-   is always used in the first load step, after a cut and with friction, because with friction the errors that the
-   tolerance allows would add up over the load steps.
+   is always used in the first load step, after a cut, and if vertices stick, which they do where they close.
 */
 PetscErrorCode ContactUpdateBegin(StepProblem *p, PetscBool foreseen, Vec u, const StepReport *report,
   Vec *u_linearized)
 {
   Simulation sim       = p->sim;
   PetscBool  continues = (PetscBool)(sim->path->time > 0.0 && sim->scene->contact_updates > 1 && !report->cuts);
+  PetscBool  sticks    = PETSC_FALSE;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < sim->scene->npairs; ++k)
-    if (SceneContactPairHasFriction(&sim->scene->pairs[k])) continues = PETSC_FALSE;
+  PetscCall(ContactUpdateFindSticking(p, &sticks));
+  if (sticks) continues = PETSC_FALSE;
   PetscCall(VecDuplicate(u, u_linearized));
   PetscCall(VecCopy(foreseen ? u : sim->path->u, *u_linearized));
   if (foreseen || continues) {

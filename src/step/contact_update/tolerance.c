@@ -8,9 +8,12 @@
    load step. foreseen: u was a forecast; again: the same linearization is solved once more, to a smaller tolerance;
    end: this is the last solve.
 
-     The first update has the tolerance 1e-3, or 1e-4 with friction. Later updates are solved to a tenth of the relative
+     Without friction, the first update has the tolerance 1e-3. Later updates are solved to a tenth of the relative
      change of the gap in the previous update. If this change did not fall to half of the one before, an inexact solve
      may be the cause, and the tolerance is at most a tenth of the previous one.
+
+     With friction, updates converge more slowly, so that accurate solves are of less use. The three numbers are then
+     1e-2, 0.3 and a half.
 
      The tolerance of the load step is used in these cases:
      - for the last update;
@@ -23,7 +26,8 @@ PetscErrorCode ContactUpdateSetTolerance(StepProblem *p, PetscBool foreseen, Pet
   const StepReport *report)
 {
   Simulation      sim   = p->sim;
-  const PetscReal first = sim->solved->linearization->slip ? 1e-4 : 1e-3, fraction = 0.1, fair = 0.5,
+  const PetscBool slip  = (PetscBool) !!sim->solved->linearization->slip;
+  const PetscReal first = slip ? 1e-2 : 1e-3, fraction = slip ? 0.3 : 0.1, slow = slip ? 0.5 : 0.1, fair = 0.5,
                   before = p->tolerance, allowed = sim->control->tolerances.gap_change;
   PetscReal size;
 
@@ -38,9 +42,8 @@ PetscErrorCode ContactUpdateSetTolerance(StepProblem *p, PetscBool foreseen, Pet
   p->tolerance = PetscMin(first, fraction * report->update_error / size);
   if (again) PetscFunctionReturn(0);
   if (report->contact_updates > 1 && report->update_error > fair * p->gap_change)
-    p->tolerance = PetscMin(p->tolerance, fraction * before);
-  if (report->contact_updates > 1 && !sim->solved->linearization->slip &&
-      PetscSqr(report->update_error) <= allowed * size * p->gap_change)
+    p->tolerance = PetscMin(p->tolerance, slow * before);
+  if (report->contact_updates > 1 && !slip && PetscSqr(report->update_error) <= allowed * size * p->gap_change)
     p->tolerance = 0.0;
   p->gap_change = report->update_error;
   PetscFunctionReturn(0);

@@ -1,0 +1,47 @@
+"""What friction costs: linear solves in five load steps of the ironing benchmark's published mesh, in three of which the
+die slides, with a coefficient of friction of 0.3 and without friction.
+
+python3 friction_cost.py scenes writes the scenes; python3 friction_cost.py judges the runs of friction_cost.sh.
+"""
+import os
+import re
+import sys
+
+from summaries import each, load, say
+
+STEPS = 5
+NAMES = "without", "with"
+
+
+def shortened(scene):
+    """The first load steps: ramps lose the other factors"""
+
+    def cut(match):
+        return "{factors: [" + ", ".join(match[1].split(", ")[:STEPS]) + "]}"
+
+    return re.sub(r"\{factors: \[(.*)\]\}", cut, scene).replace("steps: 10", f"steps: {STEPS}")
+
+
+def solves(name):
+    """Number of calls of solves with factors, K's and those of the few unknowns of the contact"""
+    with open(name + ".log") as file:
+        found = re.findall(r"^Mat(?:Mat)?Solve +(\d+)", file.read(), re.MULTILINE)
+    return sum(map(int, found))
+
+
+if sys.argv[1:] == ["scenes"]:
+    with open(os.environ["AMGF_DIR"] + "/share/scenes/ironing.yaml") as file:
+        text = shortened(file.read())
+    for name, law in zip(NAMES, ("", ", friction: 0.3")):
+        with open(name + ".yaml", "w") as file:
+            file.write(text.replace("die.outer}", "die.outer" + law + "}"))
+else:
+    without, rubs = map(load, NAMES)
+    say("every step converges, none is cut", rubs["converged"] and not sum(each(rubs, "cuts")), rubs["reason"])
+    pairs = [step["pairs"][0] for step in rubs["steps"]]
+    ratios = [pair["shear_force"] / pair["normal_force"] for pair in pairs]
+    say("the friction force is 0.28 to 0.31 of the normal force", all(0.28 < ratio < 0.31 for ratio in ratios), ratios)
+    counts = [sum(each(run, "amg_applications")) for run in (without, rubs)]
+    say("solves with the factors of K: at most twice as many as without friction", counts[1] <= 2 * counts[0], counts)
+    counts = list(map(solves, NAMES))
+    say("all solves: at most five times as many", counts[1] <= 5 * counts[0], counts)
