@@ -31,6 +31,7 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
   PetscCall(ISDestroy(&amgf->set_is));
   PetscCall(MatDestroy(&amgf->set_P));
   PetscCall(PetscFree(amgf->file));
+  PetscCall(PCAMGFComposeFunctions_Private(pc, PETSC_FALSE));
   PetscCall(PetscFree(pc->data));
   PetscFunctionReturn(0);
 }
@@ -146,5 +147,6 @@ PetscErrorCode PCCreate_AMGF(PC pc)
   pc->ops->view           = PCView_AMGF;
   pc->ops->reset          = PCReset_AMGF;
   pc->ops->destroy        = PCDestroy_AMGF;
+  PetscCall(PCAMGFComposeFunctions_Private(pc, PETSC_TRUE));
   PetscFunctionReturn(0);
 }

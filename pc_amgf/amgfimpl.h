@@ -132,20 +132,6 @@ typedef struct {
 
 /* Functions of this folder. The files are listed such that each depends only on those before it. */
 
-/* Gets the data of a PCAMGF; NULL for another type, which is an error if `required` is true */
-static inline PetscErrorCode PCAMGFGetData_Private(PC pc, PetscBool required, PC_AMGF **amgf)
-{
-  PetscBool same;
-
-  PetscFunctionBegin;
-  *amgf = NULL;
-  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
-  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &same));
-  PetscCheck(same || !required, PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP, "the preconditioner is not a " PCAMGF);
-  if (same) *amgf = (PC_AMGF *)pc->data;
-  PetscFunctionReturn(0);
-}
-
 /* log.c */
 PETSC_INTERN PetscLogEvent PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply, PC_BLOCKAMG_SetUp,
   PC_BLOCKAMG_Convert, PC_BLOCKAMG_Apply;
@@ -171,6 +157,8 @@ PETSC_INTERN PetscErrorCode PCAMGFSetDirectSolver_Private(PC, PetscBool *);
 /* fewranks.c */
 PETSC_INTERN PetscErrorCode PCAMGFFewRanksBegin_Private(PC, AMGFFewRanks *);
 PETSC_INTERN PetscErrorCode PCAMGFFewRanksReset_Private(AMGFFewRanks *);
+PETSC_INTERN PetscErrorCode PCAMGFSetFilterRanks_AMGF(PC, PetscInt);
+PETSC_INTERN PetscErrorCode PCAMGFGetFilterPivots_AMGF(PC, PetscInt *);
 /* boomeramg.c */
 PETSC_INTERN PetscErrorCode PCAMGFConfigureBoomerAMG_Private(PC, PetscInt, PetscBool own);
 /* inner.c */
@@ -190,11 +178,16 @@ PETSC_INTERN PetscErrorCode PCAMGFGetMemory_Private(MPI_Comm, PetscReal *);
 /* factor.c */
 PETSC_INTERN PetscErrorCode PCAMGFFactorReset_Private(AMGFFactor *);
 PETSC_INTERN PetscErrorCode PCAMGFFactorSetUp_Private(PC);
+PETSC_INTERN PetscErrorCode PCAMGFSetFactor_AMGF(PC, PCAMGFFactorUse);
+PETSC_INTERN PetscErrorCode PCAMGFExpect_AMGF(PC, PetscReal, PetscReal);
+PETSC_INTERN PetscErrorCode PCAMGFGetFactored_AMGF(PC, PetscBool *, const char *[]);
 /* setup.c */
 PETSC_INTERN PetscErrorCode PCSetUp_AMGF(PC);
 /* cycle.c */
 PETSC_INTERN PetscErrorCode PCApply_AMGF(PC, Vec, Vec);
 PETSC_INTERN PetscErrorCode PCApplyTranspose_AMGF(PC, Vec, Vec);
+/* api.c, in addition to the public functions */
+PETSC_INTERN PetscErrorCode PCAMGFComposeFunctions_Private(PC, PetscBool attach);
 /* opts.c */
 PETSC_INTERN PetscErrorCode PCSetFromOptions_AMGF(PC, AMGFOptionItems);
 /* view.c */

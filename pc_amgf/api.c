@@ -1,5 +1,6 @@
 /* Public functions of PCAMGF and their implementations, which act on the PC's data only */
 #include "amgfimpl.h"
+#include "functions.h"
 
 const char *const PCAMGFCycles[] = {"bfb", "fbf", "additive", "PCAMGFCycle", "PC_AMGF_", NULL};
 
@@ -7,6 +8,139 @@ const char *const PCAMGFCycles[] = {"bfb", "fbf", "additive", "PCAMGFCycle", "PC
 static void PCAMGFRequestSetUp_Private(PC pc)
 {
   pc->setupcalled = 0;
+}
+
+static PetscErrorCode PCAMGFSetCycle_AMGF(PC pc, PCAMGFCycle cycle)
+{
+  PetscFunctionBegin;
+  PetscCheck(cycle >= PC_AMGF_BFB && cycle <= PC_AMGF_ADDITIVE, PetscObjectComm((PetscObject)pc),
+    PETSC_ERR_ARG_OUTOFRANGE, "Unknown cycle %d", (int)cycle);
+  ((PC_AMGF *)pc->data)->cycle = cycle;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFGetCycle_AMGF(PC pc, PCAMGFCycle *cycle)
+{
+  PetscFunctionBegin;
+  *cycle = ((PC_AMGF *)pc->data)->cycle;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFSetFilterIS_AMGF(PC pc, IS is)
+{
+  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+
+  PetscFunctionBegin;
+  if (is) PetscCall(PetscObjectReference((PetscObject)is));
+  PetscCall(ISDestroy(&amgf->set_is));
+  PetscCall(MatDestroy(&amgf->set_P));
+  amgf->set_is = is;
+  PCAMGFRequestSetUp_Private(pc);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFSetFilterInterpolation_AMGF(PC pc, Mat P)
+{
+  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+
+  PetscFunctionBegin;
+  if (P) PetscCall(PetscObjectReference((PetscObject)P));
+  PetscCall(ISDestroy(&amgf->set_is));
+  PetscCall(MatDestroy(&amgf->set_P));
+  amgf->set_P = P;
+  PCAMGFRequestSetUp_Private(pc);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFGetFilterSize_AMGF(PC pc, PetscInt *n)
+{
+  PetscFunctionBegin;
+  *n = ((PC_AMGF *)pc->data)->sub.n;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFSetFilterActive_AMGF(PC pc, PetscBool active)
+{
+  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+
+  PetscFunctionBegin;
+  if (active != amgf->active) PCAMGFRequestSetUp_Private(pc);
+  amgf->active = active;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFSetFilterOptional_AMGF(PC pc, PetscBool optional)
+{
+  PetscFunctionBegin;
+  ((PC_AMGF *)pc->data)->optional = optional;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFSetAMGLag_AMGF(PC pc, PetscInt lag)
+{
+  PetscFunctionBegin;
+  PetscCheck(lag >= AMGF_LAG_NEVER, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
+    "The AMG lag must be -1 (never rebuild), 0 (automatic) or positive, not %" PetscInt_FMT, lag);
+  ((PC_AMGF *)pc->data)->lag.every = lag;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFGetAMGAge_AMGF(PC pc, PetscInt *age)
+{
+  PetscFunctionBegin;
+  *age = ((PC_AMGF *)pc->data)->lag.age;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFGetAMGPC_AMGF(PC pc, PC *amg)
+{
+  PetscFunctionBegin;
+  PetscCall(PCAMGFPrefixInner_Private(pc));
+  *amg = ((PC_AMGF *)pc->data)->amg;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFGetFilterKSP_AMGF(PC pc, KSP *ksp)
+{
+  PetscFunctionBegin;
+  PetscCall(PCAMGFPrefixInner_Private(pc));
+  *ksp = ((PC_AMGF *)pc->data)->filter;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode PCAMGFGetCounts_AMGF(PC pc, PCAMGFCounts *counts)
+{
+  PetscFunctionBegin;
+  *counts = ((PC_AMGF *)pc->data)->counts;
+  PetscFunctionReturn(0);
+}
+
+static const AMGFFunction functions[] = {
+  AMGF_FUNCTION(PCAMGFSetCycle, AMGF),
+  AMGF_FUNCTION(PCAMGFGetCycle, AMGF),
+  AMGF_FUNCTION(PCAMGFSetFilterIS, AMGF),
+  AMGF_FUNCTION(PCAMGFSetFilterInterpolation, AMGF),
+  AMGF_FUNCTION(PCAMGFGetFilterSize, AMGF),
+  AMGF_FUNCTION(PCAMGFSetFilterActive, AMGF),
+  AMGF_FUNCTION(PCAMGFSetFilterOptional, AMGF),
+  AMGF_FUNCTION(PCAMGFSetAMGLag, AMGF),
+  AMGF_FUNCTION(PCAMGFGetAMGAge, AMGF),
+  AMGF_FUNCTION(PCAMGFGetAMGPC, AMGF),
+  AMGF_FUNCTION(PCAMGFGetFilterKSP, AMGF),
+  AMGF_FUNCTION(PCAMGFSetFilterRanks, AMGF),
+  AMGF_FUNCTION(PCAMGFGetFilterPivots, AMGF),
+  AMGF_FUNCTION(PCAMGFGetCounts, AMGF),
+  AMGF_FUNCTION(PCAMGFSetFactor, AMGF),
+  AMGF_FUNCTION(PCAMGFExpect, AMGF),
+  AMGF_FUNCTION(PCAMGFGetFactored, AMGF),
+};
+
+/* Composes the implementations of the public functions with the PC, or removes them if `attach` is false */
+PetscErrorCode PCAMGFComposeFunctions_Private(PC pc, PetscBool attach)
+{
+  PetscFunctionBegin;
+  PetscCall(AMGFComposeFunctions((PetscObject)pc, PETSC_STATIC_ARRAY_LENGTH(functions), functions, attach));
+  PetscFunctionReturn(0);
 }
 
 /*@
@@ -31,15 +165,10 @@ static void PCAMGFRequestSetUp_Private(PC pc)
 @*/
 PetscErrorCode PCAMGFSetCycle(PC pc, PCAMGFCycle cycle)
 {
-  PC_AMGF *amgf;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_FALSE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscValidLogicalCollectiveEnum(pc, cycle, 2);
-  if (!amgf) PetscFunctionReturn(0);
-  PetscCheck(cycle >= PC_AMGF_BFB && cycle <= PC_AMGF_ADDITIVE, PetscObjectComm((PetscObject)pc),
-    PETSC_ERR_ARG_OUTOFRANGE, "Unknown cycle %d", (int)cycle);
-  amgf->cycle = cycle;
+  PetscTryMethod(pc, "PCAMGFSetCycle_C", (PC, PCAMGFCycle), (pc, cycle));
   PetscFunctionReturn(0);
 }
 
@@ -60,12 +189,10 @@ PetscErrorCode PCAMGFSetCycle(PC pc, PCAMGFCycle cycle)
 @*/
 PetscErrorCode PCAMGFGetCycle(PC pc, PCAMGFCycle *cycle)
 {
-  PC_AMGF *amgf;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_TRUE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscAssertPointer(cycle, 2);
-  *cycle = amgf->cycle;
+  PetscUseMethod(pc, "PCAMGFGetCycle_C", (PC, PCAMGFCycle *), (pc, cycle));
   PetscFunctionReturn(0);
 }
 
@@ -99,17 +226,10 @@ PetscErrorCode PCAMGFGetCycle(PC pc, PCAMGFCycle *cycle)
 @*/
 PetscErrorCode PCAMGFSetFilterIS(PC pc, IS is)
 {
-  PC_AMGF *amgf;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_FALSE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   if (is) PetscValidHeaderSpecific(is, IS_CLASSID, 2);
-  if (!amgf) PetscFunctionReturn(0);
-  if (is) PetscCall(PetscObjectReference((PetscObject)is));
-  PetscCall(ISDestroy(&amgf->set_is));
-  PetscCall(MatDestroy(&amgf->set_P));
-  amgf->set_is = is;
-  PCAMGFRequestSetUp_Private(pc);
+  PetscTryMethod(pc, "PCAMGFSetFilterIS_C", (PC, IS), (pc, is));
   PetscFunctionReturn(0);
 }
 
@@ -135,17 +255,10 @@ PetscErrorCode PCAMGFSetFilterIS(PC pc, IS is)
 @*/
 PetscErrorCode PCAMGFSetFilterInterpolation(PC pc, Mat P)
 {
-  PC_AMGF *amgf;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_FALSE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   if (P) PetscValidHeaderSpecific(P, MAT_CLASSID, 2);
-  if (!amgf) PetscFunctionReturn(0);
-  if (P) PetscCall(PetscObjectReference((PetscObject)P));
-  PetscCall(ISDestroy(&amgf->set_is));
-  PetscCall(MatDestroy(&amgf->set_P));
-  amgf->set_P = P;
-  PCAMGFRequestSetUp_Private(pc);
+  PetscTryMethod(pc, "PCAMGFSetFilterInterpolation_C", (PC, Mat), (pc, P));
   PetscFunctionReturn(0);
 }
 
@@ -166,12 +279,10 @@ PetscErrorCode PCAMGFSetFilterInterpolation(PC pc, Mat P)
 @*/
 PetscErrorCode PCAMGFGetFilterSize(PC pc, PetscInt *n)
 {
-  PC_AMGF *amgf;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_TRUE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscAssertPointer(n, 2);
-  *n = amgf->sub.n;
+  PetscUseMethod(pc, "PCAMGFGetFilterSize_C", (PC, PetscInt *), (pc, n));
   PetscFunctionReturn(0);
 }
 
@@ -197,14 +308,10 @@ PetscErrorCode PCAMGFGetFilterSize(PC pc, PetscInt *n)
 @*/
 PetscErrorCode PCAMGFSetFilterActive(PC pc, PetscBool active)
 {
-  PC_AMGF *amgf;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_FALSE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscValidLogicalCollectiveBool(pc, active, 2);
-  if (!amgf) PetscFunctionReturn(0);
-  if (active != amgf->active) PCAMGFRequestSetUp_Private(pc);
-  amgf->active = active;
+  PetscTryMethod(pc, "PCAMGFSetFilterActive_C", (PC, PetscBool), (pc, active));
   PetscFunctionReturn(0);
 }
 
@@ -228,13 +335,10 @@ PetscErrorCode PCAMGFSetFilterActive(PC pc, PetscBool active)
 @*/
 PetscErrorCode PCAMGFSetFilterOptional(PC pc, PetscBool optional)
 {
-  PC_AMGF *amgf;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_FALSE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscValidLogicalCollectiveBool(pc, optional, 2);
-  if (!amgf) PetscFunctionReturn(0);
-  amgf->optional = optional;
+  PetscTryMethod(pc, "PCAMGFSetFilterOptional_C", (PC, PetscBool), (pc, optional));
   PetscFunctionReturn(0);
 }
 
@@ -267,15 +371,10 @@ PetscErrorCode PCAMGFSetFilterOptional(PC pc, PetscBool optional)
 @*/
 PetscErrorCode PCAMGFSetAMGLag(PC pc, PetscInt lag)
 {
-  PC_AMGF *amgf;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_FALSE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscValidLogicalCollectiveInt(pc, lag, 2);
-  if (!amgf) PetscFunctionReturn(0);
-  PetscCheck(lag >= AMGF_LAG_NEVER, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
-    "The AMG lag must be -1 (never rebuild), 0 (automatic) or positive, not %" PetscInt_FMT, lag);
-  amgf->lag.every = lag;
+  PetscTryMethod(pc, "PCAMGFSetAMGLag_C", (PC, PetscInt), (pc, lag));
   PetscFunctionReturn(0);
 }
 
@@ -296,12 +395,10 @@ PetscErrorCode PCAMGFSetAMGLag(PC pc, PetscInt lag)
 @*/
 PetscErrorCode PCAMGFGetAMGAge(PC pc, PetscInt *age)
 {
-  PC_AMGF *amgf;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_TRUE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscAssertPointer(age, 2);
-  *age = amgf->lag.age;
+  PetscUseMethod(pc, "PCAMGFGetAMGAge_C", (PC, PetscInt *), (pc, age));
   PetscFunctionReturn(0);
 }
 
@@ -330,13 +427,10 @@ PetscErrorCode PCAMGFGetAMGAge(PC pc, PetscInt *age)
 @*/
 PetscErrorCode PCAMGFGetAMGPC(PC pc, PC *amg)
 {
-  PC_AMGF *amgf;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_TRUE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscAssertPointer(amg, 2);
-  PetscCall(PCAMGFPrefixInner_Private(pc));
-  *amg = amgf->amg;
+  PetscUseMethod(pc, "PCAMGFGetAMGPC_C", (PC, PC *), (pc, amg));
   PetscFunctionReturn(0);
 }
 
@@ -365,13 +459,10 @@ PetscErrorCode PCAMGFGetAMGPC(PC pc, PC *amg)
 @*/
 PetscErrorCode PCAMGFGetFilterKSP(PC pc, KSP *ksp)
 {
-  PC_AMGF *amgf;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_TRUE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscAssertPointer(ksp, 2);
-  PetscCall(PCAMGFPrefixInner_Private(pc));
-  *ksp = amgf->filter;
+  PetscUseMethod(pc, "PCAMGFGetFilterKSP_C", (PC, KSP *), (pc, ksp));
   PetscFunctionReturn(0);
 }
 
@@ -395,11 +486,9 @@ PetscErrorCode PCAMGFGetFilterKSP(PC pc, KSP *ksp)
 @*/
 PetscErrorCode PCAMGFGetCounts(PC pc, PCAMGFCounts *counts)
 {
-  PC_AMGF *amgf;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_TRUE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscAssertPointer(counts, 2);
-  *counts = amgf->counts;
+  PetscUseMethod(pc, "PCAMGFGetCounts_C", (PC, PCAMGFCounts *), (pc, counts));
   PetscFunctionReturn(0);
 }

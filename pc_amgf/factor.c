@@ -330,6 +330,42 @@ PetscErrorCode PCAMGFFactorSetUp_Private(PC pc)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PCAMGFSetFactor_AMGF(PC pc, PCAMGFFactorUse use)
+{
+  AMGFFactor *f = &((PC_AMGF *)pc->data)->factor;
+
+  PetscFunctionBegin;
+  if (f->on && use == PC_AMGF_FACTOR_FALSE) {
+    PetscCall(PCAMGFFactorReset_Private(f));
+    ((PC_AMGF *)pc->data)->lag.built = PETSC_FALSE;
+  }
+  if (use != f->use) pc->setupcalled = 0;
+  f->use = use;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCAMGFExpect_AMGF(PC pc, PetscReal applications, PetscReal solves)
+{
+  AMGFFactor     *f  = &((PC_AMGF *)pc->data)->factor;
+  const PetscBool on = f->on;
+
+  PetscFunctionBegin;
+  if (pc->pmat) PetscCall(PCAMGFConfigureInner_Private(pc)); /* The costs depend on which AMG would be used. */
+  PetscCall(FactorExpect(pc, applications, solves));
+  if (f->on != on) pc->setupcalled = 0;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCAMGFGetFactored_AMGF(PC pc, PetscBool *factored, const char *why[])
+{
+  AMGFFactor *f = &((PC_AMGF *)pc->data)->factor;
+
+  PetscFunctionBegin;
+  *factored = f->on;
+  if (why) *why = f->why;
+  PetscFunctionReturn(0);
+}
+
 /*@
   PCAMGFSetFactor - Sets whether a Cholesky factorization of the operator replaces the AMG
 
@@ -354,20 +390,10 @@ PetscErrorCode PCAMGFFactorSetUp_Private(PC pc)
 @*/
 PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
 {
-  PC_AMGF    *amgf;
-  AMGFFactor *f;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_FALSE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscValidLogicalCollectiveEnum(pc, use, 2);
-  if (!amgf) PetscFunctionReturn(0);
-  f = &amgf->factor;
-  if (f->on && use == PC_AMGF_FACTOR_FALSE) {
-    PetscCall(PCAMGFFactorReset_Private(f));
-    amgf->lag.built = PETSC_FALSE;
-  }
-  if (use != f->use) pc->setupcalled = 0;
-  f->use = use;
+  PetscTryMethod(pc, "PCAMGFSetFactor_C", (PC, PCAMGFFactorUse), (pc, use));
   PetscFunctionReturn(0);
 }
 
@@ -397,20 +423,11 @@ PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
 @*/
 PetscErrorCode PCAMGFExpect(PC pc, PetscReal applications, PetscReal solves)
 {
-  PC_AMGF    *amgf;
-  AMGFFactor *f;
-  PetscBool   on;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_FALSE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscValidLogicalCollectiveReal(pc, applications, 2);
   PetscValidLogicalCollectiveReal(pc, solves, 3);
-  if (!amgf) PetscFunctionReturn(0);
-  f  = &amgf->factor;
-  on = f->on;
-  if (pc->pmat) PetscCall(PCAMGFConfigureInner_Private(pc)); /* The costs depend on which AMG would be used. */
-  PetscCall(FactorExpect(pc, applications, solves));
-  if (f->on != on) pc->setupcalled = 0;
+  PetscTryMethod(pc, "PCAMGFExpect_C", (PC, PetscReal, PetscReal), (pc, applications, solves));
   PetscFunctionReturn(0);
 }
 
@@ -432,12 +449,9 @@ PetscErrorCode PCAMGFExpect(PC pc, PetscReal applications, PetscReal solves)
 @*/
 PetscErrorCode PCAMGFGetFactored(PC pc, PetscBool *factored, const char *why[])
 {
-  PC_AMGF *amgf;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_TRUE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscAssertPointer(factored, 2);
-  *factored = amgf->factor.on;
-  if (why) *why = amgf->factor.why;
+  PetscUseMethod(pc, "PCAMGFGetFactored_C", (PC, PetscBool *, const char **), (pc, factored, why));
   PetscFunctionReturn(0);
 }

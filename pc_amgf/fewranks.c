@@ -224,6 +224,45 @@ PetscErrorCode PCAMGFFewRanksBegin_Private(PC pc, AMGFFewRanks *few)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PCAMGFSetFilterRanks_AMGF(PC pc, PetscInt n)
+{
+  AMGFFewRanks *few = &((PC_AMGF *)pc->data)->few;
+
+  PetscFunctionBegin;
+  PetscCheck(n >= 0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
+    "-pc_amgf_filter_ranks must be positive, or 0 for as many as the size asks for, not %" PetscInt_FMT, n);
+  few->wanted = n;
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCAMGFGetFilterPivots_AMGF(PC pc, PetscInt *negative)
+{
+  PC_AMGF      *amgf   = (PC_AMGF *)pc->data;
+  PetscBool     known  = PETSC_FALSE;
+  MatSolverType solver = NULL;
+  Mat           F;
+  PC            inner;
+
+  PetscFunctionBegin;
+  *negative = -1;
+  if (amgf->factor.on && amgf->factor.F) {
+    *negative = 0; /* factors of cholesky/ exist of positive definite operators only */
+    if (!amgf->factor.own) PetscCall(AMGFMumpsGetInfog(amgf->factor.F, 12, negative));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(KSPGetPC(amgf->filter, &inner));
+  if (amgf->few.nranks) inner = amgf->few.pc;
+  if (inner && amgf->Aw) PetscCall(PetscObjectTypeCompare((PetscObject)inner, PCCHOLESKY, &known));
+  if (known) PetscCall(PCFactorGetMatSolverType(inner, &solver));
+  if (known) PetscCall(PetscStrcmp(solver, MATSOLVERMUMPS, &known));
+  if (known) {
+    PetscCall(PCFactorGetMatrix(inner, &F));
+    PetscCall(AMGFMumpsGetInfog(F, 12, negative));
+  }
+  PetscCallMPI(MPI_Bcast(negative, 1, MPIU_INT, 0, PetscObjectComm((PetscObject)pc)));
+  PetscFunctionReturn(0);
+}
+
 /*@
   PCAMGFSetFilterRanks - Sets how many ranks solve the system with P^T A P
 
@@ -247,15 +286,10 @@ PetscErrorCode PCAMGFFewRanksBegin_Private(PC pc, AMGFFewRanks *few)
 @*/
 PetscErrorCode PCAMGFSetFilterRanks(PC pc, PetscInt n)
 {
-  PC_AMGF *amgf;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_FALSE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscValidLogicalCollectiveInt(pc, n, 2);
-  if (!amgf) PetscFunctionReturn(0);
-  PetscCheck(n >= 0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
-    "-pc_amgf_filter_ranks must be positive, or 0 for as many as the size asks for, not %" PetscInt_FMT, n);
-  amgf->few.wanted = n;
+  PetscTryMethod(pc, "PCAMGFSetFilterRanks_C", (PC, PetscInt), (pc, n));
   PetscFunctionReturn(0);
 }
 
@@ -280,30 +314,9 @@ PetscErrorCode PCAMGFSetFilterRanks(PC pc, PetscInt n)
 @*/
 PetscErrorCode PCAMGFGetFilterPivots(PC pc, PetscInt *negative)
 {
-  PC_AMGF      *amgf;
-  PetscBool     known  = PETSC_FALSE;
-  MatSolverType solver = NULL;
-  Mat           F;
-  PC            inner;
-
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetData_Private(pc, PETSC_TRUE, &amgf));
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscAssertPointer(negative, 2);
-  *negative = -1;
-  if (amgf->factor.on && amgf->factor.F) {
-    *negative = 0; /* factors of cholesky/ exist of positive definite operators only */
-    if (!amgf->factor.own) PetscCall(AMGFMumpsGetInfog(amgf->factor.F, 12, negative));
-    PetscFunctionReturn(0);
-  }
-  PetscCall(KSPGetPC(amgf->filter, &inner));
-  if (amgf->few.nranks) inner = amgf->few.pc;
-  if (inner && amgf->Aw) PetscCall(PetscObjectTypeCompare((PetscObject)inner, PCCHOLESKY, &known));
-  if (known) PetscCall(PCFactorGetMatSolverType(inner, &solver));
-  if (known) PetscCall(PetscStrcmp(solver, MATSOLVERMUMPS, &known));
-  if (known) {
-    PetscCall(PCFactorGetMatrix(inner, &F));
-    PetscCall(AMGFMumpsGetInfog(F, 12, negative));
-  }
-  PetscCallMPI(MPI_Bcast(negative, 1, MPIU_INT, 0, PetscObjectComm((PetscObject)pc)));
+  PetscUseMethod(pc, "PCAMGFGetFilterPivots_C", (PC, PetscInt *), (pc, negative));
   PetscFunctionReturn(0);
 }

@@ -1,5 +1,6 @@
 /* Public functions of TAOIPFILTER. */
 #include "ipfilterimpl.h"
+#include "pc_amgf/functions.h"
 #include "tao_ipfilter/solver/kkt.h"
 #include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/record.h"
@@ -38,6 +39,159 @@ static PetscErrorCode CheckPositive(Tao tao, Vec mass, const char what[])
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode TaoIPFilterSetSlackMass_IPFilter(Tao tao, Vec mass)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(CheckPositive(tao, mass, "slack"));
+  PetscCall(ReplaceVec(mass, &ip->given->slack_mass));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterSetPrimalMass_IPFilter(Tao tao, Vec mass)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(CheckPositive(tao, mass, "primal"));
+  PetscCall(ReplaceVec(mass, &ip->given->primal_mass));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterSetWarmStart_IPFilter(Tao tao, Vec s, Vec z)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCheck(!s == !z, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_INCOMP,
+    "give both slacks and multipliers, or neither");
+  PetscCall(CopyVec(s, &ip->given->warm_s));
+  PetscCall(CopyVec(z, &ip->given->warm_z));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterSetWarmStartEquality_IPFilter(Tao tao, Vec y)
+{
+  PetscFunctionBegin;
+  PetscCall(CopyVec(y, &((TAO_IPFILTER *)tao->data)->given->warm_y));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterSetWarmStartBounds_IPFilter(Tao tao, Vec DL, Vec DU)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(CopyVec(DL, &ip->given->warm_lower));
+  PetscCall(CopyVec(DU, &ip->given->warm_upper));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterSetRounding_IPFilter(Tao tao, PetscReal x)
+{
+  PetscFunctionBegin;
+  PetscCheck(x >= 0.0, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
+    "Rounding errors cannot be negative: %g", (double)x);
+  ((TAO_IPFILTER *)tao->data)->given->rounding = x;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterGetSlack_IPFilter(Tao tao, Vec *s, Vec *z)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (s) *s = ip->pair[IP_SLACK].t;
+  if (z) *z = ip->pair[IP_SLACK].z;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterGetKSPIterations_IPFilter(Tao tao, PetscInt *n, const PetscInt *its[])
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (n) *n = ip->rec->nksp;
+  if (its) *its = ip->rec->ksp_iterations;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterGetKKTError_IPFilter(Tao tao, PetscReal *scaled, PetscReal *unscaled)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (scaled) *scaled = ip->kkt->error;
+  if (unscaled) *unscaled = ip->kkt->unscaled;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterGetReason_IPFilter(Tao tao, const char *reason[])
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  *reason = ip->rec->reason;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterGetFilterUse_IPFilter(Tao tao, PetscInt *systems, PetscInt *filtered)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (systems) *systems = ip->rec->nsystems;
+  if (filtered) *filtered = ip->rec->nfiltered;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterGetRegularizations_IPFilter(Tao tao, PetscInt *steps, PetscInt *retries,
+  PetscReal *largest)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (steps) *steps = ip->rec->nregularized;
+  if (retries) *retries = ip->rec->nretried;
+  if (largest) *largest = ip->rec->delta_largest;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterGetFallbacks_IPFilter(Tao tao, TaoIPFilterFallbacks *fallbacks)
+{
+  PetscFunctionBegin;
+  *fallbacks = ((TAO_IPFILTER *)tao->data)->rec->fallbacks;
+  PetscFunctionReturn(0);
+}
+
+static const AMGFFunction functions[] = {
+  AMGF_FUNCTION(TaoIPFilterSetSlackMass, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetPrimalMass, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetWarmStart, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetWarmStartEquality, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetWarmStartBounds, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetRounding, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterGetSlack, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterGetKSPIterations, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterGetKKTError, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterGetFilterUse, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterGetRegularizations, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterGetFallbacks, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterGetReason, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetNormTerms, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetNormTermForces, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterGetNormTermForces, IPFilter),
+};
+
+/* Composes the implementations of the public functions with the Tao, or removes them if `attach` is false */
+PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
+{
+  PetscFunctionBegin;
+  PetscCall(AMGFComposeFunctions((PetscObject)tao, PETSC_STATIC_ARRAY_LENGTH(functions), functions, attach));
+  PetscFunctionReturn(0);
+}
+
 /*@
   TaoIPFilterSetSlackMass - Sets the lumped weights of the inequality constraints
 
@@ -62,14 +216,10 @@ static PetscErrorCode CheckPositive(Tao tao, Vec mass, const char what[])
 @*/
 PetscErrorCode TaoIPFilterSetSlackMass(Tao tao, Vec mass)
 {
-  TAO_IPFILTER *ip;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_FALSE, &ip));
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   if (mass) PetscValidHeaderSpecific(mass, VEC_CLASSID, 2);
-  if (!ip) PetscFunctionReturn(0);
-  PetscCall(CheckPositive(tao, mass, "slack"));
-  PetscCall(ReplaceVec(mass, &ip->given->slack_mass));
+  PetscTryMethod(tao, "TaoIPFilterSetSlackMass_C", (Tao, Vec), (tao, mass));
   PetscFunctionReturn(0);
 }
 
@@ -94,14 +244,10 @@ PetscErrorCode TaoIPFilterSetSlackMass(Tao tao, Vec mass)
 @*/
 PetscErrorCode TaoIPFilterSetPrimalMass(Tao tao, Vec mass)
 {
-  TAO_IPFILTER *ip;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_FALSE, &ip));
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   if (mass) PetscValidHeaderSpecific(mass, VEC_CLASSID, 2);
-  if (!ip) PetscFunctionReturn(0);
-  PetscCall(CheckPositive(tao, mass, "primal"));
-  PetscCall(ReplaceVec(mass, &ip->given->primal_mass));
+  PetscTryMethod(tao, "TaoIPFilterSetPrimalMass_C", (Tao, Vec), (tao, mass));
   PetscFunctionReturn(0);
 }
 
@@ -126,15 +272,10 @@ PetscErrorCode TaoIPFilterSetPrimalMass(Tao tao, Vec mass)
 @*/
 PetscErrorCode TaoIPFilterSetRounding(Tao tao, PetscReal x)
 {
-  TAO_IPFILTER *ip;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_FALSE, &ip));
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscValidLogicalCollectiveReal(tao, x, 2);
-  if (!ip) PetscFunctionReturn(0);
-  PetscCheck(x >= 0.0, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
-    "Rounding errors cannot be negative: %g", (double)x);
-  ip->given->rounding = x;
+  PetscTryMethod(tao, "TaoIPFilterSetRounding_C", (Tao, PetscReal), (tao, x));
   PetscFunctionReturn(0);
 }
 
@@ -162,17 +303,11 @@ PetscErrorCode TaoIPFilterSetRounding(Tao tao, PetscReal x)
 @*/
 PetscErrorCode TaoIPFilterSetWarmStart(Tao tao, Vec s, Vec z)
 {
-  TAO_IPFILTER *ip;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_FALSE, &ip));
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   if (s) PetscValidHeaderSpecific(s, VEC_CLASSID, 2);
   if (z) PetscValidHeaderSpecific(z, VEC_CLASSID, 3);
-  if (!ip) PetscFunctionReturn(0);
-  PetscCheck(!s == !z, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_INCOMP,
-    "give both slacks and multipliers, or neither");
-  PetscCall(CopyVec(s, &ip->given->warm_s));
-  PetscCall(CopyVec(z, &ip->given->warm_z));
+  PetscTryMethod(tao, "TaoIPFilterSetWarmStart_C", (Tao, Vec, Vec), (tao, s, z));
   PetscFunctionReturn(0);
 }
 
@@ -196,13 +331,10 @@ PetscErrorCode TaoIPFilterSetWarmStart(Tao tao, Vec s, Vec z)
 @*/
 PetscErrorCode TaoIPFilterSetWarmStartEquality(Tao tao, Vec y)
 {
-  TAO_IPFILTER *ip;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_FALSE, &ip));
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   if (y) PetscValidHeaderSpecific(y, VEC_CLASSID, 2);
-  if (!ip) PetscFunctionReturn(0);
-  PetscCall(CopyVec(y, &ip->given->warm_y));
+  PetscTryMethod(tao, "TaoIPFilterSetWarmStartEquality_C", (Tao, Vec), (tao, y));
   PetscFunctionReturn(0);
 }
 
@@ -230,15 +362,11 @@ PetscErrorCode TaoIPFilterSetWarmStartEquality(Tao tao, Vec y)
 @*/
 PetscErrorCode TaoIPFilterSetWarmStartBounds(Tao tao, Vec DL, Vec DU)
 {
-  TAO_IPFILTER *ip;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_FALSE, &ip));
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   if (DL) PetscValidHeaderSpecific(DL, VEC_CLASSID, 2);
   if (DU) PetscValidHeaderSpecific(DU, VEC_CLASSID, 3);
-  if (!ip) PetscFunctionReturn(0);
-  PetscCall(CopyVec(DL, &ip->given->warm_lower));
-  PetscCall(CopyVec(DU, &ip->given->warm_upper));
+  PetscTryMethod(tao, "TaoIPFilterSetWarmStartBounds_C", (Tao, Vec, Vec), (tao, DL, DU));
   PetscFunctionReturn(0);
 }
 
@@ -264,12 +392,10 @@ PetscErrorCode TaoIPFilterSetWarmStartBounds(Tao tao, Vec DL, Vec DU)
 @*/
 PetscErrorCode TaoIPFilterGetSlack(Tao tao, Vec *s)
 {
-  TAO_IPFILTER *ip;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_TRUE, &ip));
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscAssertPointer(s, 2);
-  *s = ip->pair[IP_SLACK].t;
+  PetscUseMethod(tao, "TaoIPFilterGetSlack_C", (Tao, Vec *, Vec *), (tao, s, NULL));
   PetscFunctionReturn(0);
 }
 
@@ -298,12 +424,10 @@ PetscErrorCode TaoIPFilterGetSlack(Tao tao, Vec *s)
 @*/
 PetscErrorCode TaoIPFilterGetMultiplier(Tao tao, Vec *z)
 {
-  TAO_IPFILTER *ip;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_TRUE, &ip));
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscAssertPointer(z, 2);
-  *z = ip->pair[IP_SLACK].z;
+  PetscUseMethod(tao, "TaoIPFilterGetSlack_C", (Tao, Vec *, Vec *), (tao, NULL, z));
   PetscFunctionReturn(0);
 }
 
@@ -326,12 +450,9 @@ PetscErrorCode TaoIPFilterGetMultiplier(Tao tao, Vec *z)
 @*/
 PetscErrorCode TaoIPFilterGetKSPIterations(Tao tao, PetscInt *n, const PetscInt *its[])
 {
-  TAO_IPFILTER *ip;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_TRUE, &ip));
-  if (n) *n = ip->rec->nksp;
-  if (its) *its = ip->rec->ksp_iterations;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscUseMethod(tao, "TaoIPFilterGetKSPIterations_C", (Tao, PetscInt *, const PetscInt *[]), (tao, n, its));
   PetscFunctionReturn(0);
 }
 
@@ -354,12 +475,9 @@ PetscErrorCode TaoIPFilterGetKSPIterations(Tao tao, PetscInt *n, const PetscInt 
 @*/
 PetscErrorCode TaoIPFilterGetKKTError(Tao tao, PetscReal *scaled, PetscReal *unscaled)
 {
-  TAO_IPFILTER *ip;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_TRUE, &ip));
-  if (scaled) *scaled = ip->kkt->error;
-  if (unscaled) *unscaled = ip->kkt->unscaled;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscUseMethod(tao, "TaoIPFilterGetKKTError_C", (Tao, PetscReal *, PetscReal *), (tao, scaled, unscaled));
   PetscFunctionReturn(0);
 }
 
@@ -380,12 +498,10 @@ PetscErrorCode TaoIPFilterGetKKTError(Tao tao, PetscReal *scaled, PetscReal *uns
 @*/
 PetscErrorCode TaoIPFilterGetReason(Tao tao, const char *reason[])
 {
-  TAO_IPFILTER *ip;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_TRUE, &ip));
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscAssertPointer(reason, 2);
-  *reason = ip->rec->reason;
+  PetscUseMethod(tao, "TaoIPFilterGetReason_C", (Tao, const char *[]), (tao, reason));
   PetscFunctionReturn(0);
 }
 
@@ -412,12 +528,9 @@ PetscErrorCode TaoIPFilterGetReason(Tao tao, const char *reason[])
 @*/
 PetscErrorCode TaoIPFilterGetFilterUse(Tao tao, PetscInt *systems, PetscInt *filtered)
 {
-  TAO_IPFILTER *ip;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_TRUE, &ip));
-  if (systems) *systems = ip->rec->nsystems;
-  if (filtered) *filtered = ip->rec->nfiltered;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscUseMethod(tao, "TaoIPFilterGetFilterUse_C", (Tao, PetscInt *, PetscInt *), (tao, systems, filtered));
   PetscFunctionReturn(0);
 }
 
@@ -447,13 +560,10 @@ PetscErrorCode TaoIPFilterGetFilterUse(Tao tao, PetscInt *systems, PetscInt *fil
 @*/
 PetscErrorCode TaoIPFilterGetRegularizations(Tao tao, PetscInt *steps, PetscInt *retries, PetscReal *largest)
 {
-  TAO_IPFILTER *ip;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_TRUE, &ip));
-  if (steps) *steps = ip->rec->nregularized;
-  if (retries) *retries = ip->rec->nretried;
-  if (largest) *largest = ip->rec->delta_largest;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscUseMethod(tao, "TaoIPFilterGetRegularizations_C", (Tao, PetscInt *, PetscInt *, PetscReal *),
+    (tao, steps, retries, largest));
   PetscFunctionReturn(0);
 }
 
@@ -483,11 +593,9 @@ PetscErrorCode TaoIPFilterGetRegularizations(Tao tao, PetscInt *steps, PetscInt 
 @*/
 PetscErrorCode TaoIPFilterGetFallbacks(Tao tao, TaoIPFilterFallbacks *fallbacks)
 {
-  TAO_IPFILTER *ip;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_TRUE, &ip));
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscAssertPointer(fallbacks, 2);
-  *fallbacks = ip->rec->fallbacks;
+  PetscUseMethod(tao, "TaoIPFilterGetFallbacks_C", (Tao, TaoIPFilterFallbacks *), (tao, fallbacks));
   PetscFunctionReturn(0);
 }

@@ -39,9 +39,13 @@ static PetscErrorCode CreateKSP(Tao tao)
 
 static PetscErrorCode DestroyType(Tao tao)
 {
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
   PetscFunctionBegin;
   if (tao->ops->convergencetest == TaoIPFilterDefaultConvergenceTest)
     tao->ops->convergencetest = TaoDefaultConvergenceTest;
+  PetscCall(TaoIPFilterComposeFunctions(tao, PETSC_FALSE));
+  if (ip->method->ops) PetscCall(ip->method->ops->compose(tao, PETSC_FALSE));
   PetscCall(TaoDestroy_IPFilter(tao));
   PetscFunctionReturn(0);
 }
@@ -301,5 +305,7 @@ PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao tao)
   PetscObjectParameterSetDefault(tao, catol, PETSC_INFINITY);
   PetscObjectParameterSetDefault(tao, crtol, PETSC_INFINITY);
   PetscCall(CreateKSP(tao));
+  PetscCall(TaoIPFilterComposeFunctions(tao, PETSC_TRUE));
+  if (ip->method->ops) PetscCall(ip->method->ops->compose(tao, PETSC_TRUE));
   PetscFunctionReturn(0);
 }

@@ -37,4 +37,7 @@ PETSC_INTERN PetscErrorCode IPRegisterMethods(TAO_IPFILTER *);
 /* view.c */
 PETSC_INTERN PetscErrorCode TaoView_IPFilter(Tao, PetscViewer);
 
+/* api.c */
+PETSC_INTERN PetscErrorCode TaoIPFilterComposeFunctions(Tao, PetscBool);
+
 #endif

@@ -302,6 +302,38 @@ static PetscErrorCode TermsReference(Vec given, Vec *own)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode TaoIPFilterSetNormTerms_IPFilter(Tao tao, Mat T, Vec t, Vec limit, Vec coefficient)
+{
+  IPTerms *terms = ((TAO_IPFILTER *)tao->data)->terms;
+
+  PetscFunctionBegin;
+  if (T) PetscCall(PetscObjectReference((PetscObject)T));
+  PetscCall(IPTermsDestroy(terms));
+  terms->given = T;
+  if (!T) PetscFunctionReturn(0);
+  PetscCall(TermsReference(t, &terms->t));
+  PetscCall(TermsReference(limit, &terms->limit));
+  PetscCall(TermsReference(coefficient, &terms->coefficient));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TaoIPFilterSetNormTermForces_IPFilter(Tao tao, Vec force)
+{
+  IPTerms *terms = ((TAO_IPFILTER *)tao->data)->terms;
+
+  PetscFunctionBegin;
+  if (!terms->warm) PetscCall(VecDuplicate(force, &terms->warm));
+  PetscCall(VecCopy(force, terms->warm));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao tao, Vec *force)
+{
+  PetscFunctionBegin;
+  *force = ((TAO_IPFILTER *)tao->data)->terms->force;
+  PetscFunctionReturn(0);
+}
+
 /*@
   TaoIPFilterSetNormTerms - Adds terms sum_i b_i |T_i x + t_i| to the objective, with weights that may depend on the
   multipliers of inequality constraints (friction)
@@ -353,24 +385,13 @@ static PetscErrorCode TermsReference(Vec given, Vec *own)
 @*/
 PetscErrorCode TaoIPFilterSetNormTerms(Tao tao, Mat T, Vec t, Vec limit, Vec coefficient)
 {
-  TAO_IPFILTER *ip;
-  IPTerms      *terms;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_FALSE, &ip));
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   if (T) PetscValidHeaderSpecific(T, MAT_CLASSID, 2);
   if (T) PetscValidHeaderSpecific(t, VEC_CLASSID, 3);
   if (limit) PetscValidHeaderSpecific(limit, VEC_CLASSID, 4);
   if (coefficient) PetscValidHeaderSpecific(coefficient, VEC_CLASSID, 5);
-  if (!ip) PetscFunctionReturn(0);
-  terms = ip->terms;
-  if (T) PetscCall(PetscObjectReference((PetscObject)T));
-  PetscCall(IPTermsDestroy(terms));
-  terms->given = T;
-  if (!T) PetscFunctionReturn(0);
-  PetscCall(TermsReference(t, &terms->t));
-  PetscCall(TermsReference(limit, &terms->limit));
-  PetscCall(TermsReference(coefficient, &terms->coefficient));
+  PetscTryMethod(tao, "TaoIPFilterSetNormTerms_C", (Tao, Mat, Vec, Vec, Vec), (tao, T, t, limit, coefficient));
   PetscFunctionReturn(0);
 }
 
@@ -389,16 +410,10 @@ PetscErrorCode TaoIPFilterSetNormTerms(Tao tao, Mat T, Vec t, Vec limit, Vec coe
 @*/
 PetscErrorCode TaoIPFilterSetNormTermForces(Tao tao, Vec force)
 {
-  TAO_IPFILTER *ip;
-  IPTerms      *terms;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_FALSE, &ip));
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscValidHeaderSpecific(force, VEC_CLASSID, 2);
-  if (!ip) PetscFunctionReturn(0);
-  terms = ip->terms;
-  if (!terms->warm) PetscCall(VecDuplicate(force, &terms->warm));
-  PetscCall(VecCopy(force, terms->warm));
+  PetscTryMethod(tao, "TaoIPFilterSetNormTermForces_C", (Tao, Vec), (tao, force));
   PetscFunctionReturn(0);
 }
 
@@ -419,11 +434,9 @@ PetscErrorCode TaoIPFilterSetNormTermForces(Tao tao, Vec force)
 @*/
 PetscErrorCode TaoIPFilterGetNormTermForces(Tao tao, Vec *force)
 {
-  TAO_IPFILTER *ip;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_TRUE, &ip));
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscAssertPointer(force, 2);
-  *force = ip->terms->force;
+  PetscUseMethod(tao, "TaoIPFilterGetNormTermForces_C", (Tao, Vec *), (tao, force));
   PetscFunctionReturn(0);
 }

@@ -10,6 +10,8 @@
 struct _n_IPMethodOps {
   const char *name;
   PetscErrorCode (*create)(Tao);
+  PetscErrorCode (*compose)(Tao, PetscBool attach);     /* composes the method's public functions with the Tao, or
+                                                           removes them */
   PetscErrorCode (*applies)(Tao, PetscBool *);          /* whether the method can solve the problem; called at the
                                                            starting point */
   PetscErrorCode (*begin)(Tao, PetscBool *begun);       /* moves to the first point of the method */

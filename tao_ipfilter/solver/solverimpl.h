@@ -154,18 +154,4 @@ struct _n_TAO_IPFILTER {
   IPRecord      *rec;     /* record.h: record of this solve */
 };
 
-/* Gets the data of a TAOIPFILTER; NULL for another type, which is an error if `required` is true */
-static inline PetscErrorCode IPGetData(Tao tao, PetscBool required, TAO_IPFILTER **ip)
-{
-  PetscBool same;
-
-  PetscFunctionBegin;
-  *ip = NULL;
-  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
-  PetscCall(PetscObjectTypeCompare((PetscObject)tao, TAOIPFILTER, &same));
-  PetscCheck(same || !required, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP, "the solver is not a " TAOIPFILTER);
-  if (same) *ip = (TAO_IPFILTER *)tao->data;
-  PetscFunctionReturn(0);
-}
-
 #endif

@@ -1,6 +1,79 @@
 /* Public functions of the filtered subspace method */
 #include "subspaceimpl.h"
+#include "pc_amgf/functions.h"
 #include "tao_ipfilter/solver/options.h"
+
+static PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao tao, PetscContainer *space)
+{
+  IPRecycle *recycle;
+
+  PetscFunctionBegin;
+  PetscCall(IPRecycleGet(tao, &recycle));
+  *space = IPFilteredOf(tao)->recycle;
+  PetscFunctionReturn(0);
+}
+
+/*
+   Sets the recycled data. Their preconditioner becomes that of the Krylov method, so that TaoGetKSP() returns the one
+   in use. A preconditioner of another type or options prefix is not replaced.
+*/
+static PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao tao, PetscContainer space)
+{
+  IPFiltered *f = IPFilteredOf(tao);
+  IPRecycle  *recycle;
+  const char *own, *theirs;
+  PC          pc;
+  PetscBool   type, prefix;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectReference((PetscObject)space));
+  PetscCall(PetscContainerDestroy(&f->recycle));
+  f->recycle = space;
+  PetscCall(PetscContainerGetPointer(space, (void **)&recycle));
+  if (!recycle->pc) PetscFunctionReturn(0);
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, ((PetscObject)recycle->pc)->type_name, &type));
+  PetscCall(PCGetOptionsPrefix(pc, &own));
+  PetscCall(PCGetOptionsPrefix(recycle->pc, &theirs));
+  PetscCall(PetscStrcmp(own, theirs, &prefix));
+  if (type && prefix) PetscCall(KSPSetPC(tao->ksp, recycle->pc));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao tao, PetscInt n)
+{
+  PetscFunctionBegin;
+  PetscCheck(n >= 1, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
+    "The number of solves to come must be at least 1, but is %" PetscInt_FMT, n);
+  ((TAO_IPFILTER *)tao->data)->given->solves_to_come = n;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TaoIPFilterSetInterrupt_IPFilter(Tao tao, PetscErrorCode (*interrupt)(void *, PetscBool *),
+  void                                                    *ctx)
+{
+  IPGiven *given = ((TAO_IPFILTER *)tao->data)->given;
+
+  PetscFunctionBegin;
+  given->interrupt     = interrupt;
+  given->interrupt_ctx = ctx;
+  PetscFunctionReturn(0);
+}
+
+static const AMGFFunction functions[] = {
+  AMGF_FUNCTION(TaoIPFilterGetSubspace, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetSubspace, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetSolvesToCome, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetInterrupt, IPFilter),
+};
+
+/* Composes the implementations with the Tao, or removes them if `attach` is false */
+PetscErrorCode IPSubspaceCompose(Tao tao, PetscBool attach)
+{
+  PetscFunctionBegin;
+  PetscCall(AMGFComposeFunctions((PetscObject)tao, PETSC_STATIC_ARRAY_LENGTH(functions), functions, attach));
+  PetscFunctionReturn(0);
+}
 
 /*@C
   TaoIPFilterSetSubspace - Sets the preconditioner and the directions of the filtered subspace method to those of
@@ -27,29 +100,10 @@
 @*/
 PetscErrorCode TaoIPFilterSetSubspace(Tao tao, PetscContainer space)
 {
-  TAO_IPFILTER *ip;
-  IPFiltered   *f;
-  IPRecycle    *recycle;
-  const char   *own, *theirs;
-  PC            pc;
-  PetscBool     type, prefix;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_FALSE, &ip));
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscValidHeaderSpecific(space, PETSC_CONTAINER_CLASSID, 2);
-  if (!ip) PetscFunctionReturn(0);
-  f = IPFilteredOf(tao);
-  PetscCall(PetscObjectReference((PetscObject)space));
-  PetscCall(PetscContainerDestroy(&f->recycle));
-  f->recycle = space;
-  PetscCall(PetscContainerGetPointer(space, (void **)&recycle));
-  if (!recycle->pc) PetscFunctionReturn(0);
-  PetscCall(KSPGetPC(tao->ksp, &pc));
-  PetscCall(PetscObjectTypeCompare((PetscObject)pc, ((PetscObject)recycle->pc)->type_name, &type));
-  PetscCall(PCGetOptionsPrefix(pc, &own));
-  PetscCall(PCGetOptionsPrefix(recycle->pc, &theirs));
-  PetscCall(PetscStrcmp(own, theirs, &prefix));
-  if (type && prefix) PetscCall(KSPSetPC(tao->ksp, recycle->pc));
+  PetscTryMethod(tao, "TaoIPFilterSetSubspace_C", (Tao, PetscContainer), (tao, space));
   PetscFunctionReturn(0);
 }
 
@@ -77,14 +131,10 @@ PetscErrorCode TaoIPFilterSetSubspace(Tao tao, PetscContainer space)
 @*/
 PetscErrorCode TaoIPFilterGetSubspace(Tao tao, PetscContainer *space)
 {
-  TAO_IPFILTER *ip;
-  IPRecycle    *recycle;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_TRUE, &ip));
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscAssertPointer(space, 2);
-  PetscCall(IPRecycleGet(tao, &recycle));
-  *space = IPFilteredOf(tao)->recycle;
+  PetscUseMethod(tao, "TaoIPFilterGetSubspace_C", (Tao, PetscContainer *), (tao, space));
   PetscFunctionReturn(0);
 }
 
@@ -108,15 +158,10 @@ PetscErrorCode TaoIPFilterGetSubspace(Tao tao, PetscContainer *space)
 @*/
 PetscErrorCode TaoIPFilterSetSolvesToCome(Tao tao, PetscInt n)
 {
-  TAO_IPFILTER *ip;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_FALSE, &ip));
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscValidLogicalCollectiveInt(tao, n, 2);
-  if (!ip) PetscFunctionReturn(0);
-  PetscCheck(n >= 1, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
-    "The number of solves to come must be at least 1, but is %" PetscInt_FMT, n);
-  ip->given->solves_to_come = n;
+  PetscTryMethod(tao, "TaoIPFilterSetSolvesToCome_C", (Tao, PetscInt), (tao, n));
   PetscFunctionReturn(0);
 }
 
@@ -255,14 +300,9 @@ PetscErrorCode TaoIPFilterSolveActive(PetscContainer space, Vec f, Vec c, PetscI
 @*/
 PetscErrorCode TaoIPFilterSetInterrupt(Tao tao, PetscErrorCode (*interrupt)(void *ctx, PetscBool *stop), void *ctx)
 {
-  TAO_IPFILTER *ip;
-  IPGiven      *given;
-
   PetscFunctionBegin;
-  PetscCall(IPGetData(tao, PETSC_FALSE, &ip));
-  if (!ip) PetscFunctionReturn(0);
-  given                = ip->given;
-  given->interrupt     = interrupt;
-  given->interrupt_ctx = ctx;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscTryMethod(tao, "TaoIPFilterSetInterrupt_C", (Tao, PetscErrorCode(*)(void *, PetscBool *), void *),
+    (tao, interrupt, ctx));
   PetscFunctionReturn(0);
 }

@@ -516,6 +516,7 @@ static PetscErrorCode FilteredDestroyData(Tao tao)
 const IPMethodOps IPMethodSubspace = {
   .name    = "filtered subspace",
   .create  = FilteredCreateData,
+  .compose = IPSubspaceCompose,
   .applies = FilteredApplies,
   .begin   = FilteredBegin,
   .step    = FilteredStepOfKind,

@@ -280,6 +280,9 @@ PETSC_INTERN PetscErrorCode IPFilteredMonitor(Tao, PetscBool *monitored);
 /* newton.c */
 PETSC_INTERN PetscErrorCode IPNewtonSubspaceStep(Tao, PetscBool *done);
 
+/* api.c, beside the public functions */
+PETSC_INTERN PetscErrorCode IPSubspaceCompose(Tao, PetscBool attach);
+
 /* method.c: min f(x), c_I(x) >= 0 on the filtered subspace */
 PETSC_INTERN const IPMethodOps IPMethodSubspace;
 
