@@ -231,19 +231,6 @@ static PetscErrorCode OptimizerDiagnose(StepProblem *p, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode OptimizerReportFlow(const StepProblem *p, StepReport *report)
-{
-  char reason[512];
-
-  PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(reason, sizeof(reason),
-    "no equilibrium exists at time %g: body \"%s\" flows plastically, because the load exceeds the collapse load; the "
-    "last equilibrium is at time %g",
-    (double)p->time, p->flowing, (double)p->sim->path->time));
-  PetscCall(ReportReason(report, PETSC_FALSE, reason));
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode OptimizerReport(StepProblem *p, Tao tao, PetscBool ours, const PCAMGFCounts *before, Vec u,
   StepReport *report)
 {
@@ -256,7 +243,7 @@ static PetscErrorCode OptimizerReport(StepProblem *p, Tao tao, PetscBool ours, c
   PetscCall(TaoGetConvergedReason(tao, &reason));
   if (ours) PetscCall(TaoIPFilterGetReason(tao, &sentence));
   PetscCall(ReportReason(report, (PetscBool)(reason > 0), sentence ? sentence : TaoConvergedReasons[reason]));
-  if (reason < 0 && p->flowing) PetscCall(OptimizerReportFlow(p, report));
+  if (reason < 0 && p->flowing) PetscCall(ProximalReportFlow(p, report));
   else if (reason < 0 && !p->sim->control->interrupted) PetscCall(OptimizerDiagnose(p, report));
   PetscCall(TaoGetIterationNumber(tao, &n));
   report->ip_iterations += n;

@@ -125,6 +125,7 @@ PETSC_INTERN PetscErrorCode ProximalMeasure(const StepProblem *, Vec u, PetscRea
 PETSC_INTERN PetscErrorCode ProximalAddStiffness(const StepProblem *, Mat);
 PETSC_INTERN PetscErrorCode ProximalEnd(StepProblem *);
 PETSC_INTERN PetscErrorCode ProximalAdd(const StepProblem *, Vec x, PetscReal *energy, Vec force);
+PETSC_INTERN PetscErrorCode ProximalReportFlow(const StepProblem *, StepReport *);
 PETSC_INTERN PetscErrorCode ProximalAdvance(StepProblem *, Vec u, PetscInt ncentres, StepReport *, PetscBool *again);
 
 /* friction.c: friction laws of the optimizer */

@@ -14,6 +14,7 @@
 #include "problemimpl.h"
 #include <vector3.h>
 #include "src/state/control.h"
+#include "src/state/path.h"
 
 /*
    max_centres: largest number of solves. After `patience` solves the force of the proximal term must fall in each solve
@@ -331,14 +332,72 @@ static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepRepor
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ProximalReportRigidBodies(StepProblem *p, StepReport *report)
+/* Reports that the load step has no equilibrium, because p->flowing flows */
+PetscErrorCode ProximalReportFlow(const StepProblem *p, StepReport *report)
+{
+  char reason[512];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(reason, sizeof(reason),
+    "no equilibrium exists at time %g: body \"%s\" flows plastically, because the load exceeds the collapse load; the "
+    "last equilibrium is at time %g",
+    (double)p->time, p->flowing, (double)p->sim->path->time));
+  PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Finds whether a body flows plastically under the rigid bodies: from the centre to the solution u plastic work grew
+   by a multiple of the change of the elastic energy. Sets p->flowing to its name.
+*/
+static PetscErrorCode ProximalTestFlow(StepProblem *p, Vec u)
+{
+  const PetscReal multiple = 50.0;
+  PetscReal       stored[2], work[2];
+  PetscInt        body;
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityPlasticFlow(p->sim->elasticity, p->centre, &stored[0], &work[0], &body));
+  PetscCall(ElasticityPlasticFlow(p->sim->elasticity, u, &stored[1], &work[1], &body));
+  if (work[1] - work[0] > multiple * PetscAbsReal(stored[1] - stored[0])) p->flowing = p->sim->scene->bodies[body].name;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ProximalReportRigidBodies(StepProblem *p, Vec u, StepReport *report)
 {
   PetscFunctionBegin;
   PetscCall(ReportReason(report, PETSC_FALSE, "a rigid body that is driven by forces is not held"));
   PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unsupported));
-  if (!p->unsupported)
+  if (!p->unsupported) PetscCall(ProximalTestFlow(p, u));
+  if (p->flowing) PetscCall(ProximalReportFlow(p, report));
+  else if (!p->unsupported)
     PetscCall(ReportReason(report, PETSC_FALSE,
       "no equilibrium was found for the rigid bodies that are driven by forces; use smaller load steps"));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Moves the centre to the solution u. In every third solve it moves farther: rigid bodies are placed where a geometric
+   series of their motions ends, because without this they approach the collapse load of bodies that yield very slowly.
+   ratio: force of the proximal term divided by that of the last solve
+*/
+static PetscErrorCode ProximalMoveCentre(StepProblem *p, Vec u, PetscInt ncentres, PetscReal ratio)
+{
+  const PetscInt  every = 3;
+  const PetscReal most  = 4.0;
+  Vec             farther;
+
+  PetscFunctionBegin;
+  if (p->failed || ncentres % every || !(ratio < 1.0)) {
+    PetscCall(ProximalCentre(p, u));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(VecDuplicate(u, &farther));
+  PetscCall(VecWAXPY(farther, -1.0, p->centre, u));
+  PetscCall(VecAYPX(farther, PetscMin(most, ratio / (1.0 - ratio)), u));
+  PetscCall(ProximalCentre(p, farther));
+  PetscCall(VecDestroy(&farther));
+  p->carried = PETSC_INFINITY; /* the next force cannot be compared with this one */
   PetscFunctionReturn(0);
 }
 
@@ -349,7 +408,7 @@ static PetscErrorCode ProximalReportRigidBodies(StepProblem *p, StepReport *repo
 PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepReport *report, PetscBool *again)
 {
   const PetscReal tolerance = PetscMax(1e-3 * p->sim->control->tolerances.optimizer, 1e-12);
-  PetscReal       norms[2];
+  PetscReal       norms[2], ratio;
   PetscBool       falls;
   Vec             force, all;
 
@@ -362,11 +421,12 @@ PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepRep
   PetscCall(VecDestroy(&force));
   PetscCall(VecDestroy(&all));
   if (norms[0] <= tolerance * norms[1]) PetscFunctionReturn(0);
-  falls      = (PetscBool)(norms[0] < stuck * p->carried);
+  ratio      = p->carried > 0.0 ? norms[0] / p->carried : 1.0;
+  falls      = (PetscBool)(ratio < stuck);
   *again     = (PetscBool)(ncentres < max_centres && (ncentres <= patience || falls));
   p->carried = norms[0];
-  if (*again) PetscCall(ProximalCentre(p, u));
-  else if (!p->failed) PetscCall(ProximalReportRigidBodies(p, report));
+  if (*again) PetscCall(ProximalMoveCentre(p, u, ncentres, ratio));
+  else if (!p->failed) PetscCall(ProximalReportRigidBodies(p, u, report));
   else if (!falls) PetscCall(ProximalReportRigidMotion(p, u, report));
   else PetscCall(ReportReason(report, PETSC_FALSE, p->failed));
   PetscFunctionReturn(0);
