@@ -49,21 +49,6 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SimulationSetUpTangent(Simulation sim)
-{
-  const Constraints constraints = SimulationConstraints(sim);
-  PetscBool         linear;
-
-  PetscFunctionBegin;
-  PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
-  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
-  PetscCall(TiesCreateTangent(&constraints, &sim->K));
-  PetscCall(PetscObjectCompose((PetscObject)sim->K, PCAMGF_COORDINATES_KEY, (PetscObject)sim->places.x));
-  if (linear || sim->ties.C) PetscCall(TiesTangent(&constraints, sim->path->u, sim->K));
-  PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode SimulationSetUpContact(Simulation sim)
 {
   Scene scene = sim->scene;
@@ -120,7 +105,9 @@ static PetscErrorCode SimulationSetUpReport(Simulation sim)
 @*/
 PetscErrorCode SimulationSetUp(Simulation sim)
 {
-  Scene scene = sim->scene;
+  Scene       scene = sim->scene;
+  Constraints constraints;
+  PetscBool   linear;
 
   PetscFunctionBegin;
   PetscCall(EventsRead(&sim->run->start));
@@ -138,7 +125,13 @@ PetscErrorCode SimulationSetUp(Simulation sim)
   PetscCall(VecSet(sim->path->previous_u, 0.0));
   PetscCall(SimulationSetUpElasticity(sim));
   PetscCall(PetscLogEventEnd(SIM_SetUp, NULL, NULL, NULL, NULL));
-  PetscCall(SimulationSetUpTangent(sim));
+  constraints = SimulationConstraints(sim);
+  PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
+  PetscCall(TiesCreateTangent(&constraints, &sim->K));
+  PetscCall(PetscObjectCompose((PetscObject)sim->K, PCAMGF_COORDINATES_KEY, (PetscObject)sim->places.x));
+  if (linear || sim->ties.C) PetscCall(TiesTangent(&constraints, sim->path->u, sim->K));
+  PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.assembly));
   PetscCall(PetscLogEventBegin(SIM_SetUp, NULL, NULL, NULL, NULL));
   PetscCall(SimulationSetUpContact(sim));

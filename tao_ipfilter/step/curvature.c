@@ -45,16 +45,6 @@ typedef struct {
   Vec y;
 } CurvatureScale;
 
-static PetscErrorCode CurvatureScaleDestroy(CurvatureScale *s)
-{
-  PetscFunctionBegin;
-  PetscCall(MatDestroy(&s->forces));
-  PetscCall(KSPDestroy(&s->ksp));
-  PetscCall(VecDestroy(&s->y));
-  PetscCall(VecDestroy(&s->root));
-  PetscFunctionReturn(0);
-}
-
 /* M: the diagonal of the scaling, which remains the caller's */
 static PetscErrorCode CurvatureScaleCreate(Tao tao, Vec M, CurvatureScale *s)
 {
@@ -145,7 +135,10 @@ PetscErrorCode IPNegativeCurvature(Tao tao, PetscBool *found)
     PetscCall(VecAYPX(p, rz / before, v[1]));
     PetscCall(VecNorm(v[0], NORM_2, &norm));
   }
-  PetscCall(CurvatureScaleDestroy(&scale));
+  PetscCall(MatDestroy(&scale.forces));
+  PetscCall(KSPDestroy(&scale.ksp));
+  PetscCall(VecDestroy(&scale.y));
+  PetscCall(VecDestroy(&scale.root));
   for (PetscInt k = 3; k >= 0; k--) PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v[k]));
   PetscFunctionReturn(0);
 }
