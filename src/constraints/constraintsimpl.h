@@ -122,16 +122,19 @@ PETSC_INTERN PetscErrorCode PlanesCreate(const Constraints *, const PetscBool pr
   PetscBool follows[]);
 
 /* rigid.c: rigid bodies with free motions */
+PETSC_INTERN PetscErrorCode RigidGetNodes(const Constraints *, const RigidBody *, IS *nodes);
 PETSC_INTERN PetscErrorCode RigidCreate(const Constraints *, const PetscBool prescribed[], PetscBool follows[]);
 PETSC_INTERN PetscErrorCode RigidMakeRows(const Constraints *, const PetscBool prescribed[], PetscBool follows[],
   PetscBool *anew);
+PETSC_INTERN PetscErrorCode RigidMove(const Constraints *, PetscReal time, Vec o);
+PETSC_INTERN PetscErrorCode RigidAddStiffness(const Constraints *, Mat C, Vec diagonal, Mat stiffness);
+PETSC_INTERN PetscErrorCode RigidDestroy(RigidBodies *);
+
+/* rigid_turn.c: their finite rotations */
 PETSC_INTERN void           RigidGetRotation(const RigidBody *, PetscReal Q[3][3]);
 PETSC_INTERN PetscErrorCode RigidTurn(const Constraints *, PetscReal time, Vec u_last, Vec u);
 PETSC_INTERN PetscErrorCode RigidStraighten(const Constraints *, Vec u, PetscReal *change);
-PETSC_INTERN PetscErrorCode RigidMove(const Constraints *, PetscReal time, Vec o);
-PETSC_INTERN PetscErrorCode RigidAddStiffness(const Constraints *, Mat C, Vec diagonal, Mat stiffness);
 PETSC_INTERN PetscErrorCode RigidTest(const Constraints *, PetscBool finite, Vec u, StepReport *);
-PETSC_INTERN PetscErrorCode RigidDestroy(RigidBodies *);
 
 /* rigid_loads.c: forces and moments on such bodies */
 PETSC_INTERN PetscErrorCode RigidTurnLoads(const Constraints *, PetscReal sign, PetscReal time, Vec load);

@@ -1,21 +1,10 @@
 /* Bodies with a constant tangent: finds whether all bodies have one, and which bodies need not be assembled again */
 #include "elasticityimpl.h"
 
-/*@
-  ElasticityIsLinear - Gets whether the tangents of all bodies are independent of the displacement
-
-  Not Collective
-
-  Input Parameter:
-. e - the context
-
-  Output Parameter:
-. linear - `PETSC_TRUE` if the energy is quadratic in the displacement
-
-  Level: intermediate
-
-.seealso: `ElasticityTangent()`, `ElasticityGetAssemblies()`
-@*/
+/*
+   Gets whether the tangents of all bodies are independent of the displacement. *linear: `PETSC_TRUE` if the energy is
+   quadratic in the displacement.
+*/
 PetscErrorCode ElasticityIsLinear(Elasticity e, PetscBool *linear)
 {
   PetscFunctionBegin;

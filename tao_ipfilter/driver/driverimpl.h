@@ -38,6 +38,10 @@ PETSC_INTERN PetscErrorCode IPSetUpSizes(Tao);
 PETSC_INTERN PetscErrorCode IPSetUpIteration(Tao);
 PETSC_INTERN PetscErrorCode TaoDestroy_IPFilter(Tao);
 
+/* first_point.c */
+PETSC_INTERN PetscErrorCode IPForgetSystem(Tao);
+PETSC_INTERN PetscErrorCode IPFirstPoint(Tao, PetscBool *finite);
+
 /* solve.c */
 PETSC_INTERN PetscErrorCode TaoSolve_IPFilter(Tao);
 

@@ -9,183 +9,6 @@
 #include "tao_ipfilter/solver/terms.h"
 #include <petscblaslapack.h>
 
-/*
-   Selection of rows of a matrix A that are gathered on the first rank, restricted to the columns of W. half: A stores
-   its upper triangle only.
-*/
-typedef struct {
-  PetscInt        nrows, M;
-  const PetscInt *rows, *place; /* local rows of A, and the numbers of these rows in the result, which has M rows */
-  PetscInt        nw;
-  const PetscInt *w;
-  PetscBool       half;
-  PetscBool       symmetric; /* zeros are stored as well: ordering codes need a symmetric pattern, and one of two
-                                transposed entries may be zero */
-} ReducedGather;
-
-/*
-   Inserts the entries of one row into S, or, if S is NULL, counts them in the rows of S. If A stores its upper triangle
-   only, the transposed entries are inserted too; diagonal blocks are stored completely.
-*/
-static PetscErrorCode ReducedGatherRow(Mat A, const ReducedGather *g, PetscInt r, PetscInt column[],
-  PetscScalar entry[], PetscInt counts[], Mat S)
-{
-  const PetscInt    *columns, row = g->place[r];
-  const PetscScalar *values;
-  PetscInt           nc, place, n = 0, nmirror = 0;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetRow(A, g->rows[r], &nc, &columns, &values));
-  for (PetscInt k = 0; k < nc; k++) {
-    PetscCall(PetscFindInt(columns[k], g->nw, g->w, &place));
-    if (place < 0 || (values[k] == 0.0 && !g->symmetric) || (g->half && columns[k] < g->rows[r])) continue;
-    if (S) {
-      column[n] = place;
-      entry[n]  = values[k];
-    } else if (g->half && place != row) counts[place]++;
-    n++;
-  }
-  PetscCall(MatRestoreRow(A, g->rows[r], &nc, &columns, &values));
-  if (S) {
-    nmirror = g->half && n && column[0] == row;
-    PetscCall(MatSetValues(S, 1, &row, n, column, entry, INSERT_VALUES));
-    if (g->half) PetscCall(MatSetValues(S, n - nmirror, column + nmirror, 1, &row, entry + nmirror, INSERT_VALUES));
-  } else counts[row] += n;
-  PetscFunctionReturn(0);
-}
-
-/* Gets the local matrix of the first rank, which has all rows; NULL on the other ranks */
-static PetscErrorCode ReducedTakeFirst(Mat all, PetscBool first, Mat *S)
-{
-  Mat diagonal;
-
-  PetscFunctionBegin;
-  *S = NULL;
-  PetscCall(MatGetDiagonalBlock(all, &diagonal));
-  if (first) {
-    PetscCall(PetscObjectReference((PetscObject)diagonal));
-    *S = diagonal;
-  }
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode ReducedGatherMatrix(Mat A, const ReducedGather *g, PetscBool first, Mat *S)
-{
-  PetscInt    *counts, *column;
-  PetscScalar *entry;
-  Mat          all;
-
-  PetscFunctionBegin;
-  PetscCall(PetscCalloc3(g->M, &counts, g->nw, &column, g->nw, &entry));
-  if (g->half) PetscCall(MatGetRowUpperTriangular(A));
-  for (PetscInt r = 0; r < g->nrows; r++) PetscCall(ReducedGatherRow(A, g, r, column, entry, counts, NULL));
-  PetscCallMPI(
-    MPI_Allreduce(MPI_IN_PLACE, counts, (PetscMPIInt)g->M, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)A)));
-  PetscCall(MatCreate(PetscObjectComm((PetscObject)A), &all));
-  PetscCall(MatSetSizes(all, first ? g->M : 0, first ? g->nw : 0, g->M, g->nw));
-  PetscCall(MatSetType(all, MATAIJ));
-  PetscCall(MatXAIJSetPreallocation(all, 1, counts, NULL, NULL, NULL));
-  for (PetscInt r = 0; r < g->nrows; r++) PetscCall(ReducedGatherRow(A, g, r, column, entry, counts, all));
-  if (g->half) PetscCall(MatRestoreRowUpperTriangular(A));
-  PetscCall(MatAssemblyBegin(all, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(all, MAT_FINAL_ASSEMBLY));
-  PetscCall(PetscFree3(counts, column, entry));
-  PetscCall(ReducedTakeFirst(all, first, S));
-  PetscCall(MatDestroy(&all));
-  PetscFunctionReturn(0);
-}
-
-/* Gathers K_WW. own: local part of W; w: all of W. */
-static PetscErrorCode ReducedGatherStiffness(Mat K, IS own, PetscInt nw, const PetscInt w[], PetscBool first, Mat *S)
-{
-  ReducedGather g = {.M = nw, .nw = nw, .w = w, .symmetric = PETSC_TRUE};
-  PetscInt     *place, start;
-
-  PetscFunctionBegin;
-  PetscCall(PetscObjectTypeCompareAny((PetscObject)K, &g.half, MATSEQSBAIJ, MATMPISBAIJ, ""));
-  PetscCall(ISGetLocalSize(own, &g.nrows));
-  PetscCall(ISGetIndices(own, &g.rows));
-  PetscCall(PetscMalloc1(g.nrows, &place));
-  PetscCallMPI(MPI_Scan(&g.nrows, &start, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)K)));
-  for (PetscInt r = 0; r < g.nrows; r++) place[r] = start - g.nrows + r;
-  g.place = place;
-  PetscCall(ReducedGatherMatrix(K, &g, first, S));
-  PetscCall(PetscFree(place));
-  PetscCall(ISRestoreIndices(own, &g.rows));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode ReducedGatherRows(Mat J, PetscInt nw, const PetscInt w[], PetscBool first, Mat *S)
-{
-  ReducedGather g = {.nw = nw, .w = w};
-  PetscInt     *rows, start, end;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetOwnershipRange(J, &start, &end));
-  PetscCall(MatGetSize(J, &g.M, NULL));
-  g.nrows = end - start;
-  PetscCall(PetscMalloc1(g.nrows, &rows));
-  for (PetscInt r = 0; r < g.nrows; r++) rows[r] = start + r;
-  g.rows = g.place = rows;
-  PetscCall(ReducedGatherMatrix(J, &g, first, S));
-  PetscCall(PetscFree(rows));
-  PetscFunctionReturn(0);
-}
-
-/* Stacks the rows of two sequential matrices */
-static PetscErrorCode ReducedStackRows(Mat upper, Mat lower, Mat *both)
-{
-  const Mat parts[2] = {upper, lower};
-  PetscInt  m[2], n, *counts;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetSize(upper, &m[0], &n));
-  PetscCall(MatGetSize(lower, &m[1], NULL));
-  PetscCall(PetscMalloc1(m[0] + m[1], &counts));
-  for (PetscInt pass = 0; pass < 2; pass++) {
-    if (pass) PetscCall(MatCreateSeqAIJ(PETSC_COMM_SELF, m[0] + m[1], n, 0, counts, both));
-    for (PetscInt r = 0; r < m[0] + m[1]; r++) {
-      const PetscInt     b = r >= m[0];
-      const PetscInt    *columns;
-      const PetscScalar *values;
-      PetscInt           nc;
-
-      PetscCall(MatGetRow(parts[b], r - b * m[0], &nc, &columns, &values));
-      counts[r] = nc;
-      if (pass) PetscCall(MatSetValues(*both, 1, &r, nc, columns, values, INSERT_VALUES));
-      PetscCall(MatRestoreRow(parts[b], r - b * m[0], &nc, &columns, &values));
-    }
-  }
-  PetscCall(MatAssemblyBegin(*both, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(*both, MAT_FINAL_ASSEMBLY));
-  PetscCall(PetscFree(counts));
-  PetscFunctionReturn(0);
-}
-
-/* Broadcasts the first rank's verdict. An error on the first rank is raised on all ranks. */
-static PetscErrorCode ReducedBroadcast(const IPReduced *r, PetscErrorCode error, PetscBool *verdict)
-{
-  PetscMPIInt said[2] = {(PetscMPIInt)error, (PetscMPIInt)*verdict};
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Bcast(said, 2, MPI_INT, 0, PetscObjectComm((PetscObject)r->on_W)));
-  PetscCall(error);
-  PetscCheck(!said[0], PETSC_COMM_SELF, (PetscErrorCode)said[0],
-    "The reduced problem of the filtered subspace failed on the first rank, with error %d", said[0]);
-  *verdict = (PetscBool)said[1];
-  PetscFunctionReturn(0);
-}
-
-/* Raises an error of the first rank on all ranks. error: what a function returned that only the first rank needs */
-static PetscErrorCode ReducedAgree(const IPReduced *r, PetscErrorCode error)
-{
-  PetscBool none = PETSC_FALSE;
-
-  PetscFunctionBegin;
-  PetscCall(ReducedBroadcast(r, error, &none));
-  PetscFunctionReturn(0);
-}
-
 /* Gathers J_W, followed by T_W if there are norm terms */
 static PetscErrorCode ReducedGatherJacobian(const IPReduced *r, Mat J, const IPTerms *terms, PetscInt nw,
   const PetscInt w[], Mat *S)
@@ -194,13 +17,13 @@ static PetscErrorCode ReducedGatherJacobian(const IPReduced *r, Mat J, const IPT
 
   PetscFunctionBegin;
   if (!terms->n) {
-    PetscCall(ReducedGatherRows(J, nw, w, r->first, S));
+    PetscCall(IPGatherRows(J, nw, w, r->first, S));
     PetscFunctionReturn(0);
   }
-  PetscCall(ReducedGatherRows(J, nw, w, r->first, &JW));
-  PetscCall(ReducedGatherRows(terms->T, nw, w, r->first, &TW));
+  PetscCall(IPGatherRows(J, nw, w, r->first, &JW));
+  PetscCall(IPGatherRows(terms->T, nw, w, r->first, &TW));
   *S = NULL;
-  PetscCall(ReducedAgree(r, r->first ? ReducedStackRows(JW, TW, S) : (PetscErrorCode)0));
+  PetscCall(IPReducedAgree(r, r->first ? IPStackRows(JW, TW, S) : (PetscErrorCode)0));
   PetscCall(MatDestroy(&TW));
   PetscCall(MatDestroy(&JW));
   PetscFunctionReturn(0);
@@ -259,36 +82,8 @@ static PetscErrorCode ReducedFactor(IPReduced *r, PetscBool *definite)
 {
   PetscFunctionBegin;
   *definite = PETSC_FALSE;
-  PetscCall(ReducedBroadcast(r, r->first ? ReducedFactorFirst(r, definite) : (PetscErrorCode)0, definite));
+  PetscCall(IPReducedBroadcast(r, r->first ? ReducedFactorFirst(r, definite) : (PetscErrorCode)0, definite));
   PetscCallMPI(MPI_Bcast(&r->companions.n, 1, MPIU_INT, 0, PetscObjectComm((PetscObject)r->on_W)));
-  PetscFunctionReturn(0);
-}
-
-/* Gathers the entries of v in the array a of length n on the first rank */
-static PetscErrorCode ReducedFetch(VecScatter scatter, Vec v, Vec on_first, PetscInt n, PetscReal a[])
-{
-  const PetscScalar *values;
-
-  PetscFunctionBegin;
-  PetscCall(VecScatterBegin(scatter, v, on_first, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecScatterEnd(scatter, v, on_first, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGetArrayRead(on_first, &values));
-  PetscCall(PetscArraycpy(a, values, n));
-  PetscCall(VecRestoreArrayRead(on_first, &values));
-  PetscFunctionReturn(0);
-}
-
-/* Distributes the array a of the first rank to the entries of v; other entries of v are unchanged */
-static PetscErrorCode ReducedSpread(VecScatter scatter, PetscInt n, const PetscReal a[], Vec on_first, Vec v)
-{
-  PetscScalar *values;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayWrite(on_first, &values));
-  PetscCall(PetscArraycpy(values, a, n));
-  PetscCall(VecRestoreArrayWrite(on_first, &values));
-  PetscCall(VecScatterBegin(scatter, on_first, v, INSERT_VALUES, SCATTER_REVERSE));
-  PetscCall(VecScatterEnd(scatter, on_first, v, INSERT_VALUES, SCATTER_REVERSE));
   PetscFunctionReturn(0);
 }
 
@@ -382,7 +177,7 @@ static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IP
   PetscCall(ISGetSize(all, &nw));
   PetscCall(ISGetIndices(all, &w));
   if (r->first) r->n = nw;
-  PetscCall(ReducedGatherStiffness(K, W, nw, w, r->first, &r->KWW));
+  PetscCall(IPGatherStiffness(K, W, nw, w, r->first, &r->KWW));
   PetscCall(ISCreateGeneral(PETSC_COMM_SELF, r->n, w, PETSC_COPY_VALUES, &mine));
   PetscCall(ISRestoreIndices(all, &w));
   PetscCall(ISDestroy(&all));
@@ -392,7 +187,7 @@ static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IP
   PetscCall(ISDestroy(&places));
   PetscCall(ISDestroy(&mine));
   PetscCall(ReducedFactor(r, definite));
-  PetscCall(ReducedAgree(r, ReducedAllocate(r, r->companions.n + basis->max)));
+  PetscCall(IPReducedAgree(r, ReducedAllocate(r, r->companions.n + basis->max)));
   r->K_id = ((PetscObject)K)->id;
   PetscCall(PetscObjectStateGet((PetscObject)K, &r->K_state));
   PetscFunctionReturn(0);
@@ -443,7 +238,7 @@ static PetscErrorCode ReducedSetRows(IPReduced *r, const IPLawsOps *ops, Mat J, 
   PetscCall(ISDestroy(&all));
   PetscCall(VecScatterCreateToZero(c, &r->to_rows, &r->on_rows));
   if (terms->n) PetscCall(VecScatterCreateToZero(terms->t, &r->to_terms, &r->on_terms));
-  PetscCall(ReducedBroadcast(r, ReducedSetLocalRows(r, JW, definite), definite));
+  PetscCall(IPReducedBroadcast(r, ReducedSetLocalRows(r, JW, definite), definite));
   PetscCall(MatDestroy(&JW));
   PetscFunctionReturn(0);
 }
@@ -481,59 +276,6 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, 
 }
 
 /*
-   Sets the limits, coefficients and immovable directions of the norm terms. scale: scales of the rows of c_I; NULL: all
-   are 1.
-*/
-PetscErrorCode IPReducedSetTerms(IPReduced *r, const IPTerms *terms, Vec scale)
-{
-  const Vec  given[2] = {terms->limit, terms->coefficient};
-  IPLawsData data     = {0};
-  PetscReal *values[2];
-  Vec        scaled;
-
-  PetscFunctionBegin;
-  if (!terms->n) PetscFunctionReturn(0);
-  if (r->laws) PetscCall(r->lawsops->getdata(r->laws, &data));
-  PetscCall(ReducedFetch(r->to_terms, terms->rigid, r->on_terms, 2 * r->nterms, data.rigid));
-  values[0] = data.limit;
-  values[1] = data.coefficient;
-  for (PetscInt i = 0; i < r->nterms; i++) {
-    data.limit[i]       = PETSC_INFINITY;
-    data.coefficient[i] = -1.0;
-  }
-  for (PetscInt k = 0; k < 2; k++) {
-    VecScatter scatter;
-    Vec        on_first;
-
-    if (!given[k]) continue;
-    PetscCall(VecDuplicate(given[k], &scaled));
-    PetscCall(VecCopy(given[k], scaled));
-    if (k && scale) PetscCall(VecPointwiseMult(scaled, scaled, scale));
-    PetscCall(VecScatterCreateToZero(scaled, &scatter, &on_first));
-    PetscCall(ReducedFetch(scatter, scaled, on_first, r->nterms, values[k]));
-    PetscCall(VecScatterDestroy(&scatter));
-    PetscCall(VecDestroy(&on_first));
-    PetscCall(VecDestroy(&scaled));
-  }
-  PetscFunctionReturn(0);
-}
-
-/*
-   Sets the stiffness of the springs that K_WW contains: D of the constraints, D_t of the norm terms' rows. The laws
-   subtract the springs' forces again, so that the solution does not depend on them.
-*/
-PetscErrorCode IPReducedSetSprings(IPReduced *r, Vec D, Vec Dt)
-{
-  IPReducedSystem *s = &r->system;
-
-  PetscFunctionBegin;
-  PetscCall(ReducedAgree(r, PetscMalloc2(s->m, &s->spring, s->m, &s->start)));
-  PetscCall(ReducedFetch(r->to_rows, D, r->on_rows, r->m, s->spring));
-  PetscCall(ReducedFetch(r->to_terms, Dt, r->on_terms, 2 * r->nterms, s->spring + r->m));
-  PetscFunctionReturn(0);
-}
-
-/*
    Sets the initial active set to the rows whose `guess` is positive, and the initial forces of constraints and norm
    terms
 */
@@ -544,7 +286,7 @@ PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms 
 
   PetscFunctionBegin;
   if (r->laws) PetscCall(r->lawsops->getdata(r->laws, &data));
-  PetscCall(ReducedFetch(r->to_rows, guess, r->on_rows, r->m, s->gap));
+  PetscCall(IPReducedFetch(r->to_rows, guess, r->on_rows, r->m, s->gap));
   for (PetscInt i = 0; i < r->m; i++) {
     PetscBool *active = r->laws ? data.closed : r->set.active;
 
@@ -553,8 +295,8 @@ PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms 
   r->set.factored = PETSC_FALSE;
   if (r->laws) PetscCall(r->lawsops->restart(r->laws));
   if (!terms->n) PetscFunctionReturn(0);
-  PetscCall(ReducedFetch(r->to_rows, force, r->on_rows, r->m, s->lambda));
-  PetscCall(ReducedFetch(r->to_terms, terms->force, r->on_terms, 2 * r->nterms, s->lambda + r->m));
+  PetscCall(IPReducedFetch(r->to_rows, force, r->on_rows, r->m, s->lambda));
+  PetscCall(IPReducedFetch(r->to_terms, terms->force, r->on_terms, 2 * r->nterms, s->lambda + r->m));
   PetscFunctionReturn(0);
 }
 
@@ -598,10 +340,10 @@ PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, con
   IPReducedSystem *s = &r->system;
 
   PetscFunctionBegin;
-  PetscCall(ReducedFetch(r->to_W, gradient, r->on_W, r->n, r->g));
-  PetscCall(ReducedFetch(r->to_rows, c, r->on_rows, r->m, s->gap));
-  if (value) PetscCall(ReducedFetch(r->to_terms, value, r->on_terms, 2 * r->nterms, s->gap + r->m));
-  PetscCall(ReducedAgree(r, r->first ? ReducedCenterFirst(r, pg) : (PetscErrorCode)0));
+  PetscCall(IPReducedFetch(r->to_W, gradient, r->on_W, r->n, r->g));
+  PetscCall(IPReducedFetch(r->to_rows, c, r->on_rows, r->m, s->gap));
+  if (value) PetscCall(IPReducedFetch(r->to_terms, value, r->on_terms, 2 * r->nterms, s->gap + r->m));
+  PetscCall(IPReducedAgree(r, r->first ? ReducedCenterFirst(r, pg) : (PetscErrorCode)0));
   PetscFunctionReturn(0);
 }
 
@@ -614,7 +356,7 @@ PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscRe
 
   PetscFunctionBegin;
   if (most <= 0) PetscFunctionReturn(0);
-  PetscCall(ReducedAgree(r, PetscMalloc1((size_t)r->n * (size_t)most, &Q)));
+  PetscCall(IPReducedAgree(r, PetscMalloc1((size_t)r->n * (size_t)most, &Q)));
   while (s->k < before + basis->n) {
     const PetscInt k = s->k, n = PetscMin(chunk, before + basis->n - k);
 
@@ -622,11 +364,11 @@ PetscErrorCode IPReducedAppend(IPReduced *r, const IPBasis *basis, const PetscRe
       PetscReal *T = &s->T[(k + j) * s->kmax];
 
       PetscCall(IPBasisGetForces(basis, k + j - before, basis->Kd));
-      PetscCall(ReducedFetch(r->to_W, basis->Kd, r->on_W, r->n, &Q[(size_t)j * (size_t)r->n]));
+      PetscCall(IPReducedFetch(r->to_W, basis->Kd, r->on_W, r->n, &Q[(size_t)j * (size_t)r->n]));
       PetscCall(PetscArrayzero(T, before));
       PetscCall(PetscArraycpy(T + before, &basis->gram[(k + j - before) * basis->max], k + n - before));
     }
-    PetscCall(ReducedAgree(r, r->first ? ReducedAppendColumns(r, n, Q) : (PetscErrorCode)0));
+    PetscCall(IPReducedAgree(r, r->first ? ReducedAppendColumns(r, n, Q) : (PetscErrorCode)0));
     if (!r->first) s->k += n;
     for (PetscInt j = k; j < k + n && r->first; j++) ReducedLoad(r, j, pg);
   }
@@ -709,9 +451,9 @@ static PetscErrorCode ReducedRecover(IPReduced *r, Vec v)
   PetscReal *w;
 
   PetscFunctionBegin;
-  PetscCall(ReducedAgree(r, PetscMalloc1(r->n, &w)));
-  PetscCall(ReducedAgree(r, r->first ? ReducedRecoverFirst(r, w) : (PetscErrorCode)0));
-  PetscCall(ReducedSpread(r->to_W, r->n, w, r->on_W, v));
+  PetscCall(IPReducedAgree(r, PetscMalloc1(r->n, &w)));
+  PetscCall(IPReducedAgree(r, r->first ? ReducedRecoverFirst(r, w) : (PetscErrorCode)0));
+  PetscCall(IPReducedSpread(r->to_W, r->n, w, r->on_W, v));
   PetscCall(PetscFree(w));
   PetscFunctionReturn(0);
 }
@@ -741,11 +483,11 @@ PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec
 
   PetscFunctionBegin;
   *solved = PETSC_FALSE;
-  PetscCall(ReducedBroadcast(r, r->first ? ReducedSolveFirst(r, solved) : (PetscErrorCode)0, solved));
+  PetscCall(IPReducedBroadcast(r, r->first ? ReducedSolveFirst(r, solved) : (PetscErrorCode)0, solved));
   if (!*solved) PetscFunctionReturn(0);
   PetscCall(ReducedRecover(r, v));
-  PetscCall(ReducedSpread(r->to_rows, r->m, s->lambda, r->on_rows, force));
-  if (terms) PetscCall(ReducedSpread(r->to_terms, 2 * r->nterms, s->lambda + r->m, r->on_terms, terms));
+  PetscCall(IPReducedSpread(r->to_rows, r->m, s->lambda, r->on_rows, force));
+  if (terms) PetscCall(IPReducedSpread(r->to_terms, 2 * r->nterms, s->lambda + r->m, r->on_terms, terms));
   PetscCallMPI(MPI_Bcast(s->y, (PetscMPIInt)s->k, MPIU_REAL, 0, comm));
   PetscCall(PetscArraycpy(y, s->y + r->companions.n, s->k - r->companions.n));
   counts[0] = r->nsteps;
@@ -755,49 +497,6 @@ PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec
   r->nsteps  = counts[0];
   r->nactive = counts[1];
   r->met     = (PetscBool)counts[2];
-  PetscFunctionReturn(0);
-}
-
-/* Sets the coefficients to zero of the terms that the laws have released */
-static PetscErrorCode ReducedRelease(const IPReduced *r, const PetscReal own[], Vec coefficient)
-{
-  PetscScalar *a;
-  VecScatter   scatter;
-  Vec          on_first;
-
-  PetscFunctionBegin;
-  if (!coefficient) PetscFunctionReturn(0);
-  PetscCall(VecScatterCreateToZero(coefficient, &scatter, &on_first));
-  PetscCall(VecScatterBegin(scatter, coefficient, on_first, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecScatterEnd(scatter, coefficient, on_first, INSERT_VALUES, SCATTER_FORWARD));
-  PetscCall(VecGetArray(on_first, &a));
-  for (PetscInt i = 0; r->laws && i < r->nterms; i++) {
-    if (own[i] == 0.0) a[i] = 0.0;
-  }
-  PetscCall(VecRestoreArray(on_first, &a));
-  PetscCall(VecScatterBegin(scatter, on_first, coefficient, INSERT_VALUES, SCATTER_REVERSE));
-  PetscCall(VecScatterEnd(scatter, on_first, coefficient, INSERT_VALUES, SCATTER_REVERSE));
-  PetscCall(VecScatterDestroy(&scatter));
-  PetscCall(VecDestroy(&on_first));
-  PetscFunctionReturn(0);
-}
-
-/* Changes coefficients and references of the norm terms as the laws have done */
-PetscErrorCode IPReducedChangeTerms(const IPReduced *r, const IPTerms *terms)
-{
-  IPLawsData data = {0};
-  Vec        shift;
-
-  PetscFunctionBegin;
-  if (r->laws) PetscCall(r->lawsops->getdata(r->laws, &data));
-  PetscCallMPI(MPI_Bcast(&data.nreleased, 1, MPIU_INT, 0, PetscObjectComm((PetscObject)terms->t)));
-  if (!data.nreleased) PetscFunctionReturn(0);
-  PetscCall(ReducedRelease(r, data.coefficient, terms->coefficient));
-  PetscCall(VecDuplicate(terms->t, &shift));
-  PetscCall(ReducedSpread(r->to_terms, 2 * r->nterms, data.shift, r->on_terms, shift));
-  PetscCall(VecAXPY(terms->t, -1.0, shift));
-  PetscCall(VecDestroy(&shift));
-  if (r->laws) PetscCall(PetscArrayzero(data.shift, 2 * r->nterms));
   PetscFunctionReturn(0);
 }
 
@@ -846,14 +545,14 @@ PetscErrorCode IPReducedSolveActive(IPReduced *r, const IPBasis *basis, Vec f, V
   *solved =
     (PetscBool)(r->to_rows && !r->to_terms && r->generation == basis->generation && s->k == r->companions.n + basis->n);
   if (!*solved) PetscFunctionReturn(0);
-  PetscCall(ReducedFetch(r->to_W, f, r->on_W, r->n, r->g));
+  PetscCall(IPReducedFetch(r->to_W, f, r->on_W, r->n, r->g));
   if (r->scale) PetscCall(VecPointwiseMult(force, c, r->scale));
-  PetscCall(ReducedFetch(r->to_rows, r->scale ? force : c, r->on_rows, r->m, s->gap));
-  PetscCall(ReducedBroadcast(r, r->first ? ReducedSolveActiveFirst(r, solved) : (PetscErrorCode)0, solved));
+  PetscCall(IPReducedFetch(r->to_rows, r->scale ? force : c, r->on_rows, r->m, s->gap));
+  PetscCall(IPReducedBroadcast(r, r->first ? ReducedSolveActiveFirst(r, solved) : (PetscErrorCode)0, solved));
   if (!*solved) PetscFunctionReturn(0);
   PetscCall(VecZeroEntries(v));
   PetscCall(ReducedRecover(r, v));
-  PetscCall(ReducedSpread(r->to_rows, r->m, s->lambda, r->on_rows, force));
+  PetscCall(IPReducedSpread(r->to_rows, r->m, s->lambda, r->on_rows, force));
   if (r->scale) PetscCall(VecPointwiseMult(force, force, r->scale));
   PetscCallMPI(MPI_Bcast(s->y, (PetscMPIInt)s->k, MPIU_REAL, 0, PetscObjectComm((PetscObject)v)));
   PetscCall(IPBasisAdd(basis, s->y + r->companions.n, v));

@@ -233,6 +233,15 @@ PETSC_INTERN PetscErrorCode IPActiveSetSolveRows(IPActiveSet *, IPCompliance *, 
 PETSC_INTERN PetscErrorCode IPActiveSetSolve(IPActiveSet *, IPCompliance *, const IPReducedSystem *, PetscInt *steps,
   PetscBool *solved);
 
+/* gather_first.c */
+PETSC_INTERN PetscErrorCode IPGatherStiffness(Mat K, IS own, PetscInt nw, const PetscInt w[], PetscBool first, Mat *);
+PETSC_INTERN PetscErrorCode IPGatherRows(Mat J, PetscInt nw, const PetscInt w[], PetscBool first, Mat *);
+PETSC_INTERN PetscErrorCode IPStackRows(Mat upper, Mat lower, Mat *both);
+PETSC_INTERN PetscErrorCode IPReducedBroadcast(const IPReduced *, PetscErrorCode, PetscBool *verdict);
+PETSC_INTERN PetscErrorCode IPReducedAgree(const IPReduced *, PetscErrorCode);
+PETSC_INTERN PetscErrorCode IPReducedFetch(VecScatter, Vec, Vec on_first, PetscInt n, PetscReal a[]);
+PETSC_INTERN PetscErrorCode IPReducedSpread(VecScatter, PetscInt n, const PetscReal a[], Vec on_first, Vec);
+
 /* reduced.c */
 PETSC_INTERN PetscErrorCode IPReducedIsOf(const IPReduced *, Mat K, PetscBool *same);
 PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, const IPLawsOps *, Mat K, Mat J, const IPTerms *, IS W, Vec x,
@@ -240,17 +249,19 @@ PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, const IPLawsOps *, Mat K
 PETSC_INTERN PetscErrorCode IPReducedRelease(IPReduced *);
 PETSC_INTERN PetscErrorCode IPReducedScale(IPReduced *, Vec scale);
 PETSC_INTERN PetscErrorCode IPReducedDestroy(IPReduced *);
-PETSC_INTERN PetscErrorCode IPReducedSetTerms(IPReduced *, const IPTerms *, Vec scale);
-PETSC_INTERN PetscErrorCode IPReducedSetSprings(IPReduced *, Vec D, Vec Dt);
 PETSC_INTERN PetscErrorCode IPReducedGuess(IPReduced *, Vec guess, Vec force, const IPTerms *);
 PETSC_INTERN PetscErrorCode IPReducedCenter(IPReduced *, Vec gradient, Vec c, Vec value, const PetscReal pg[]);
 PETSC_INTERN PetscErrorCode IPReducedAppend(IPReduced *, const IPBasis *, const PetscReal pg[]);
 PETSC_INTERN PetscErrorCode IPReducedForget(IPReduced *, const IPBasis *);
 PETSC_INTERN PetscErrorCode IPReducedCoupling(const IPReduced *, const IPBasis *, PetscReal E[]);
 PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved);
-PETSC_INTERN PetscErrorCode IPReducedChangeTerms(const IPReduced *, const IPTerms *);
 PETSC_INTERN PetscErrorCode IPReducedSolveActive(IPReduced *, const IPBasis *, Vec f, Vec c, Vec v, Vec force,
   PetscBool *solved);
+
+/* reduced_terms.c */
+PETSC_INTERN PetscErrorCode IPReducedSetTerms(IPReduced *, const IPTerms *, Vec scale);
+PETSC_INTERN PetscErrorCode IPReducedSetSprings(IPReduced *, Vec D, Vec Dt);
+PETSC_INTERN PetscErrorCode IPReducedChangeTerms(const IPReduced *, const IPTerms *);
 
 /* recycle.c */
 PETSC_INTERN PetscErrorCode IPRecycleGet(Tao, IPRecycle **);

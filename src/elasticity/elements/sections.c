@@ -108,24 +108,11 @@ static PetscErrorCode SectionCut(Elasticity e, const PetscScalar sides[], PetscI
   PetscFunctionReturn(0);
 }
 
-/*@
-  ElasticityAddSection - Adds a section through a body, for the pretension of a bolt
-
-  Collective
-
-  Input Parameters:
-+ e     - the context
-. body  - number of the body
-. point - a point of the plane [length]
-- axis  - normal of the plane, of any length but 0
-
-  Output Parameter:
-. ncells - number of cells that the plane cuts, on all ranks; negative: another section also cuts one of them
-
-  Level: beginner
-
-.seealso: `ElasticitySetShortening()`, `ElasticityGetSectionForces()`
-@*/
+/*
+   Collective. Adds a section through a body, for the pretension of a bolt. body: number of the body; point: a point of
+   the plane [length]; axis: normal of the plane, of any length but 0; *ncells: number of cells that the plane cuts, on
+   all ranks; negative: another section also cuts one of them.
+*/
 PetscErrorCode ElasticityAddSection(Elasticity e, PetscInt body, const PetscReal point[3], const PetscReal axis[3],
   PetscInt *ncells)
 {
@@ -154,20 +141,10 @@ PetscErrorCode ElasticityAddSection(Elasticity e, PetscInt body, const PetscReal
   PetscFunctionReturn(0);
 }
 
-/*@
-  ElasticitySetShortening - Sets the length by which a section shortens its body
-
-  Logically Collective
-
-  Input Parameters:
-+ e          - the context
-. section    - number of the section, in the order of `ElasticityAddSection()`
-- shortening - the shortening [length]
-
-  Level: beginner
-
-.seealso: `ElasticityAddSection()`
-@*/
+/*
+   Logically collective. Sets the length by which a section shortens its body. section: number of the section, in the
+   order of `ElasticityAddSection()`; shortening: the shortening [length].
+*/
 PetscErrorCode ElasticitySetShortening(Elasticity e, PetscInt section, PetscReal shortening)
 {
   PetscFunctionBegin;
@@ -175,22 +152,10 @@ PetscErrorCode ElasticitySetShortening(Elasticity e, PetscInt section, PetscReal
   PetscFunctionReturn(0);
 }
 
-/*@
-  ElasticityGetSectionForces - Gets the forces in all sections
-
-  Collective
-
-  Input Parameters:
-+ e - the context
-- u - displacement, global, 3 components per node [length]
-
-  Output Parameter:
-. force - force of each section along its axis, positive for tension [force]; infinite if a cut cell is inverted
-
-  Level: beginner
-
-.seealso: `ElasticityAddSection()`
-@*/
+/*
+   Collective. Gets the forces in all sections. u: displacement, global, 3 components per node [length]; *force: force
+   of each section along its axis, positive for tension [force]; infinite if a cut cell is inverted.
+*/
 PetscErrorCode ElasticityGetSectionForces(Elasticity e, Vec u, PetscReal force[])
 {
   Vec                local;

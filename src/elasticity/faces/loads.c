@@ -71,29 +71,15 @@ static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body,
   PetscFunctionReturn(0);
 }
 
-/*@
-  ElasticityLumpedMass - Computes the lumped mass of unit density, by row sums: the integral of each node's shape
-  function
+/*
+   Collective. Computes the lumped mass of unit density, by row sums: the integral of each node's shape function. e: the
+   context; *mass: new global vector, the same positive value for the 3 components of a node [length^3].
 
-  Collective
+   In tetrahedra of 10 nodes, where row sums are negative at the corners, masses are in proportion to the diagonal of
+   the mass matrix.
 
-  Input Parameter:
-. e - the context
-
-  Output Parameter:
-. mass - new global vector, the same positive value for the 3 components of a node [length^3]
-
-  Level: intermediate
-
-  Notes:
-  In tetrahedra of 10 nodes, where row sums are negative at the corners, masses are in proportion to the diagonal of
-  the mass matrix.
-
-  References:
-  Hinton, Rock and Zienkiewicz, A note on mass lumping and related processes in the finite element method, 1976.
-
-.seealso: `ElasticityCreate()`, `ElasticityAddBodyForce()`
-@*/
+   Hinton, Rock and Zienkiewicz, A note on mass lumping and related processes in the finite element method, 1976.
+*/
 PetscErrorCode ElasticityLumpedMass(Elasticity e, Vec *mass)
 {
   const PetscReal one[3] = {1, 1, 1};
@@ -105,23 +91,11 @@ PetscErrorCode ElasticityLumpedMass(Elasticity e, Vec *mass)
   PetscFunctionReturn(0);
 }
 
-/*@
-  ElasticityAddBodyForce - Adds a dead force per reference volume
-
-  Collective
-
-  Input Parameters:
-+ e       - the context
-. body    - the body, from 0; `PETSC_DECIDE` for every body
-- density - the force per reference volume [force/length^3]
-
-  Output Parameter:
-. force - global vector; the load is added to it, on all rows, the prescribed ones too [force]
-
-  Level: intermediate
-
-.seealso: `ElasticityAddPressure()`, `ElasticityForce()`
-@*/
+/*
+   Collective. Adds a dead force per reference volume. body: the body, from 0; `PETSC_DECIDE` for every body; density:
+   the force per reference volume [force/length^3]; *force: global vector; the load is added to it, on all rows, the
+   prescribed ones too [force].
+*/
 PetscErrorCode ElasticityAddBodyForce(Elasticity e, PetscInt body, const PetscReal density[3], Vec force)
 {
   PetscFunctionBegin;
@@ -191,27 +165,14 @@ static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], Pets
   PetscFunctionReturn(0);
 }
 
-/*@
-  ElasticityAddPressure - Adds the load of a dead pressure on a face, -pressure times the reference normal
+/*
+   Collective. Adds the load of a dead pressure on a face, -pressure times the reference normal. face: name of the face,
+   "<body>.<face>"; pressure: positive pushes on the body [force/length^2]; *force: global vector; the load is added to
+   it, on all rows, the prescribed ones too [force].
 
-  Collective
-
-  Input Parameters:
-+ e        - the context
-. face     - name of the face, "<body>.<face>"
-- pressure - positive pushes on the body [force/length^2]
-
-  Output Parameter:
-. force - global vector; the load is added to it, on all rows, the prescribed ones too [force]
-
-  Level: intermediate
-
-  Notes:
-  The load is integrated exactly over the facets of the reference geometry, bilinear or biquadratic. A name that is not
-  a face of the mesh is an error.
-
-.seealso: `ElasticityAddBodyForce()`, `ElasticityForce()`, `MeshGetFacets()`
-@*/
+   The load is integrated exactly over the facets of the reference geometry, bilinear or biquadratic. A name that is not
+   a face of the mesh is an error.
+*/
 PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal pressure, Vec force)
 {
   PetscFunctionBegin;

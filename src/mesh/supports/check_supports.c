@@ -82,22 +82,10 @@ static PetscErrorCode SupportFindUnsupported(DM dm, Scene scene, PetscBool unsup
   PetscFunctionReturn(0);
 }
 
-/*@
-  MeshGetUnsupported - Finds the bodies that have free rigid body motions
-
-  Collective
-
-  Input Parameters:
-+ dm    - the mesh, created by `MeshCreate()`
-- scene - the scene
-
-  Output Parameter:
-. unsupported - one value per body: whether any of its rigid body motions is free
-
-  Level: intermediate
-
-.seealso: `MeshCheckScene()`
-@*/
+/*
+   Collective. Finds the bodies that have free rigid body motions. dm: the mesh, created by `MeshCreate()`;
+   *unsupported: one value per body: whether any of its rigid body motions is free.
+*/
 PetscErrorCode MeshGetUnsupported(DM dm, Scene scene, PetscBool unsupported[])
 {
   PetscFunctionBegin;
