@@ -74,7 +74,15 @@ PETSC_EXTERN PetscErrorCode MeshSurfacesDestroy(MeshSurfaces *);
 /* Checks that the faces that a scene names have facets, and that every body is held by displacements, springs, ties or
    contact pairs */
 PETSC_EXTERN PetscErrorCode MeshCheckScene(DM, Scene);
-PETSC_EXTERN PetscErrorCode MeshGetUnsupported(DM, Scene, PetscBool unsupported[]);
+/* A rotation of a body that nothing resists if the other bodies are held, such as that of a pin about its axis */
+typedef struct {
+  PetscBool free, any;         /* whether there is one; whether it may be about any axis through the point */
+  PetscBool slides;            /* whether nothing resists a translation along the axis either */
+  PetscReal axis[3], point[3]; /* unit vector; a point of the axis [length] */
+  PetscReal size;              /* half of the largest side of the body's bounding box [length] */
+} MeshRotation;
+/* Finds the bodies with free rigid body motions, and their rotations without resistance */
+PETSC_EXTERN PetscErrorCode MeshGetUnsupported(DM, Scene, PetscBool unsupported[], MeshRotation rotations[]);
 /* Gets the facets of a named face on this rank as local DMPlex points, sorted. Each facet is on exactly one rank. */
 PETSC_EXTERN PetscErrorCode MeshGetFacets(DM, const char face[], IS *facets);
 /* Gets the vertices of a face on this rank (DMPlex points), including those whose facets other ranks own */

@@ -49,7 +49,8 @@ PETSC_EXTERN const char *const BodyShapes[];
 #define BODY_OWN 64
 
 /* Positions of a rigid surface's parameters in the array `own` of SceneBody. Point and axis have three numbers each. */
-#define SURFACE_MAX_PROFILE 40 /* numbers of a profile */
+#define MODEL_WEAK_SPRINGS  1e-7 /* stiffness of weak springs as a fraction of the body's, if the scene gives none */
+#define SURFACE_MAX_PROFILE 40   /* numbers of a profile */
 
 enum {
   SURFACE_POINT   = 0,

@@ -59,11 +59,13 @@ typedef struct {
   Vec        stiffness, weak; /* stiffness per row of all springs to the ground, and of the weak springs alone
                                  [force/length]; NULL if there are none */
   Mat        between; /* stiffness of springs between faces and of connectors [force/length]; NULL if there are none */
-  Connector *connectors; /* [connectors of the scene] */
-  Mat        dampers;    /* damping matrix of connectors [force time/length]; NULL if there are no dampers */
-  PetscReal  rate;       /* derivative of the velocity at the end of a time step with respect to the displacement, by
+  Connector *connectors;   /* [connectors of the scene] */
+  Mat        dampers;      /* damping matrix of connectors [force time/length]; NULL if there are no dampers */
+  PetscReal  rate;         /* derivative of the velocity at the end of a time step with respect to the displacement, by
                             which tangents contain the dampers [1/time] */
-  PetscInt   nweak;      /* number of bodies with weak springs */
+  PetscInt   nweak;        /* number of bodies with weak springs */
+  PetscReal  softness;     /* stiffness of the weak springs as a fraction of the body's */
+  MeshRotation *rotations; /* [bodies] rotations that only weak springs resist; NULL if there are no weak springs */
 } Springs;
 
 /* springs.c: SpringsMeasureStiffness() computes the largest product of Young's modulus and size of a body
@@ -74,6 +76,9 @@ PETSC_INTERN PetscErrorCode SpringsOfSize(const Bodies *, PetscReal share, Vec s
 PETSC_INTERN PetscErrorCode SpringsCreate(const Bodies *, Springs *);
 PETSC_INTERN PetscErrorCode SpringsMeasure(const Bodies *, const Springs *, Vec u, PetscReal force[], PetscReal *weak);
 PETSC_INTERN PetscErrorCode SpringsDestroy(Springs *);
+
+/* rotations.c: text for the axis of a rotation that only weak springs resist */
+PETSC_INTERN PetscErrorCode RotationDescribe(const MeshRotation *, size_t size, char text[]);
 
 /* bolts.c: pretension of bolts: forces and shortenings of the sections */
 typedef struct {

@@ -61,35 +61,63 @@ PetscErrorCode SpringsOfSize(const Bodies *bodies, PetscReal share, Vec stiffnes
   PetscFunctionReturn(0);
 }
 
+/* Finds whether bodies may need weak springs: if the scene asks for them, or if it has contact without friction, on
+   which round bodies may rotate */
+static PetscBool SpringsMayBeWeak(Scene scene)
+{
+  if (scene->weak_springs) return PETSC_TRUE;
+  for (PetscInt p = 0; p < scene->npairs && !SceneIsDynamic(scene); ++p) {
+    if (!scene->pairs[p].self && !SceneContactPairHasFriction(&scene->pairs[p])) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+/* Collective. Finds the bodies that get weak springs. unsupported: whether each body gets them */
+static PetscErrorCode SpringsFindWeak(const Bodies *bodies, Springs *springs, PetscBool unsupported[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(bodies->scene->nbodies, &springs->rotations));
+  PetscCall(MeshGetUnsupported(bodies->dm, bodies->scene, unsupported, springs->rotations));
+  for (PetscInt b = 0; b < bodies->scene->nbodies; ++b) {
+    springs->nweak += unsupported[b];
+    if (!unsupported[b]) springs->rotations[b].free = PETSC_FALSE;
+  }
+  springs->softness = bodies->scene->weak_springs ? bodies->scene->weak_springs : MODEL_WEAK_SPRINGS;
+  PetscFunctionReturn(0);
+}
+
 /* Collective. Creates weak springs on bodies that are not held. They carry unbalanced forces, and hardly affect the
    deformation. */
-static PetscErrorCode SpringsCreateWeak(const Bodies *bodies, Springs *springs)
+static PetscErrorCode SpringsCreateWeak(const Bodies *bodies, const PetscBool unsupported[], Springs *springs)
 {
-  PetscBool   *unsupported;
   PetscScalar *k;
   PetscInt     n;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(bodies->scene->nbodies, &unsupported));
-  PetscCall(MeshGetUnsupported(bodies->dm, bodies->scene, unsupported));
   PetscCall(VecDuplicate(bodies->mass, &springs->weak));
-  PetscCall(SpringsOfSize(bodies, bodies->scene->weak_springs, springs->weak));
+  PetscCall(SpringsOfSize(bodies, springs->softness, springs->weak));
   PetscCall(VecGetLocalSize(springs->weak, &n));
   PetscCall(VecGetArray(springs->weak, &k));
   for (PetscInt i = 0; i < n; ++i) {
     if (!unsupported[bodies->places.body[i / 3]]) k[i] = 0.0;
   }
   PetscCall(VecRestoreArray(springs->weak, &k));
-  for (PetscInt b = 0; b < bodies->scene->nbodies; ++b) springs->nweak += unsupported[b];
-  PetscCall(PetscFree(unsupported));
   PetscFunctionReturn(0);
 }
 
 /* Collective. Creates all springs. Must be called before the first tangent is created. */
 PetscErrorCode SpringsCreate(const Bodies *bodies, Springs *springs)
 {
+  PetscBool *unsupported, weak;
+
   PetscFunctionBegin;
-  if (!bodies->scene->nsprings && !bodies->scene->nconnectors && !bodies->scene->weak_springs) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(bodies->scene->nbodies, &unsupported));
+  if (SpringsMayBeWeak(bodies->scene)) PetscCall(SpringsFindWeak(bodies, springs, unsupported));
+  weak = (PetscBool)(bodies->scene->weak_springs || springs->nweak);
+  if (!bodies->scene->nsprings && !bodies->scene->nconnectors && !weak) {
+    PetscCall(PetscFree(unsupported));
+    PetscFunctionReturn(0);
+  }
   PetscCall(VecDuplicate(bodies->mass, &springs->stiffness));
   PetscCall(VecZeroEntries(springs->stiffness));
   for (PetscInt s = 0; s < bodies->scene->nsprings; ++s) {
@@ -99,11 +127,12 @@ PetscErrorCode SpringsCreate(const Bodies *bodies, Springs *springs)
   }
   PetscCall(CouplingsCreate(bodies, &springs->between));
   PetscCall(ConnectorsCreate(bodies, springs));
-  if (bodies->scene->weak_springs) {
-    PetscCall(SpringsCreateWeak(bodies, springs));
+  if (weak) {
+    PetscCall(SpringsCreateWeak(bodies, unsupported, springs));
     PetscCall(VecAXPY(springs->stiffness, 1.0, springs->weak));
   }
   PetscCall(ElasticitySetSprings(bodies->elasticity, springs->stiffness, springs->between));
+  PetscCall(PetscFree(unsupported));
   PetscFunctionReturn(0);
 }
 
@@ -153,5 +182,6 @@ PetscErrorCode SpringsDestroy(Springs *springs)
   PetscCall(MatDestroy(&springs->between));
   PetscCall(MatDestroy(&springs->dampers));
   PetscCall(PetscFree(springs->connectors));
+  PetscCall(PetscFree(springs->rotations));
   PetscFunctionReturn(0);
 }

@@ -117,8 +117,8 @@ static PetscErrorCode EffectsSetLoads(Simulation sim, const EffectCounts *n, Run
   PetscCall(EffectSet(report, "springs", (PetscBool)(scene->nsprings + scene->nconnectors > 0),
     "%" PetscInt_FMT " springs on faces, %" PetscInt_FMT " between points", scene->nsprings, scene->nconnectors));
   PetscCall(EffectSetCount(report, "pretension", scene->nbolts, "bolts"));
-  PetscCall(EffectSet(report, "weak springs", (PetscBool)(scene->weak_springs > 0.0),
-    scene->weak_springs ? "they hold %" PetscInt_FMT " bodies without supports" : "weak_springs is not set",
+  PetscCall(EffectSet(report, "weak springs", (PetscBool)(sim->springs.weak != NULL),
+    sim->springs.weak ? "they hold %" PetscInt_FMT " bodies without supports" : "weak_springs is not set",
     sim->springs.nweak));
   PetscCall(EffectSetCount(report, "thermal strain", scene->ntemperatures, "temperatures"));
   PetscCall(EffectSet(report, "ties", (PetscBool)(scene->nties + scene->ncyclic > 0),

@@ -90,6 +90,28 @@ static PetscErrorCode SimulationSetUpReport(Simulation sim)
   PetscFunctionReturn(0);
 }
 
+/* Warns of the bodies that can rotate freely although the scene has no weak springs. With weak_springs it is a note. */
+static PetscErrorCode SimulationReportRotations(Simulation sim)
+{
+  Scene scene = sim->scene;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies && sim->springs.rotations; ++b) {
+    char axis[160];
+
+    if (!sim->springs.rotations[b].free) continue;
+    PetscCall(RotationDescribe(&sim->springs.rotations[b], sizeof(axis), axis));
+    if (!scene->weak_springs)
+      PetscCall(ReportWarn(sim->comm, &sim->report,
+        "body \"%s\" can turn %s: no contact or support resists; weak springs of %g of its stiffness hold it",
+        scene->bodies[b].name, axis, (double)sim->springs.softness));
+    else if (sim->control->monitor)
+      PetscCall(
+        PetscPrintf(sim->comm, "Body \"%s\" can turn %s: only weak springs resist\n", scene->bodies[b].name, axis));
+  }
+  PetscFunctionReturn(0);
+}
+
 /*@C
    SimulationSetUp - Creates the mesh, the elastic bodies and their tangent, dead loads and contact pairs of the scene,
    at time 0 with zero displacement
@@ -137,6 +159,7 @@ PetscErrorCode SimulationSetUp(Simulation sim)
   PetscCall(SimulationSetUpContact(sim));
   PetscCall(ForecastSetUp(sim));
   PetscCall(SimulationSetUpReport(sim));
+  PetscCall(SimulationReportRotations(sim));
   PetscCall(PetscLogEventEnd(SIM_SetUp, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

@@ -60,37 +60,64 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const void *o
   PetscFunctionReturn(0);
 }
 
-/* Collective. Finds the bodies with free modes. The first of them is reported as an error, unless the scene has weak
-   springs. unsupported: whether each body has a free mode; NULL if not needed */
-static PetscErrorCode SupportFindUnsupported(DM dm, Scene scene, PetscBool unsupported[])
+/* Collective. Creates the links of everything in the scene that holds bodies. Free with SupportDestroy(). centres:
+   whether frictionless pairs have rows at the centres of the facets. */
+static PetscErrorCode SupportCreate(DM dm, Scene scene, PetscBool centres, Support *support)
 {
   const PetscInt nlinks =
     scene->ndisplacements + scene->nsprings + scene->nconnectors + scene->npairs + scene->nties + scene->ncyclic;
-  Support    support = {.dm = dm, .nbodies = scene->nbodies, .n = 6 * scene->nbodies};
-  PetscReal *outside;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc5(scene->nbodies, &support.center, scene->nbodies, &support.size, nlinks, &support.links, nlinks,
-    &support.gram, support.n, &outside));
-  PetscCall(SupportMeasureBodies(&support));
-  PetscCall(SupportAddScene(&support, scene));
-  PetscCall(SupportGetFree(&support, outside));
-  for (PetscInt k = 0; unsupported && k < support.n; ++k)
-    unsupported[k / 6] = (PetscBool)(unsupported[k / 6] || outside[k] > 2e-6);
-  if (!scene->weak_springs) PetscCall(SupportRaise(&support, scene, outside));
-  PetscCall(PetscFree5(support.center, support.size, support.links, support.gram, outside));
+  *support = (Support){.dm = dm, .nbodies = scene->nbodies, .n = 6 * scene->nbodies, .centres = centres};
+  PetscCall(PetscCalloc6(scene->nbodies, &support->center, scene->nbodies, &support->size, nlinks, &support->links,
+    nlinks, &support->gram, nlinks, &support->motion, support->n, &support->outside));
+  PetscCall(SupportMeasureBodies(support));
+  PetscCall(SupportAddScene(support, scene));
+  PetscCall(SupportSum(support));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SupportDestroy(Support *support)
+{
+  PetscFunctionBegin;
+  PetscCall(
+    PetscFree6(support->center, support->size, support->links, support->gram, support->motion, support->outside));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Reports the first body with a free mode as an error */
+static PetscErrorCode SupportCheckBodies(DM dm, Scene scene)
+{
+  Support support;
+
+  PetscFunctionBegin;
+  PetscCall(SupportCreate(dm, scene, PETSC_FALSE, &support));
+  PetscCall(SupportGetFree(&support, support.outside));
+  PetscCall(SupportRaise(&support, scene, support.outside));
+  PetscCall(SupportDestroy(&support));
   PetscFunctionReturn(0);
 }
 
 /*
-   Collective. Finds the bodies that have free rigid body motions. dm: the mesh, created by `MeshCreate()`;
-   *unsupported: one value per body: whether any of its rigid body motions is free.
+   Collective. Finds the bodies with free rigid body motions on the mesh dm, which `MeshCreate()` created. rotations: a
+   rotation of each body that nothing resists if the other bodies are held. Without weak springs only bodies with such a
+   rotation count as unsupported, and `MeshCheckScene()` rejects all others.
 */
-PetscErrorCode MeshGetUnsupported(DM dm, Scene scene, PetscBool unsupported[])
+PetscErrorCode MeshGetUnsupported(DM dm, Scene scene, PetscBool unsupported[], MeshRotation rotations[])
 {
+  Support support;
+
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(unsupported, scene->nbodies));
-  PetscCall(SupportFindUnsupported(dm, scene, unsupported));
+  PetscCall(SupportCreate(dm, scene, PETSC_TRUE, &support));
+  PetscCall(SupportFindGliding(&support, unsupported, rotations));
+  if (scene->weak_springs) PetscCall(SupportGetFree(&support, support.outside));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    if (!scene->weak_springs)
+      unsupported[b] = (PetscBool)(rotations[b].free && scene->bodies[b].material.type != MATERIAL_RIGID);
+    for (PetscInt k = 6 * b; k < 6 * b + 6 && scene->weak_springs; ++k)
+      unsupported[b] = (PetscBool)(unsupported[b] || support.outside[k] > 2e-6);
+  }
+  PetscCall(SupportDestroy(&support));
   PetscFunctionReturn(0);
 }
 
@@ -138,6 +165,6 @@ PetscErrorCode MeshCheckScene(DM dm, Scene scene)
     PetscCall(SupportCheckFacets(dm, "Cyclic symmetry", &scene->cyclic[k], scene->cyclic[k].from));
     PetscCall(SupportCheckFacets(dm, "Cyclic symmetry", &scene->cyclic[k], scene->cyclic[k].to));
   }
-  if (!SceneIsDynamic(scene)) PetscCall(SupportFindUnsupported(dm, scene, NULL));
+  if (!SceneIsDynamic(scene) && !scene->weak_springs) PetscCall(SupportCheckBodies(dm, scene));
   PetscFunctionReturn(0);
 }

@@ -30,17 +30,20 @@ PetscErrorCode SupportDestroyFace(SupportFace *face)
   PetscFunctionReturn(0);
 }
 
-/* Gets the vertices of a facet [length] and its unit normal. centres: the first vertex is replaced by the centre. */
+/* Gets the vertices of a facet [length] and its unit normal. centres: the first vertex is replaced by the centre. The
+   third vertex of a triangle is also its fourth. */
 static PetscErrorCode SupportGetFacet(DM dm, PetscInt facet, PetscBool centres, PetscReal x[4][3], PetscReal normal[3])
 {
-  PetscInt vertices[4];
+  PetscInt  vertices[4];
+  PetscReal last;
 
   PetscFunctionBegin;
   PetscCall(MeshGetFacetVertices(dm, facet, vertices));
   PetscCall(MeshGetVertexCoordinates(dm, 4, vertices, x));
   MeshComputeFacetArea(x, normal);
   VectorScaleToUnit(normal);
-  for (PetscInt d = 0; centres && d < 3; ++d) x[0][d] = 0.25 * (x[0][d] + x[1][d] + x[2][d] + x[3][d]);
+  last = vertices[3] == vertices[2] ? 0 : 1;
+  for (PetscInt d = 0; centres && d < 3; ++d) x[0][d] = (x[0][d] + x[1][d] + x[2][d] + last * x[3][d]) / (3 + last);
   PetscFunctionReturn(0);
 }
 
@@ -58,6 +61,7 @@ PetscErrorCode SupportAddFacets(Support *support, const SupportFace *face, Petsc
     PetscReal x[4][3], own[3];
 
     PetscCall(SupportGetFacet(support->dm, f[i], centres, x, own));
+    if (support->pair) SupportMeasureMotion(support, face->body, x[0], 1 / (PetscReal)face->total);
     for (PetscInt k = 0; k < 3 * npoints; ++k) {
       const PetscReal *direction = along ? axes[k % 3] : normal ? normal : own;
 

@@ -160,17 +160,27 @@ static void SupportProject(PetscInt n, PetscReal gram[], PetscReal outside[])
   }
 }
 
+/* Sums the matrices of the links over the ranks */
+PetscErrorCode SupportSum(Support *support)
+{
+  MPI_Comm comm = PetscObjectComm((PetscObject)support->dm);
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, support->gram,
+    (PetscMPIInt)(support->nlinks * SUPPORT_BLOCK * SUPPORT_BLOCK), MPIU_REAL, MPIU_SUM, comm));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, support->motion, (PetscMPIInt)(support->nlinks * 36), MPIU_REAL, MPIU_SUM, comm));
+  PetscFunctionReturn(0);
+}
+
 /* The free part is 0 for bodies that are known to be held. */
-PetscErrorCode SupportGetFree(Support *support, PetscReal outside[])
+PetscErrorCode SupportGetFree(const Support *support, PetscReal outside[])
 {
   PetscBool *restrained;
   PetscInt  *place, m = 0;
   PetscReal *gram, *free_part;
 
   PetscFunctionBegin;
-  PetscCallMPI(
-    MPI_Allreduce(MPI_IN_PLACE, support->gram, (PetscMPIInt)(support->nlinks * SUPPORT_BLOCK * SUPPORT_BLOCK),
-      MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)support->dm)));
   PetscCall(PetscMalloc2(support->nbodies, &restrained, support->nbodies, &place));
   PetscCall(SupportFindRestrained(support, restrained));
   for (PetscInt b = 0; b < support->nbodies; ++b) place[b] = restrained[b] ? PETSC_DECIDE : m++;

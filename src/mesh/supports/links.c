@@ -51,6 +51,20 @@ void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3]
   }
 }
 
+/* Adds the velocity of the modes of the last link's first body b at the point x to `motion` of this link */
+void SupportMeasureMotion(Support *support, PetscInt b, const PetscReal x[3], PetscReal weight)
+{
+  PetscReal *motion = support->motion[support->nlinks - 1], *row = support->row;
+
+  for (PetscInt d = 0; d < 3; ++d) {
+    const PetscReal axis[3] = {d == 0, d == 1, d == 2};
+
+    SupportAddMotion(support, b, axis, x, 1);
+    for (PetscInt k = 0; k < 36; ++k) motion[k] += weight * row[k / 6] * row[k % 6];
+    for (PetscInt k = 0; k < 6; ++k) row[k] = 0;
+  }
+}
+
 /* Adds the outer product of the row, multiplied by a weight, to the link's matrix, and sets the row to zero */
 PetscErrorCode SupportAddRow(Support *support, PetscReal weight)
 {

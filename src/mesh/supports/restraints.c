@@ -98,7 +98,7 @@ static PetscErrorCode SupportFindPlane(Support *support, const SceneBody *body, 
 }
 
 /* Adds the restraint of a contact pair without friction: the relative motion along the normals of its nonmortar facets,
-   or along that of a plane mortar face. With weak springs, a round body is free to rotate about its axis. */
+   or along that of a plane mortar face. Rows at centres let a round body rotate about its axis. */
 static PetscErrorCode SupportAddPair(Support *support, Scene scene, const SceneContactPair *pair)
 {
   SupportFace mortar, nonmortar;
@@ -110,8 +110,10 @@ static PetscErrorCode SupportAddPair(Support *support, Scene scene, const SceneC
   PetscCall(SupportGetFace(support, pair->nonmortar, &nonmortar));
   PetscCall(SupportFindPlane(support, &scene->bodies[mortar.body], mortar.facets, flat, &plane));
   SupportBeginLink(support, nonmortar.body, mortar.body);
+  support->pair = PETSC_TRUE;
   PetscCall(SupportAddFacets(support, &nonmortar, mortar.body, NULL, plane ? flat : NULL,
-    (PetscBool)(scene->weak_springs && !plane)));
+    (PetscBool)(support->centres && !plane)));
+  support->pair = PETSC_FALSE;
   PetscCall(SupportDestroyFace(&mortar));
   PetscCall(SupportDestroyFace(&nonmortar));
   PetscFunctionReturn(0);

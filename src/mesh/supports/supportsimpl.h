@@ -22,7 +22,12 @@ typedef struct {
   PetscInt     nlinks;
   SupportLink *links;
   PetscReal (*gram)[SUPPORT_BLOCK * SUPPORT_BLOCK]; /* for each link, the sum of the outer products of its rows */
-  PetscReal row[SUPPORT_BLOCK];                     /* row of the last link that is being computed */
+  PetscReal (*motion)[36]; /* for each frictionless contact pair: the matrix whose quadratic form is the mean square
+                              velocity of the first body's modes on the nonmortar face; 0 for other links */
+  PetscBool  centres;      /* whether curved contact pairs have rows at centres of facets */
+  PetscBool  pair;         /* whether the last link is a frictionless contact pair */
+  PetscReal *outside;      /* [n] for SupportGetFree() */
+  PetscReal  row[SUPPORT_BLOCK]; /* row of the last link that is being computed */
 } Support;
 
 /* links.c: sizes of the bodies (collective), and rows of the last link */
@@ -30,6 +35,7 @@ PETSC_INTERN PetscErrorCode SupportMeasureBodies(Support *);
 PETSC_INTERN void           SupportBeginLink(Support *, PetscInt a, PetscInt b);
 PETSC_INTERN void           SupportAddMotion(Support *, PetscInt b, const PetscReal direction[3], const PetscReal x[3],
             PetscReal sign);
+PETSC_INTERN void           SupportMeasureMotion(Support *, PetscInt b, const PetscReal x[3], PetscReal weight);
 PETSC_INTERN PetscErrorCode SupportAddRow(Support *, PetscReal weight);
 
 /* A face: its facets on this rank, its body, and the number of its facets on all ranks. The weights of its rows are
@@ -43,18 +49,23 @@ typedef struct {
    facets.c: rows at the facets of a face. SupportGetFace() is collective; SupportDestroyFace() frees the face.
    SupportAddFacets() restrains the motion of the face's body relative to the body `other`, or to the ground if `other`
    is negative. along: the axes of the restrained components; NULL: the component along `normal`, or along the normal of
-   each facet if `normal` is NULL. centres: at the centres of the facets instead of their vertices. A round body can
-   then rotate about its axis, since the normals at the centres meet the axis.
+   each facet if `normal` is NULL. centres: at the centres of the facets instead of their vertices, as
+   round bodies need it: the normals at the centres meet the axis.
 */
 PETSC_INTERN PetscErrorCode SupportGetFace(Support *, const char face[], SupportFace *);
 PETSC_INTERN PetscErrorCode SupportDestroyFace(SupportFace *);
 PETSC_INTERN PetscErrorCode SupportAddFacets(Support *, const SupportFace *, PetscInt other, const PetscBool along[3],
   const PetscReal normal[3], PetscBool centres);
 
+/* gliding.c: bodies that glide along their contact faces if all others are held */
+PETSC_INTERN PetscErrorCode SupportFindGliding(const Support *, PetscBool glides[], MeshRotation rotations[]);
+
 /* restraints.c: the links of everything in the scene that holds bodies. Collective. */
 PETSC_INTERN PetscErrorCode SupportAddScene(Support *, Scene);
 
-/* free_modes.c: computes outside[6 b + k], the free part of mode k of body b. Collective. */
-PETSC_INTERN PetscErrorCode SupportGetFree(Support *, PetscReal outside[]);
+/* free_modes.c: SupportSum() sums the links over the ranks; collective. SupportGetFree() computes outside[6 b + k], the
+   free part of mode k of body b. */
+PETSC_INTERN PetscErrorCode SupportSum(Support *);
+PETSC_INTERN PetscErrorCode SupportGetFree(const Support *, PetscReal outside[]);
 
 #endif

@@ -91,7 +91,6 @@ PETSC_INTERN PetscErrorCode SceneFinishBolt(SceneKeys, Scene, const char owner[]
 PETSC_INTERN PetscErrorCode SceneValidateBolts(MPI_Comm, Scene);
 
 /* springs.c: springs and weak springs */
-#define SCENE_WEAK_SPRINGS 1e-7 /* relative stiffness if the scene has weak_springs: true */
 PETSC_INTERN const SceneOwn SceneOwnWeakSprings;
 PETSC_INTERN PetscErrorCode SceneFinishSpring(SceneKeys, Scene, const char owner[], void *entry);
 PETSC_INTERN PetscErrorCode SceneValidateSprings(MPI_Comm, Scene);

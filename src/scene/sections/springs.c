@@ -16,7 +16,7 @@ static PetscErrorCode WeakSpringsRead(SceneKeys keys, Scene scene, const char ke
   (void)entry;
   PetscCall(PetscStrcasecmp(text, "true", &yes));
   PetscCall(PetscStrcasecmp(text, "false", &no));
-  if (yes) *stiffness = SCENE_WEAK_SPRINGS;
+  if (yes) *stiffness = MODEL_WEAK_SPRINGS;
   if (yes || no) PetscFunctionReturn(0);
   PetscCall(SceneParseReal(keys, key, text, stiffness));
   if (!(*stiffness > 0 && *stiffness <= 0.01))
@@ -34,7 +34,7 @@ static PetscErrorCode WeakSpringsView(Scene scene, PetscViewer viewer, const voi
 {
   PetscFunctionBegin;
   (void)entry;
-  if (scene->weak_springs == SCENE_WEAK_SPRINGS) PetscCall(PetscViewerASCIIPrintf(viewer, "true"));
+  if (scene->weak_springs == MODEL_WEAK_SPRINGS) PetscCall(PetscViewerASCIIPrintf(viewer, "true"));
   else PetscCall(SceneViewReal(viewer, scene->weak_springs));
   PetscFunctionReturn(0);
 }

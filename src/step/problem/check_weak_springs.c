@@ -40,6 +40,20 @@ static PetscErrorCode WeakSpringsMeasure(Simulation sim, Vec u, Vec load, PetscR
   PetscFunctionReturn(0);
 }
 
+/* Writes the rotation of body b that only weak springs resist, as the end of a sentence. Empty if it has none. */
+static PetscErrorCode WeakSpringsDescribeRotation(Simulation sim, PetscInt b, size_t size, char text[])
+{
+  const MeshRotation *rotation = &sim->springs.rotations[b];
+  char                axis[160];
+
+  PetscFunctionBegin;
+  text[0] = 0;
+  if (!rotation->free) PetscFunctionReturn(0);
+  PetscCall(RotationDescribe(rotation, sizeof(axis), axis));
+  PetscCall(PetscSNPrintf(text, size, "; no contact or support resists its rotation %s", axis));
+  PetscFunctionReturn(0);
+}
+
 /* Reports the solve as failed if the weak springs of a body carry more than weak_springs_share of its loads. */
 PetscErrorCode WeakSpringsTest(const StepProblem *p, Vec u, StepReport *report)
 {
@@ -52,12 +66,13 @@ PetscErrorCode WeakSpringsTest(const StepProblem *p, Vec u, StepReport *report)
   PetscCall(WeakSpringsMeasure(p->sim, u, p->load, carried));
   for (PetscInt b = 0; b < scene->nbodies && report->converged; ++b) {
     const PetscReal *c = &carried[4 * b], force = VectorNorm(c);
-    char             reason[256];
+    char             reason[512], rotation[256];
 
+    PetscCall(WeakSpringsDescribeRotation(p->sim, b, sizeof(rotation), rotation));
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
       "body \"%s\" slides or turns away: its weak springs carry %g, and its loads sum up to %g; add a support, or "
-      "stiffer springs than weak_springs: %g",
-      scene->bodies[b].name, (double)force, (double)c[3], (double)scene->weak_springs));
+      "stiffer springs than weak_springs: %g%s",
+      scene->bodies[b].name, (double)force, (double)c[3], (double)p->sim->springs.softness, rotation));
     if (force > weak_springs_share * c[3] && c[3] > 0.0) PetscCall(ReportReason(report, PETSC_FALSE, reason));
   }
   PetscCall(PetscFree(carried));
@@ -110,12 +125,13 @@ PetscErrorCode WeakSpringsTestMotion(const StepProblem *p, Vec u_linearized, Vec
   PetscCall(WeakSpringsMeasureMotion(p->sim, u_linearized, u, moved));
   for (PetscInt b = 0; b < scene->nbodies && report->converged; ++b) {
     const PetscReal length = PetscCbrtReal(volume[b]), distance = PetscSqrtReal(moved[b]);
-    char            reason[256];
+    char            reason[512], rotation[256];
 
+    PetscCall(WeakSpringsDescribeRotation(p->sim, b, sizeof(rotation), rotation));
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
       "body \"%s\" slides or turns away: it moved by %g, more than its size of %g, and only weak springs hold it; "
-      "add a support, friction, or stiffer springs than weak_springs: %g",
-      scene->bodies[b].name, (double)distance, (double)length, (double)scene->weak_springs));
+      "add a support, friction, or stiffer springs than weak_springs: %g%s",
+      scene->bodies[b].name, (double)distance, (double)length, (double)p->sim->springs.softness, rotation));
     if (distance > length) PetscCall(ReportReason(report, PETSC_FALSE, reason));
   }
   PetscCall(PetscFree2(volume, moved));
@@ -132,7 +148,7 @@ PetscErrorCode WeakSpringsReportMotion(const StepProblem *p, Vec u_linearized, V
   Scene        scene    = p->sim->scene;
   PetscInt     farthest = 0;
   PetscReal   *volume, *moved;
-  char         reason[256];
+  char         reason[512], rotation[256];
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(scene->nbodies, &volume, scene->nbodies, &moved));
@@ -143,10 +159,11 @@ PetscErrorCode WeakSpringsReportMotion(const StepProblem *p, Vec u_linearized, V
     if (moved[b] > moved[farthest]) farthest = b;
   }
   PetscCall(PetscFree2(volume, moved));
+  PetscCall(WeakSpringsDescribeRotation(p->sim, farthest, sizeof(rotation), rotation));
   PetscCall(PetscSNPrintf(reason, sizeof(reason),
     "body \"%s\" slides or turns away: each contact update moves it further, and only weak springs hold it; add "
-    "a support, friction, or stiffer springs than weak_springs: %g",
-    scene->bodies[farthest].name, (double)scene->weak_springs));
+    "a support, friction, or stiffer springs than weak_springs: %g%s",
+    scene->bodies[farthest].name, (double)p->sim->springs.softness, rotation));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }

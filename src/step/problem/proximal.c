@@ -246,11 +246,117 @@ PetscErrorCode ProximalHoldWeak(StepProblem *p, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* Moves the centre to u_linearized, at which the gap is linearized, if the term holds bodies on weak springs. */
+/*
+   Sets `motion` to a unit rotation of body b about an axis through `point`, or, if `point` is NULL, to a unit
+   translation along the axis, and `own` to the forces `all` on body b. Both are 0 on other bodies.
+*/
+static PetscErrorCode ProximalSetMotion(const StepProblem *p, PetscInt b, const PetscReal axis[3],
+  const PetscReal point[3], Vec all, Vec motion, Vec own)
+{
+  const Simulation   sim = p->sim;
+  const PetscScalar *x, *a;
+  PetscScalar       *v, *f;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(motion, &n));
+  PetscCall(VecGetArrayRead(sim->places.x, &x));
+  PetscCall(VecGetArrayRead(all, &a));
+  PetscCall(VecGetArrayWrite(motion, &v));
+  PetscCall(VecGetArrayWrite(own, &f));
+  for (PetscInt i = 0; i < n; i += 3) {
+    const PetscBool moves = (PetscBool)(sim->places.body[i / 3] == b);
+    PetscReal       arm[3], way[3] = {axis[0], axis[1], axis[2]};
+
+    for (PetscInt d = 0; d < 3 && point; ++d) arm[d] = PetscRealPart(x[i + d]) - point[d];
+    if (point) VectorCross(axis, arm, way);
+    for (PetscInt d = 0; d < 3; ++d) {
+      v[i + d] = moves ? way[d] : 0.0;
+      f[i + d] = moves ? a[i + d] : 0.0;
+    }
+  }
+  PetscCall(VecRestoreArrayWrite(own, &f));
+  PetscCall(VecRestoreArrayWrite(motion, &v));
+  PetscCall(VecRestoreArrayRead(all, &a));
+  PetscCall(VecRestoreArrayRead(sim->places.x, &x));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Removes from `way`, the displacement from the centre, a motion of body b, see ProximalSetMotion(), unless the force
+   of the proximal term that resists it is more than `most` of the forces `all` on the body.
+*/
+static PetscErrorCode ProximalRelease(StepProblem *p, PetscInt b, const PetscReal axis[3], const PetscReal point[3],
+  PetscReal most, Vec all, Vec way)
+{
+  PetscScalar work, stiffness;
+  PetscReal   part, whole;
+  Vec         motion, resistance;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(way, &motion));
+  PetscCall(VecDuplicate(way, &resistance));
+  PetscCall(ProximalSetMotion(p, b, axis, point, all, motion, resistance));
+  PetscCall(VecNorm(resistance, NORM_1, &whole));
+  PetscCall(VecPointwiseMult(resistance, p->proximal, motion));
+  PetscCall(VecDot(way, resistance, &work));
+  PetscCall(VecDot(resistance, motion, &stiffness));
+  PetscCall(VecNorm(resistance, NORM_1, &part));
+  if (PetscRealPart(stiffness) > 0.0 && PetscAbsScalar(work / stiffness) * part <= most * whole) {
+    PetscCall(VecAXPY(way, -work / stiffness, motion));
+    p->glides = PETSC_TRUE;
+  }
+  PetscCall(VecDestroy(&resistance));
+  PetscCall(VecDestroy(&motion));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Removes from `way`, the displacement from the centre, motions that no contact resists: the rotation of a pin about
+   its axis, and its translation along it. The facets of a round face always cause a small torque and a small axial
+   force. The proximal term holds them; otherwise they would move the body on and on. The limit is smaller for the
+   translation, because the axial force of a slender taper is small too. all: forces of the deformation
+*/
+static PetscErrorCode ProximalReleaseGliding(StepProblem *p, Vec all, Vec way)
+{
+  const MeshRotation *rotations = p->sim->springs.rotations;
+  const PetscReal     torque = 1e-2, axial = 1e-4;
+
+  PetscFunctionBegin;
+  p->glides = PETSC_FALSE;
+  for (PetscInt b = 0; b < p->sim->scene->nbodies; ++b) {
+    const PetscInt naxes = rotations[b].any ? 3 : 1;
+
+    for (PetscInt axis = 0; axis < naxes && rotations[b].free; ++axis) {
+      const PetscReal own[3] = {axis == 0, axis == 1, axis == 2};
+
+      PetscCall(ProximalRelease(p, b, naxes == 3 ? own : rotations[b].axis, rotations[b].point, torque, all, way));
+    }
+    if (rotations[b].free && rotations[b].slides)
+      PetscCall(ProximalRelease(p, b, rotations[b].axis, NULL, axial, all, way));
+  }
+  PetscFunctionReturn(0);
+}
+
+/*
+   Moves the centre to u_linearized, at which the gap is linearized, if the term holds bodies on weak springs. Motions
+   that no contact resists remain as they are.
+*/
 PetscErrorCode ProximalLinearize(StepProblem *p, Vec u_linearized)
 {
+  Vec centre, elastic;
+
   PetscFunctionBegin;
-  if (p->holds_weak) PetscCall(ProximalCentre(p, u_linearized));
+  if (!p->holds_weak) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(u_linearized, &centre));
+  PetscCall(VecDuplicate(u_linearized, &elastic));
+  PetscCall(ElasticityForce(p->sim->elasticity, u_linearized, elastic));
+  PetscCall(VecWAXPY(centre, -1.0, p->centre, u_linearized));
+  PetscCall(ProximalReleaseGliding(p, elastic, centre));
+  PetscCall(VecAXPY(centre, 1.0, p->centre));
+  PetscCall(ProximalCentre(p, centre));
+  PetscCall(VecDestroy(&elastic));
+  PetscCall(VecDestroy(&centre));
   PetscFunctionReturn(0);
 }
 
@@ -298,15 +404,21 @@ static PetscErrorCode ProximalCompareResultants(const StepProblem *p, Vec force,
    on a body; 0 if there is no such term. The resultant has the larger weight because coarse facets can cause a torque,
    but not a resultant.
 */
-PetscErrorCode ProximalMeasure(const StepProblem *p, Vec u, PetscReal *fraction)
+PetscErrorCode ProximalMeasure(StepProblem *p, Vec u, PetscReal *fraction)
 {
   PetscReal norms[2], resultant;
-  Vec       force, all;
+  Vec       force, all, way;
 
   PetscFunctionBegin;
   *fraction = 0.0;
   if (!p->holds_weak) PetscFunctionReturn(0);
   PetscCall(ProximalGetForces(p, u, &force, &all, norms));
+  PetscCall(VecDuplicate(u, &way));
+  PetscCall(VecWAXPY(way, -1.0, p->centre, u));
+  PetscCall(ProximalReleaseGliding(p, all, way));
+  PetscCall(VecPointwiseMult(force, p->proximal, way));
+  PetscCall(VecDestroy(&way));
+  PetscCall(VecNorm(force, NORM_2, &norms[0]));
   PetscCall(ProximalCompareResultants(p, force, all, &resultant));
   PetscCall(VecDestroy(&force));
   PetscCall(VecDestroy(&all));

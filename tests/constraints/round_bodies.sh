@@ -1,0 +1,42 @@
+# Round bodies that nothing but weak springs holds against a rotation about their axis: one sentence names body and axis,
+# and the run goes on. A torque on such a body ends the run. The hub is rigid; the weight presses the bush into it.
+contact=$AMGF_DIR/bin/contact
+"$PYTHON" -B "$AMGF_DIR/tests/constraints/round_bodies.py" ring.msh
+{
+  cat <<'END'
+bodies:
+  - hub: {shape: gmsh, mesh: ring.msh, volume: hub, material: rigid}
+  - bush: {shape: gmsh, mesh: ring.msh, volume: bush, young: 2.1e5, poisson: 0.3}
+displacements:
+  - hub: {body: hub, value: [0, 0, 0]}
+  - end: {face: bush.bush_end, value: [free, free, 0]}
+body_forces: [weight: {body: bush, value: [-1, 0, 0]}]
+contact: auto
+END
+} > facets.yaml
+sed -e 's/shape: gmsh.*material/shape: tube_arc, axis: z, radii: [5, 8], angles: [0, 360], extent: [0, 4], cells: [1, 24, 2], material/' \
+  -e 's/shape: gmsh.*young/shape: cylinder, axis: z, radius: 4.99, extent: [0, 4], cells: [3, 3, 2], young/' \
+  -e 's/bush_end/lmin/' facets.yaml > cylinder.yaml
+sed 's/^contact/weak_springs: true\ncontact/' facets.yaml > weak.yaml
+sed 's/^contact/forces: [turn: {face: bush.lmin, value: [0, 0, 0], moment: [0, 0, 50]}]\ncontact/' cylinder.yaml > turned.yaml
+for scene in facets cylinder weak turned; do
+  for n in 1 3; do
+    mpiexec --oversubscribe -n $n "$contact" $scene.yaml -quiet -error_estimate 0 -summary ${scene}_$n.json > said 2>&1
+    code=$?
+    grep '^contact:' said | grep -v 'do not converge' | sed 's/springs carry [^;]*;/springs carry ...;/;s/moved by [^,]*,/moved by ...,/'
+    echo "$scene, $n ranks: exit code $code"
+  done
+done
+"$contact" weak.yaml -error_estimate 0 | grep 'can turn'
+PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'CHECK'
+from summaries import load, say, within
+
+for scene in ("facets", "cylinder", "weak"):
+    for n in (1, 3):
+        run = load(f"{scene}_{n}")["steps"][-1]
+        pair = run["pairs"][0]
+        body = [b for b in run["bodies"] if b["name"] == "bush"][0]
+        say(f"{scene}, {n} ranks: the contact carries the weight, and the weak springs nothing",
+            within(pair["force"][0], -run["reaction"][0] if pair["force"][0] < 0 else run["reaction"][0], 1e-4) and
+            run["weak_spring_force"] < 1e-4 * pair["normal_force"], (pair, run["reaction"], run["weak_spring_force"]))
+CHECK
