@@ -102,7 +102,7 @@ static PetscErrorCode SimulationReportRotations(Simulation sim)
     if (!sim->springs.rotations[b].free) continue;
     PetscCall(RotationDescribe(&sim->springs.rotations[b], sizeof(axis), axis));
     if (!scene->weak_springs)
-      PetscCall(ReportWarn(sim->comm, &sim->report,
+      PetscCall(ReportWarn(sim->comm, &sim->report, scene->bodies[b].place,
         "body \"%s\" can turn %s: no contact or support resists; weak springs of %g of its stiffness hold it",
         scene->bodies[b].name, axis, (double)sim->springs.softness));
     else if (sim->control->monitor)
