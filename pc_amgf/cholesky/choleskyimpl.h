@@ -28,6 +28,8 @@ typedef struct {
   float     *rounded; /* the same in single precision; NULL: not factored, or not rounded */
   PetscInt   tallest; /* largest number of rows of a supernode */
   PetscReal  flops;   /* operations of a factorization */
+  PetscInt   failed;  /* row of the pivot that was not positive in the last factorization */
+  PetscReal  pivot;   /* that pivot */
 } Cholesky;
 
 static inline PetscInt CholeskyColumns(const Cholesky *c, PetscInt s)

@@ -48,8 +48,8 @@ static void NumericAddUpdate(const Cholesky *c, PetscInt s, PetscInt child, cons
 }
 
 /* Eliminates the columns of s: L L^T of its own rows, the rows below, and the update U. *positive: false if a pivot is
-   not positive */
-static PetscErrorCode NumericEliminate(const Cholesky *c, PetscInt s, PetscReal L[], PetscReal U[], PetscBool *positive)
+   not positive, whose row and value are then stored */
+static PetscErrorCode NumericEliminate(Cholesky *c, PetscInt s, PetscReal L[], PetscReal U[], PetscBool *positive)
 {
   const PetscReal one = 1.0, minus = -1.0;
   PetscBLASInt    m, columns, rest, info;
@@ -60,6 +60,10 @@ static PetscErrorCode NumericEliminate(const Cholesky *c, PetscInt s, PetscReal 
   rest = m - columns;
   PetscCallBLAS("LAPACKpotrf", LAPACKpotrf_("L", &columns, L, &m, &info));
   *positive = (PetscBool)!info;
+  if (info > 0) {
+    c->failed = c->perm[c->first[s] + info - 1];
+    c->pivot  = L[(size_t)(info - 1) * (size_t)(m + 1)];
+  }
   if (info || !rest) PetscFunctionReturn(0);
   PetscCallBLAS("BLAStrsm", BLAStrsm_("R", "L", "T", "N", &rest, &columns, &one, L, &m, L + columns, &m));
   PetscCallBLAS("BLASsyrk", BLASsyrk_("L", "N", &rest, &columns, &minus, L + columns, &m, &one, U, &rest));
@@ -70,7 +74,7 @@ static PetscErrorCode NumericEliminate(const Cholesky *c, PetscInt s, PetscReal 
    Assembles the front of s, which takes the updates of its children from the stack, and eliminates its columns. L: zero
    on entry
 */
-static PetscErrorCode NumericSupernode(const Cholesky *c, PetscInt s, const PetscInt ia[], const PetscInt ja[],
+static PetscErrorCode NumericSupernode(Cholesky *c, PetscInt s, const PetscInt ia[], const PetscInt ja[],
   const PetscScalar a[], PetscInt at[], PetscReal L[], NumericStack *stack, PetscBool *positive)
 {
   const PetscInt  m = CholeskyRows(c, s), rest = m - CholeskyColumns(c, s);

@@ -87,10 +87,12 @@ static PetscErrorCode MatCholeskyFactorNumeric_AMGF(Mat F, Mat A, const MatFacto
   PetscCall(CholeskyNumeric(rows, &f->c, &positive));
   if (!is) PetscCall(MatDestroy(&rows));
   PetscCall(PetscLogFlops(f->c.flops));
-  F->factorerrortype = positive ? MAT_FACTOR_NOERROR : MAT_FACTOR_NUMERIC_ZEROPIVOT;
-  F->assembled       = PETSC_TRUE;
-  F->ops->solve      = MatSolve_AMGF;
-  F->ops->matsolve   = MatMatSolve_AMGF;
+  F->factorerrortype             = positive ? MAT_FACTOR_NOERROR : MAT_FACTOR_NUMERIC_ZEROPIVOT;
+  F->factorerror_zeropivot_value = f->c.pivot;
+  F->factorerror_zeropivot_row   = f->c.failed;
+  F->assembled                   = PETSC_TRUE;
+  F->ops->solve                  = MatSolve_AMGF;
+  F->ops->matsolve               = MatMatSolve_AMGF;
   PetscFunctionReturn(0);
 }
 

@@ -41,6 +41,29 @@ PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, PetscBool *definite)
   PetscFunctionReturn(0);
 }
 
+/*
+   Finds whether a pivot of K was clearly negative in a factorization that has failed. K is then not singular, but has a
+   negative eigenvalue.
+*/
+PetscErrorCode IPComplianceIsNegative(const IPCompliance *c, Mat K, PetscBool *negative)
+{
+  const PetscReal    clearly = 1e-3;
+  const PetscScalar *d;
+  PetscReal          pivot;
+  PetscInt           row;
+  Vec                diagonal;
+
+  PetscFunctionBegin;
+  PetscCall(MatFactorGetErrorZeroPivot(c->F, &pivot, &row));
+  PetscCall(MatCreateVecs(K, &diagonal, NULL));
+  PetscCall(MatGetDiagonal(K, diagonal));
+  PetscCall(VecGetArrayRead(diagonal, &d));
+  *negative = (PetscBool)(pivot < -clearly * PetscAbsScalar(d[row]));
+  PetscCall(VecRestoreArrayRead(diagonal, &d));
+  PetscCall(VecDestroy(&diagonal));
+  PetscFunctionReturn(0);
+}
+
 /* Sets the constraint rows J_W, a sequential matrix to which a reference is taken; NULL: there are none. most: number
    of columns up to which those of K_WW^-1 J_W^T are kept */
 PetscErrorCode IPComplianceSetRows(IPCompliance *c, Mat J, PetscInt most)

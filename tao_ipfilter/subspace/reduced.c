@@ -65,13 +65,15 @@ PetscErrorCode IPReducedDestroy(IPReduced *r)
   PetscFunctionReturn(0);
 }
 
-/* Factors K_WW, with companions if it is singular. *definite: false if it is not positive definite. */
+/* Factors K_WW, with companions if it is singular. *definite: false if it has a negative eigenvalue. */
 static PetscErrorCode ReducedFactorFirst(IPReduced *r, PetscBool *definite)
 {
-  PetscBool singular = PETSC_FALSE;
+  PetscBool singular = PETSC_FALSE, negative = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(IPComplianceSetUp(&r->compliance, r->KWW, definite));
+  if (!*definite) PetscCall(IPComplianceIsNegative(&r->compliance, r->KWW, &negative));
+  if (negative) PetscFunctionReturn(0);
   if (*definite) PetscCall(IPCompanionsAreNeeded(r->KWW, &r->compliance, &singular));
   if (!*definite || singular) PetscCall(IPCompanionsTake(r->KWW, &r->companions));
   if (r->companions.n) PetscCall(IPComplianceSetUp(&r->compliance, r->KWW, definite));

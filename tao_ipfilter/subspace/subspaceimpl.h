@@ -211,6 +211,7 @@ PETSC_INTERN PetscErrorCode IPBasisGetForces(const IPBasis *, PetscInt j, Vec);
 
 /* compliance.c */
 PETSC_INTERN PetscErrorCode IPComplianceSetUp(IPCompliance *, Mat K, PetscBool *definite);
+PETSC_INTERN PetscErrorCode IPComplianceIsNegative(const IPCompliance *, Mat K, PetscBool *negative);
 PETSC_INTERN PetscErrorCode IPComplianceSetRows(IPCompliance *, Mat J, PetscInt most);
 PETSC_INTERN PetscErrorCode IPComplianceDestroy(IPCompliance *);
 PETSC_INTERN PetscErrorCode IPComplianceSolve(IPCompliance *, PetscInt k, const PetscReal[], PetscReal[]);

@@ -53,6 +53,19 @@ static PetscErrorCode Factor(Mat A, MatSolverType type, Mat *F, PetscBool *posit
   PetscFunctionReturn(0);
 }
 
+/* Returns what the pivot is that has ended the factorization F */
+static PetscErrorCode SayPivot(Mat A, Mat F, const char **what)
+{
+  PetscReal pivot;
+  PetscInt  row, n;
+
+  PetscFunctionBeginUser;
+  PetscCall(MatFactorGetErrorZeroPivot(F, &pivot, &row));
+  PetscCall(MatGetSize(A, &n, NULL));
+  *what = row < 0 || row >= n ? "NO SUCH ROW" : pivot < 0.0 ? "a pivot is negative" : "NO PIVOT IS NEGATIVE";
+  PetscFunctionReturn(0);
+}
+
 /* Computes the largest residual of k right-hand sides, solved together, and of one alone, relative to them */
 static PetscErrorCode Residual(Mat A, Mat F, PetscInt k, PetscReal *residual)
 {
@@ -165,10 +178,13 @@ static PetscErrorCode Test(const char name[], PetscInt n, PetscInt block, PetscI
   PetscFunctionBeginUser;
   PetscCall(CreateMembrane(n, block, alone, shift, &A));
   for (PetscInt t = 0; t < 2; t++) {
+    const char *pivot = NULL;
+
     PetscCall(Factor(A, type[t], &F, &positive));
+    if (!positive) PetscCall(SayPivot(A, F, &pivot));
     if (positive) PetscCall(Residual(A, F, 7, &residual));
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, %s: %s\n", name, type[t],
-      !positive              ? "not positive definite"
+      !positive              ? pivot
       : residual <= bound[t] ? "solved"
                              : "RESIDUAL TOO LARGE"));
     if (positive && residual > bound[t]) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %g\n", (double)residual));
