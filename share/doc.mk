@@ -6,8 +6,8 @@ guides := $(wildcard share/doc/*.md) share/scenes/README.md share/examples/READM
 
 man: build/doc/man/made
 
-build/doc/man/made: share/doc/manpages.py apps/help.c include/petscamgf.h \
-  $(wildcard pc_amgf/*.c pc_amgf/*/*.c src/plugin/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)
+build/doc/man/made: share/doc/manpages.py apps/help.c $(wildcard include/*.h) \
+  $(wildcard pc_amgf/*.c pc_amgf/*/*.c src/*/*.c src/*/*/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)
 	@rm -rf $(@D)
 	@$(PYTHON) -B share/doc/manpages.py . $(@D) $(VERSION)
 	@touch $@

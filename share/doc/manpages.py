@@ -35,10 +35,21 @@ def items(lines):
             yield ".PP"
 
 
+def header(name):
+    """The installed header that declares a function"""
+    for path in sorted(glob.glob(os.path.join(TOP, "include", "*.h"))):
+        with open(path) as file:
+            if re.search(rf"\b{name}\(", file.read()):
+                base = os.path.basename(path)
+                return base if base.startswith("petsc") else "contact/" + base
+    return "petscamgf.h"
+
+
 def from_source(comment, synopsis):
     lines = comment.strip("\n").split("\n")
     name, description = (part.strip() for part in lines[0].split(" - ", 1))
-    body = [".SH SYNOPSIS\n.nf\n#include <petscamgf.h>\n" + escape(synopsis) + "\n.fi"] if synopsis else []
+    name = name.split()[0]  # of a type: PCAMGF = "amgf"
+    body = [f".SH SYNOPSIS\n.nf\n#include <{header(name)}>\n" + escape(synopsis) + "\n.fi"] if synopsis else []
     body.append(".SH DESCRIPTION")
     for line in lines[1:]:
         heading = re.match(r"\s*([A-Z][A-Za-z ]*):$", line)
@@ -53,13 +64,13 @@ def from_source(comment, synopsis):
 
 
 sources = [
-    path for folder in ("pc_amgf", "src/plugin", "tao_ipfilter")
+    path for folder in ("pc_amgf", "src", "tao_ipfilter")
     for path in glob.glob(os.path.join(TOP, folder, "**", "*.c"), recursive=True)
 ]
 for path in sorted(sources + [os.path.join(TOP, "include", "petscamgf.h")]):
     with open(path) as file:
         text = file.read()
-    for match in re.finditer(r"/\*(@C?|MC|E)\n(.*?)\n(?:@|M|E)\*/\n([^\n]*)", text, flags=re.S):
+    for match in re.finditer(r"/\*(@C?|MC|E)\n(.*?)\n(?:@|M|E)\*/\n(.*?)\n(?:\{|$)", text, flags=re.S):
         from_source(match[2], match[3] if match[1].startswith("@") else "")
 
 with open(os.path.join(TOP, "apps", "help.c")) as file:

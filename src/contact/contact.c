@@ -106,14 +106,27 @@ static PetscErrorCode ContactCreateTrace(Contact contact)
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Creates the contact of pairs of faces of a mesh. dm: the mesh, as `MeshCreate()` gives it: 3 displacement
-   components per vertex, face labels, "body" label; npairs: number of contact pairs, 0 or more; pairs: the pairs, the
-   same on all ranks; a face may be in several.
+/*@C
+  ContactCreate - Creates the contact of pairs of faces of a mesh
 
-   It is an error if a pair names a face that the mesh does not have, if its two faces are one face without `self`, if
-   another pair has the same two faces, or if its search distance is negative.
-*/
+  Collective
+
+  Input Parameters:
++ dm     - the mesh, as `MeshCreate()` gives it: 3 displacement components per vertex, face labels, "body" label
+. npairs - number of contact pairs, 0 or more
+- pairs  - the pairs, the same on all ranks; a face may be in several
+
+  Output Parameter:
+. contact - the contact
+
+  Level: beginner
+
+  Notes:
+  It is an error if a pair names a face that the mesh does not have, if its two faces are one face without `self`, if
+  another pair has the same two faces, or if its search distance is negative.
+
+.seealso: `ContactSetFromOptions()`, `ContactLinearize()`, `ContactDestroy()`
+@*/
 PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pairs[], Contact *contact)
 {
   Contact         c;
@@ -160,16 +173,30 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Sets a contact's parameters from the options database. -contact_gap <mortar,node,dual>: how the gap of
-   every pair is measured; overrides the setting of the pairs; -contact_smooth <true,false>: whether the gap of every
-   pair is measured between smooth surfaces through the facets; overrides the setting of the pairs; -contact_normals
-   <nodal,facet>: direction of mortar gaps: the averaged normals of the vertices, or the normals of the facets;
-   -contact_quadrature <5>: degree, 1 to 8, of the quadrature rule on the triangles of an overlap, for the mortar
-   integrals. Without the option it is 5, and 6 between smooth surfaces; -contact_search_depth <length>: largest
-   penetration at which facets count as facing each other. 0: the mean thickness of the thinner body or, if that is
-   larger, the search distance that the pair sets, but at most 0.9 times the sum of both thicknesses.
-*/
+/*@
+  ContactSetFromOptions - Sets a contact's parameters from the options database
+
+  Collective
+
+  Input Parameter:
+. contact - the contact
+
+  Options Database Keys:
++ -contact_gap <mortar,node,dual>    - how the gap of every pair is measured; overrides the setting of the pairs
+. -contact_smooth <true,false>       - whether the gap of every pair is measured between smooth surfaces through the
+                                       facets; overrides the setting of the pairs
+. -contact_normals <nodal,facet>     - direction of mortar gaps: the averaged normals of the vertices, or the normals
+                                       of the facets
+. -contact_quadrature <5>            - degree, 1 to 8, of the quadrature rule on the triangles of an overlap, for the
+                                       mortar integrals. Without the option it is 5, and 6 between smooth surfaces
+- -contact_search_depth <length>     - largest penetration at which facets count as facing each other. 0: the mean
+                                       thickness of the thinner body or, if that is larger, the search distance that the
+                                       pair sets, but at most 0.9 times the sum of both thicknesses
+
+  Level: beginner
+
+.seealso: `ContactCreate()`, `ContactLinearize()`
+@*/
 PetscErrorCode ContactSetFromOptions(Contact contact)
 {
   GapType   gap    = contact->npairs ? contact->pairs[0].gap : GAP_MORTAR;
@@ -212,15 +239,26 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Sets the prescribed displacements of the bodies' faces, which determine the symmetry planes of smooth
-   surfaces, the directions without friction, and the vertices without a row. n: number of prescribed displacements;
-   displacements: the prescribed displacements; not copied, they must exist until the contact is destroyed.
+/*@C
+  ContactSetDisplacements - Sets the prescribed displacements of the bodies' faces, which determine the symmetry planes
+  of smooth surfaces, the directions without friction, and the vertices without a row
 
-   If a face ends at right angles on a plane perpendicular to an axis, and its vertices there are held along that axis,
-   its smooth surface is continued by its mirror image. Elsewhere the smooth surface ends at the border of the face, and
-   the normals on the border are extrapolated.
-*/
+  Collective
+
+  Input Parameters:
++ contact       - the contact
+. n             - number of prescribed displacements
+- displacements - the prescribed displacements; not copied, they must exist until the contact is destroyed
+
+  Level: intermediate
+
+  Note:
+  If a face ends at right angles on a plane perpendicular to an axis, and its vertices there are held along that axis,
+  its smooth surface is continued by its mirror image. Elsewhere the smooth surface ends at the border of the face, and
+  the normals on the border are extrapolated.
+
+.seealso: `ContactCreate()`, `ContactLinearize()`
+@*/
 PetscErrorCode ContactSetDisplacements(Contact contact, PetscInt n, const SceneDisplacement displacements[])
 {
   PetscFunctionBegin;
@@ -232,13 +270,23 @@ PetscErrorCode ContactSetDisplacements(Contact contact, PetscInt n, const SceneD
   PetscFunctionReturn(0);
 }
 
-/*
-   Logically collective. Sets the bodies of a contact, some of which may be rigid surfaces. bodies: the bodies of the
-   mesh; not copied, they must exist until the contact is destroyed.
+/*@C
+  ContactSetBodies - Sets the bodies of a contact, some of which may be rigid surfaces
 
-   A pair whose mortar side is a rigid surface measures its gap from the formula of the surface. A rigid surface as the
-   nonmortar side is an error.
-*/
+  Logically Collective
+
+  Input Parameters:
++ contact - the contact
+- bodies  - the bodies of the mesh; not copied, they must exist until the contact is destroyed
+
+  Level: intermediate
+
+  Note:
+  A pair whose mortar side is a rigid surface measures its gap from the formula of the surface. A rigid surface as the
+  nonmortar side is an error.
+
+.seealso: `ContactCreate()`, `ContactLinearize()`
+@*/
 PetscErrorCode ContactSetBodies(Contact contact, const SceneBody bodies[])
 {
   PetscFunctionBegin;
@@ -269,10 +317,23 @@ PetscErrorCode ContactIsCurved(Contact contact, PetscInt pair, PetscBool *curved
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Finds whether a node is on the edge of a pair's nonmortar face. pair: number of the pair; node: number of
-   the node in global vectors; equal on all ranks; *edge: whether the node is on the edge; equal on all ranks.
-*/
+/*@
+  ContactIsAtEdge - Finds whether a node is on the edge of a pair's nonmortar face
+
+  Collective
+
+  Input Parameters:
++ contact - the contact
+. pair    - number of the pair
+- node    - number of the node in global vectors; equal on all ranks
+
+  Output Parameter:
+. edge - whether the node is on the edge; equal on all ranks
+
+  Level: developer
+
+.seealso: `ContactCreate()`
+@*/
 PetscErrorCode ContactIsAtEdge(Contact contact, PetscInt pair, PetscInt node, PetscBool *edge)
 {
   const ContactSurface *s = &contact->pairs[pair].nonmortar;
@@ -285,12 +346,24 @@ PetscErrorCode ContactIsAtEdge(Contact contact, PetscInt pair, PetscInt node, Pe
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Counts the nodes of a pair on which no friction acts although the faces slide. contact: the contact,
-   whose gap has been linearized; pair: number of the pair; *nfrictionless: number of nodes, on all ranks, at which
-   different displacements of both faces are prescribed although the pair sticks; *nnodes: number of nodes of the
-   nonmortar face, on all ranks.
-*/
+/*@
+  ContactGetFrictionless - Counts the nodes of a pair on which no friction acts although the faces slide
+
+  Collective
+
+  Input Parameters:
++ contact - the contact, whose gap has been linearized
+- pair    - number of the pair
+
+  Output Parameters:
++ nfrictionless - number of nodes, on all ranks, at which different displacements of both faces are prescribed although
+                  the pair sticks
+- nnodes        - number of nodes of the nonmortar face, on all ranks
+
+  Level: intermediate
+
+.seealso: `ContactSetDisplacements()`, `ContactLinearize()`
+@*/
 PetscErrorCode ContactGetFrictionless(Contact contact, PetscInt pair, PetscInt *nfrictionless, PetscInt *nnodes)
 {
   PetscInt n = contact->rows.first[pair + 1] - contact->rows.first[pair];
@@ -301,11 +374,23 @@ PetscErrorCode ContactGetFrictionless(Contact contact, PetscInt pair, PetscInt *
   PetscFunctionReturn(0);
 }
 
-/*
-   Gets the distance and the penetration up to which facets count as facing each other. *distance: the smallest search
-   distance of those pairs whose distance the scene does not set [length]; `PETSC_MAX_REAL` if the scene sets all of
-   them; *depth: the largest search depth of all pairs [length].
-*/
+/*@
+  ContactGetReach - Gets the distance and the penetration up to which facets count as facing each other
+
+  Not Collective
+
+  Input Parameter:
+. contact - the contact
+
+  Output Parameters:
++ distance - the smallest search distance of those pairs whose distance the scene does not set [length];
+             `PETSC_MAX_REAL` if the scene sets all of them
+- depth    - the largest search depth of all pairs [length]
+
+  Level: intermediate
+
+.seealso: `ContactSetReach()`, `ContactLinearize()`
+@*/
 PetscErrorCode ContactGetReach(Contact contact, PetscReal *distance, PetscReal *depth)
 {
   PetscFunctionBegin;
@@ -318,14 +403,25 @@ PetscErrorCode ContactGetReach(Contact contact, PetscReal *distance, PetscReal *
   PetscFunctionReturn(0);
 }
 
-/*
-   Logically collective. Increases the distance and the penetration up to which facets count as facing each other, for
-   load steps with large motions. distance: lower limit of the search distance of pairs whose distance the scene does
-   not set [length]; 0: the default; depth: lower limit of the search depth of all pairs [length]; 0: the default.
+/*@
+  ContactSetReach - Increases the distance and the penetration up to which facets count as facing each other, for load
+  steps with large motions
 
-   If depth is positive, any two facets whose normals make an angle of more than 90 degrees count as facing each other.
-   Such a linearization is suitable for measuring gaps, not for a solve.
-*/
+  Logically Collective
+
+  Input Parameters:
++ contact  - the contact
+. distance - lower limit of the search distance of pairs whose distance the scene does not set [length]; 0: the default
+- depth    - lower limit of the search depth of all pairs [length]; 0: the default
+
+  Level: intermediate
+
+  Note:
+  If depth is positive, any two facets whose normals make an angle of more than 90 degrees count as facing each other.
+  Such a linearization is suitable for measuring gaps, not for a solve.
+
+.seealso: `ContactGetReach()`, `ContactLinearize()`
+@*/
 PetscErrorCode ContactSetReach(Contact contact, PetscReal distance, PetscReal depth)
 {
   PetscFunctionBegin;
@@ -347,10 +443,19 @@ PetscErrorCode ContactSetDual(Contact contact, PetscBool dual)
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Prints a contact: its pairs, the search parameters, and the rows of the last linearization. viewer: an
-   ASCII viewer; others are ignored.
-*/
+/*@
+  ContactView - Prints a contact: its pairs, the search parameters, and the rows of the last linearization
+
+  Collective
+
+  Input Parameters:
++ contact - the contact
+- viewer  - an ASCII viewer; others are ignored
+
+  Level: intermediate
+
+.seealso: `ContactLinearize()`
+@*/
 PetscErrorCode ContactView(Contact contact, PetscViewer viewer)
 {
   PetscBool ascii;
@@ -375,7 +480,18 @@ PetscErrorCode ContactView(Contact contact, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Destroys a contact. contact: the contact, may be NULL. */
+/*@
+  ContactDestroy - Destroys a contact
+
+  Collective
+
+  Input Parameter:
+. contact - the contact, may be NULL
+
+  Level: beginner
+
+.seealso: `ContactCreate()`
+@*/
 PetscErrorCode ContactDestroy(Contact *contact)
 {
   PetscFunctionBegin;

@@ -238,14 +238,24 @@ static PetscErrorCode InitialOverlapSearch(Contact contact, const ContactBoundar
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Checks that no undeformed bodies overlap by more than the search depth. usual: the gap linearized at zero
-   displacement, with the default search depth.
+/*@
+  ContactCheckDepth - Checks that no undeformed bodies overlap by more than the search depth
 
-   Such bodies would have no contact rows and would penetrate each other. The error message names the pair, the depth,
-   and the option that increases the search depth. The check costs one more search if the bounding boxes of the bodies
-   of a pair overlap, and nothing otherwise.
-*/
+  Collective
+
+  Input Parameters:
++ contact - the contact
+- usual - the gap linearized at zero displacement, with the default search depth
+
+  Level: intermediate
+
+  Note:
+  Such bodies would have no contact rows and would penetrate each other. The error message names the pair, the depth,
+  and the option that increases the search depth. The check costs one more search if the bounding boxes of the bodies of
+  a pair overlap, and nothing otherwise.
+
+.seealso: `ContactLinearize()`, `ContactGetReach()`
+@*/
 PetscErrorCode ContactCheckDepth(Contact contact, ContactLinearization usual)
 {
   ContactBoundary        boundary;

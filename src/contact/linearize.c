@@ -80,54 +80,68 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, ContactParts parts,
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Linearizes the gap at a displacement: c(u') = g + J (u' - u). u: global displacement vector, 3 components
-   per vertex [length]; *lin: the linearized gap; it may have no rows.
+/*@
+  ContactLinearize - Linearizes the gap at a displacement: c(u') = g + J (u' - u)
 
-   The gap of nonmortar vertex A is g_A = 1/m_A int phi_A (x2 - x1).n_A, integrated over the part of the nonmortar face
-   that a mortar face covers. The point x1 is on the nonmortar facet, and x2 is on the mortar facet along the nonmortar
-   facet's normal. n_A is the outward area-weighted mean of the normals of the facets around A, and m_A = int phi_A over
-   the whole undeformed nonmortar face. The gap is positive where the faces are open. The row J_A = 1/m_A int phi_A (N2
-   - N1) n_A is the derivative for fixed overlap and fixed normals. The option -contact_normals facet replaces n_A by
-   the facet's normal. Averaged normals vary smoothly while the faces slide. The facets' normals transmit a uniform
-   pressure exactly over curved faces with matching meshes.
+  Collective
 
-   Pairs with gap `GAP_NODE` have the gap g_A = (y - x_A).n_A, where y is the closest point, also on edges and at
-   vertices, of the mortar facets that face the vertex. J_A = (N2(y) - 1_A) n_A is the derivative for a fixed position
-   of y on the facet and a fixed normal. m_A is as above, so that pressures are comparable. A vertex outside of the
-   mortar face has no row if it is farther than a twentieth of a facet from it. For a vertex on the border of the
-   nonmortar face this distance is a fifth of the square root of m_A, because faces with a common border bulge. At a
-   common border, mortar facets are extended beyond the border by at most a fifth of a facet.
+  Input Parameters:
++ contact - the contact
+- u       - global displacement vector, 3 components per vertex [length]
 
-   Pairs whose mortar side is a rigid surface (`ContactSetBodies()`) have as gap the distance of each nonmortar vertex
-   from that surface. J is its derivative.
+  Output Parameter:
+. lin - the linearized gap; it may have no rows
 
-   Faces of order 2 are divided into facets at their nodes. The patches of smooth mortar pairs follow the bending of the
-   faces between their nodes. The vertices of other pairs, and of plane faces, move with the mean displacement of the
-   faces around them. J distributes forces so that a uniform pressure is the same load as on the quadratic face.
+  Level: beginner
 
-   Where the faces touch, J is the derivative of the gap except for the differences between the normals of neighbouring
-   facets. It is exact on planes, and with -contact_normals facet on curved faces too.
+  Notes:
+  The gap of nonmortar vertex A is g_A = 1/m_A int phi_A (x2 - x1).n_A, integrated over the part of the nonmortar face
+  that a mortar face covers. The point x1 is on the nonmortar facet, and x2 is on the mortar facet along the nonmortar
+  facet's normal. n_A is the outward area-weighted mean of the normals of the facets around A, and m_A = int phi_A over
+  the whole undeformed nonmortar face. The gap is positive where the faces are open. The row J_A = 1/m_A int phi_A (N2 -
+  N1) n_A is the derivative for fixed overlap and fixed normals. The option -contact_normals facet replaces n_A by the
+  facet's normal. Averaged normals vary smoothly while the faces slide. The facets' normals transmit a uniform pressure
+  exactly over curved faces with matching meshes.
 
-   For a smooth pair with a curved face (`SceneContactPair`), x1 and x2 are points of smooth surfaces. These are patches
-   through the deformed vertices whose edges follow the mean normals of the facets around the vertices. Where a face
-   ends on a plane on which it is held (`ContactSetDisplacements()`), its smooth surface is continued by the mirror
-   image. The mortar gap is then measured along the normal of each nonmortar facet, and the gap of a vertex along the
-   normal of the mortar surface. lin->derivative is the exact derivative of the gap, including the rotation of the
-   normals; it depends on nodes up to two facets away. J is the derivative of the mean gap of a row times its present
-   covered area, for patches that keep their shape and rotate with their facets. The forces of J are distributed like
-   those of facets, and no force reduces a gap by reducing the covered area. The forces on both bodies, and their
-   moments, balance up to rounding. lin->derivative serves to predict the gap.
+  Pairs with gap `GAP_NODE` have the gap g_A = (y - x_A).n_A, where y is the closest point, also on edges and at
+  vertices, of the mortar facets that face the vertex. J_A = (N2(y) - 1_A) n_A is the derivative for a fixed position of
+  y on the facet and a fixed normal. m_A is as above, so that pressures are comparable. A vertex outside of the
+  mortar face has no row if it is farther than a twentieth of a facet from it. For a vertex on the border of the
+  nonmortar face this distance is a fifth of the square root of m_A, because faces with a common border bulge. At a
+  common border, mortar facets are extended beyond the border by at most a fifth of a facet.
 
-   If the same prescribed displacement holds both faces at a vertex, and the cells beside it do not match, it has no
-   row. The integrals of its row are added to those of its free neighbours.
+  Pairs whose mortar side is a rigid surface (`ContactSetBodies()`) have as gap the distance of each nonmortar vertex
+  from that surface. J is its derivative.
 
-   The rows differ between linearizations. lin->vertex and lin->pair identify them. It is an error if the displacement
-   is not finite.
+  Faces of order 2 are divided into facets at their nodes. The patches of smooth mortar pairs follow the bending of the
+  faces between their nodes. The vertices of other pairs, and of plane faces, move with the mean displacement of the
+  faces around them. J distributes forces so that a uniform pressure is the same load as on the quadratic face.
 
-   M. A. Puso and T. A. Laursen, A mortar segment-to-segment contact method for large deformation solid mechanics,
-   Comput. Methods Appl. Mech. Engrg. 193 (2004)
-*/
+  Where the faces touch, J is the derivative of the gap except for the differences between the normals of neighbouring
+  facets. It is exact on planes, and with -contact_normals facet on curved faces too.
+
+  For a smooth pair with a curved face (`SceneContactPair`), x1 and x2 are points of smooth surfaces. These are patches
+  through the deformed vertices whose edges follow the mean normals of the facets around the vertices. Where a face ends
+  on a plane on which it is held (`ContactSetDisplacements()`), its smooth surface is continued by the mirror image. The
+  mortar gap is then measured along the normal of each nonmortar facet, and the gap of a vertex along the normal of the
+  mortar surface. lin->derivative is the exact derivative of the gap, including the rotation of the normals; it depends
+  on nodes up to two facets away. J is the derivative of the mean gap of a row times its present covered area, for
+  patches that keep their shape and rotate with their facets. The forces of J are distributed like those of facets, and
+  no force reduces a gap by reducing the covered area. The forces on both bodies, and their moments, balance up to
+  rounding. lin->derivative serves to predict the gap.
+
+  If the same prescribed displacement holds both faces at a vertex, and the cells beside it do not match, it has no row.
+  The integrals of its row are added to those of its free neighbours.
+
+  The rows differ between linearizations. lin->vertex and lin->pair identify them. It is an error if the displacement is
+  not finite.
+
+  References:
+. * - M. A. Puso and T. A. Laursen, A mortar segment-to-segment contact method for large deformation solid mechanics,
+      Comput. Methods Appl. Mech. Engrg. 193 (2004)
+
+.seealso: `ContactCreate()`, `ContactLinearizationDestroy()`
+@*/
 PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *lin)
 {
   PetscFunctionBegin;
@@ -135,11 +149,22 @@ PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *li
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Linearizes the gap at a displacement without computing lin->derivative, which takes less time. u: global
-   displacement vector, 3 components per vertex [length]; *lin: the linearized gap, as computed by `ContactLinearize()`,
-   but lin->derivative is NULL.
-*/
+/*@
+  ContactLinearizeForces - Linearizes the gap at a displacement without computing lin->derivative, which takes less time
+
+  Collective
+
+  Input Parameters:
++ contact - the contact
+- u       - global displacement vector, 3 components per vertex [length]
+
+  Output Parameter:
+. lin - the linearized gap, as computed by `ContactLinearize()`, but lin->derivative is NULL
+
+  Level: developer
+
+.seealso: `ContactLinearize()`, `ContactLinearizationDestroy()`
+@*/
 PetscErrorCode ContactLinearizeForces(Contact contact, Vec u, ContactLinearization *lin)
 {
   PetscFunctionBegin;
@@ -147,11 +172,23 @@ PetscErrorCode ContactLinearizeForces(Contact contact, Vec u, ContactLinearizati
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Measures the gap at a displacement. u: global displacement vector, 3 components per vertex [length];
-   *lin: the gap and its rows as computed by `ContactLinearize()`, without the derivatives that only a solve needs. J of
-   smooth pairs is the derivative for their facets, and lin->derivative is NULL.
-*/
+/*@
+  ContactGetGaps - Measures the gap at a displacement
+
+  Collective
+
+  Input Parameters:
++ contact - the contact
+- u       - global displacement vector, 3 components per vertex [length]
+
+  Output Parameter:
+. lin - the gap and its rows as computed by `ContactLinearize()`, without the derivatives that only a solve needs. J of
+        smooth pairs is the derivative for their facets, and lin->derivative is NULL
+
+  Level: developer
+
+.seealso: `ContactLinearize()`, `ContactLinearizationDestroy()`
+@*/
 PetscErrorCode ContactGetGaps(Contact contact, Vec u, ContactLinearization *lin)
 {
   PetscFunctionBegin;
@@ -159,7 +196,18 @@ PetscErrorCode ContactGetGaps(Contact contact, Vec u, ContactLinearization *lin)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Destroys a linearized gap. lin: the linearized gap, may be NULL. */
+/*@
+  ContactLinearizationDestroy - Destroys a linearized gap
+
+  Collective
+
+  Input Parameter:
+. lin - the linearized gap, may be NULL
+
+  Level: beginner
+
+.seealso: `ContactLinearize()`
+@*/
 PetscErrorCode ContactLinearizationDestroy(ContactLinearization *lin)
 {
   PetscFunctionBegin;

@@ -184,14 +184,28 @@ static PetscErrorCode TieSetTrace(DM dm, const ContactSurface *mortar, const Con
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Computes the weights of a tie: the displacement of each vertex of one face is a weighted mean of
-   displacements of another face. what: what the tie is in the scene, for error messages, e.g. "tie" or "springs"; tie:
-   the two faces; *rows: a square AIJ matrix with one row and one column per node of the mesh. The row of a node of the
-   nonmortar face holds the weights of the mortar face's nodes, which sum to 1. Other rows are empty.
+/*@C
+  ContactTieCreate - Computes the weights of a tie: the displacement of each vertex of one face is a weighted mean of
+  displacements of another face
 
-   It is an error if the undeformed mortar face does not cover the nonmortar face.
-*/
+  Collective
+
+  Input Parameters:
++ dm   - the mesh
+. what - what the tie is in the scene, for error messages, e.g. "tie" or "springs"
+- tie  - the two faces
+
+  Output Parameter:
+. rows - a square AIJ matrix with one row and one column per node of the mesh. The row of a node of the nonmortar face
+         holds the weights of the mortar face's nodes, which sum to 1. Other rows are empty.
+
+  Level: intermediate
+
+  Note:
+  It is an error if the undeformed mortar face does not cover the nonmortar face.
+
+.seealso: `ContactCreate()`
+@*/
 PetscErrorCode ContactTieCreate(DM dm, const char what[], const SceneTie *tie, Mat *rows)
 {
   MPI_Comm        comm = PetscObjectComm((PetscObject)dm);

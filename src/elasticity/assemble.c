@@ -98,19 +98,32 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Assembles the second derivative of the energy. u: displacement, global, 3 components per node [length];
-   may be `NULL` (no displacement); tangent: matrix from `ElasticityCreateTangent()`; *tangent: the tangent
-   [force/length]; rows and columns of prescribed unknowns are zero apart from the diagonal.
+/*@
+  ElasticityTangent - Assembles the second derivative of the energy
 
-   If the matrix is that of the last call and its `PetscObjectState` has not changed since, bodies with a constant
-   tangent are not assembled again, unless they share nodes with a body that is. If the tangents of all bodies are
-   constant, nothing is done and the state does not change. Any other matrix is assembled completely, and so is one of a
-   type without `MatZeroRows()` (sbaij).
+  Collective
 
-   An inverted cell, whose energy is infinite, gets the stiffness of zero displacement, so that the matrix contains no
-   NaN.
-*/
+  Input Parameters:
++ e       - the context
+. u       - displacement, global, 3 components per node [length]; may be `NULL` (no displacement)
+- tangent - matrix from `ElasticityCreateTangent()`
+
+  Output Parameter:
+. tangent - the tangent [force/length]; rows and columns of prescribed unknowns are zero apart from the diagonal
+
+  Level: beginner
+
+  Notes:
+  If the matrix is that of the last call and its `PetscObjectState` has not changed since, bodies with a constant
+  tangent are not assembled again, unless they share nodes with a body that is. If the tangents of all bodies are
+  constant, nothing is done and the state does not change. Any other matrix is assembled completely, and so is one of a
+  type without `MatZeroRows()` (sbaij).
+
+  An inverted cell, whose energy is infinite, gets the stiffness of zero displacement, so that the matrix contains no
+  NaN.
+
+.seealso: `ElasticityCreateTangent()`, `ElasticitySetPrescribed()`, `ElasticityForce()`, `ElasticityGetAssemblies()`
+@*/
 PetscErrorCode ElasticityTangent(Elasticity e, Vec u, Mat tangent)
 {
   ISLocalToGlobalMapping map;
@@ -137,10 +150,22 @@ PetscErrorCode ElasticityTangent(Elasticity e, Vec u, Mat tangent)
   PetscFunctionReturn(0);
 }
 
-/*
-   Gets how often a body has been assembled into a tangent. body: the body, from 0; *assemblies: number of assemblies,
-   into any matrix.
-*/
+/*@
+  ElasticityGetAssemblies - Gets how often a body has been assembled into a tangent
+
+  Not Collective
+
+  Input Parameters:
++ e    - the context
+- body - the body, from 0
+
+  Output Parameter:
+. assemblies - number of assemblies, into any matrix
+
+  Level: intermediate
+
+.seealso: `ElasticityTangent()`
+@*/
 PetscErrorCode ElasticityGetAssemblies(Elasticity e, PetscInt body, PetscInt *assemblies)
 {
   PetscFunctionBegin;

@@ -1,10 +1,21 @@
 /* Bodies with a constant tangent: finds whether all bodies have one, and which bodies need not be assembled again */
 #include "elasticityimpl.h"
 
-/*
-   Gets whether the tangents of all bodies are independent of the displacement. *linear: `PETSC_TRUE` if the energy is
-   quadratic in the displacement.
-*/
+/*@
+  ElasticityIsLinear - Gets whether the tangents of all bodies are independent of the displacement
+
+  Not Collective
+
+  Input Parameter:
+. e - the context
+
+  Output Parameter:
+. linear - `PETSC_TRUE` if the energy is quadratic in the displacement
+
+  Level: intermediate
+
+.seealso: `ElasticityTangent()`, `ElasticityGetAssemblies()`
+@*/
 PetscErrorCode ElasticityIsLinear(Elasticity e, PetscBool *linear)
 {
   PetscFunctionBegin;

@@ -105,15 +105,31 @@ static PetscErrorCode ElasticitySetUpCells(Elasticity e)
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Creates the elasticity of the bodies of a mesh, made of hexahedra and tetrahedra of order 1 and 2. dm:
-   the mesh, from `MeshCreate()`; nbodies: number of bodies; materials: materials[b] belongs to the cells whose "body"
-   label is b; elements: elements[b] is the element of those cells: `ELEMENT_FULL`; `ELEMENT_BBAR`, which does not lock
-   as Poisson's ratio nears 1/2; or `ELEMENT_INCOMPATIBLE`, which does not lock in bending either, for laws of small
-   strain; `NULL` for full integration everywhere; *elasticity: the new context; -elasticity_quadrature <2>: Gauss
-   points per axis in cells of order 1, 2 or 3; 2 is exact for the linear law on parallelepipeds; -elasticity_mat_type
-   <baij>: type of the tangent: baij, aij or sbaij.
-*/
+/*@
+  ElasticityCreate - Creates the elasticity of the bodies of a mesh, made of hexahedra and tetrahedra of order 1 and 2
+
+  Collective
+
+  Input Parameters:
++ dm        - the mesh, from `MeshCreate()`
+. nbodies   - number of bodies
+. materials - materials[b] belongs to the cells whose "body" label is b
+- elements  - elements[b] is the element of those cells: `ELEMENT_FULL`; `ELEMENT_BBAR`, which does not lock as
+              Poisson's ratio nears 1/2; or `ELEMENT_INCOMPATIBLE`, which does not lock in bending either, for laws of
+              small strain; `NULL` for full integration everywhere
+
+  Output Parameter:
+. elasticity - the new context
+
+  Options Database Keys:
++ -elasticity_quadrature <2>   - Gauss points per axis in cells of order 1, 2 or 3; 2 is exact for the linear law on
+                                 parallelepipeds
+- -elasticity_mat_type <baij>  - type of the tangent: baij, aij or sbaij
+
+  Level: beginner
+
+.seealso: `MeshCreate()`, `ElasticitySetPrescribed()`, `ElasticityCreateTangent()`, `ElasticityForce()`
+@*/
 PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material materials[], const ElementType elements[],
   Elasticity *elasticity)
 {
@@ -158,13 +174,23 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Sets the unknowns whose displacement is prescribed. rows: global rows owned by this rank, repeated ones
-   allowed; `NULL` for none.
+/*@
+  ElasticitySetPrescribed - Sets the unknowns whose displacement is prescribed
 
-   The tangent has zero rows and columns there, apart from the diagonal. Energy and force are not affected. The next
-   tangent is assembled completely.
-*/
+  Collective
+
+  Input Parameters:
++ e    - the context
+- rows - global rows owned by this rank, repeated ones allowed; `NULL` for none
+
+  Level: beginner
+
+  Notes:
+  The tangent has zero rows and columns there, apart from the diagonal. Energy and force are not affected. The next
+  tangent is assembled completely.
+
+.seealso: `ElasticityCreateTangent()`, `MeshGetFaceDofs()`
+@*/
 PetscErrorCode ElasticitySetPrescribed(Elasticity e, IS rows)
 {
   Vec                global, local;
@@ -205,7 +231,18 @@ PetscErrorCode ElasticitySetPrescribed(Elasticity e, IS rows)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Destroys an elasticity context. */
+/*@
+  ElasticityDestroy - Destroys an elasticity context
+
+  Collective
+
+  Input Parameter:
+. e - the context
+
+  Level: beginner
+
+.seealso: `ElasticityCreate()`
+@*/
 PetscErrorCode ElasticityDestroy(Elasticity *e)
 {
   PetscFunctionBegin;

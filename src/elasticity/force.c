@@ -1,13 +1,26 @@
 /* Computes energy and internal force by loops over the cells, without a matrix */
 #include "elasticityimpl.h"
 
-/*
-   Collective. Computes the elastic energy stored by a displacement. u: displacement, global, 3 components per node
-   [length]; *energy: stored energy of all bodies [force length].
+/*@
+  ElasticityEnergy - Computes the elastic energy stored by a displacement
 
-   If a cell of a finite strain law is inverted (det F <= 0 at a quadrature point), the energy is `PETSC_INFINITY` on
-   all ranks. A line search then shortens its step.
-*/
+  Collective
+
+  Input Parameters:
++ e - the context
+- u - displacement, global, 3 components per node [length]
+
+  Output Parameter:
+. energy - stored energy of all bodies [force length]
+
+  Level: beginner
+
+  Notes:
+  If a cell of a finite strain law is inverted (det F <= 0 at a quadrature point), the energy is `PETSC_INFINITY` on all
+  ranks. A line search then shortens its step.
+
+.seealso: `ElasticityForce()`, `ElasticityTangent()`
+@*/
 PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
 {
   Vec                local;
@@ -34,13 +47,26 @@ PetscErrorCode ElasticityEnergy(Elasticity e, Vec u, PetscReal *energy)
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Computes the internal force, the derivative of the energy. u: displacement, global, 3 components per node
-   [length]; *force: dE/du on all rows; on prescribed rows this is the reaction [force].
+/*@
+  ElasticityForce - Computes the internal force, the derivative of the energy
 
-   If the energy is infinite, the rows of the nodes of every inverted cell are at least `PETSC_INFINITY`. The norm of
-   the vector is therefore infinite on all ranks.
-*/
+  Collective
+
+  Input Parameters:
++ e - the context
+- u - displacement, global, 3 components per node [length]
+
+  Output Parameter:
+. force - dE/du on all rows; on prescribed rows this is the reaction [force]
+
+  Level: beginner
+
+  Notes:
+  If the energy is infinite, the rows of the nodes of every inverted cell are at least `PETSC_INFINITY`. The norm of the
+  vector is therefore infinite on all ranks.
+
+.seealso: `ElasticityEnergy()`, `ElasticityTangent()`
+@*/
 PetscErrorCode ElasticityForce(Elasticity e, Vec u, Vec force)
 {
   Vec                local, flocal;

@@ -78,11 +78,22 @@ static PetscBool HistoryGetCell(Elasticity e, PetscInt c, const PetscScalar x[],
   return PETSC_TRUE;
 }
 
-/*
-   Collective. Computes the plastic work up to the last state of equilibrium, a part of the energy. *work: integral of
-   the stress over the plastic strain, of all bodies [force length]; *largest: equivalent plastic strain of each body,
-   nbodies values; 0 without plasticity.
-*/
+/*@
+  ElasticityPlasticWork - Computes the plastic work up to the last state of equilibrium, a part of the energy
+
+  Collective
+
+  Input Parameter:
+. e - the context
+
+  Output Parameters:
++ work    - integral of the stress over the plastic strain, of all bodies [force length]
+- largest - equivalent plastic strain of each body, nbodies values; 0 without plasticity
+
+  Level: intermediate
+
+.seealso: `ElasticityEnergy()`
+@*/
 PetscErrorCode ElasticityPlasticWork(Elasticity e, PetscReal *work, PetscReal largest[])
 {
   Vec                local;
@@ -173,11 +184,23 @@ PetscErrorCode ElasticityPlasticFlow(Elasticity e, Vec u, PetscReal *stored, Pet
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Gets the plastic strain of the cells at the last state of equilibrium. *strain: mean over each local
-   cell, in the order of the mesh's cells: plastic strain xx yy zz xy yz zx and its equivalent, MATERIAL_PLASTIC values
-   per cell; free with `PetscFree()`. `NULL` on all ranks if no body is plastic.
-*/
+/*@
+  ElasticityCellPlastic - Gets the plastic strain of the cells at the last state of equilibrium
+
+  Collective
+
+  Input Parameter:
+. e - the context
+
+  Output Parameter:
+. strain - mean over each local cell, in the order of the mesh's cells: plastic strain xx yy zz xy yz zx and its
+           equivalent, MATERIAL_PLASTIC values per cell; free with `PetscFree()`. `NULL` on all ranks if no body is
+           plastic
+
+  Level: intermediate
+
+.seealso: `ElasticityPlasticWork()`
+@*/
 PetscErrorCode ElasticityCellPlastic(Elasticity e, PetscReal *strain[])
 {
   Vec                local;

@@ -76,16 +76,29 @@ void CellAddInertia(Elasticity e, const CellState *cell, PetscScalar K[])
     K[i] = (body->rigid ? 0 : (1 + e->viscosity) * K[i]) + e->inertia * body->density * M[i];
 }
 
-/*
-   Collective. Sets the density and the type of the bodies' mass. density: of each body [mass/length^3]; consistent:
-   whether the mass is consistent, the integral of products of shape functions, or lumped. That of rigid bodies is
-   consistent in both cases; light: global vector, positive at the nodes that have no lumped mass. The other nodes of
-   their cells carry it. `NULL`: there are no such nodes.
+/*@
+  ElasticitySetMass - Sets the density and the type of the bodies' mass
 
-   In a cell all of whose nodes are light, no mass is moved. The mass of a body is the same in all cases.
+  Collective
 
-   Khenous, Laborde and Renard, Mass redistribution method for finite element contact problems in elastodynamics, 2008.
-*/
+  Input Parameters:
++ e          - the context
+. density    - of each body [mass/length^3]
+. consistent - whether the mass is consistent, the integral of products of shape functions, or lumped. That of rigid
+               bodies is consistent in both cases
+- light      - global vector, positive at the nodes that have no lumped mass. The other nodes of their cells carry it.
+               `NULL`: there are no such nodes
+
+  Level: intermediate
+
+  Notes:
+  In a cell all of whose nodes are light, no mass is moved. The mass of a body is the same in all cases.
+
+  References:
+  Khenous, Laborde and Renard, Mass redistribution method for finite element contact problems in elastodynamics, 2008.
+
+.seealso: `ElasticityCreateMass()`, `ElasticitySetInertia()`
+@*/
 PetscErrorCode ElasticitySetMass(Elasticity e, const PetscReal density[], PetscBool consistent, Vec light)
 {
   Vec                local;
@@ -131,10 +144,21 @@ static PetscErrorCode ElasticityCreateMassMatrix(Elasticity e, Mat *mass)
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Computes the mass matrix of the bodies. e: the context, after `ElasticitySetMass()`; *mass: new matrix,
-   on all rows, the prescribed ones too [mass].
-*/
+/*@
+  ElasticityCreateMass - Computes the mass matrix of the bodies
+
+  Collective
+
+  Input Parameter:
+. e - the context, after `ElasticitySetMass()`
+
+  Output Parameter:
+. mass - new matrix, on all rows, the prescribed ones too [mass]
+
+  Level: intermediate
+
+.seealso: `ElasticitySetMass()`, `ElasticityLumpedMass()`
+@*/
 PetscErrorCode ElasticityCreateMass(Elasticity e, Mat *mass)
 {
   ISLocalToGlobalMapping map;
@@ -174,11 +198,23 @@ PetscErrorCode ElasticityCreateMass(Elasticity e, Mat *mass)
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Adds the mass matrix to later tangents, as time steps require. e: the context, after
-   `ElasticitySetMass()`; inertia: factor of the mass matrix [1/time^2]; viscosity: relative increase of the cells'
-   stiffness, for damping; *changed: whether the factors have changed; the next tangent is then assembled completely.
-*/
+/*@
+  ElasticitySetInertia - Adds the mass matrix to later tangents, as time steps require
+
+  Collective
+
+  Input Parameters:
++ e         - the context, after `ElasticitySetMass()`
+. inertia   - factor of the mass matrix [1/time^2]
+- viscosity - relative increase of the cells' stiffness, for damping
+
+  Output Parameter:
+. changed - whether the factors have changed; the next tangent is then assembled completely
+
+  Level: intermediate
+
+.seealso: `ElasticityTangent()`, `ElasticityCreateMass()`
+@*/
 PetscErrorCode ElasticitySetInertia(Elasticity e, PetscReal inertia, PetscReal viscosity, PetscBool *changed)
 {
   PetscFunctionBegin;

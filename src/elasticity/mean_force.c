@@ -160,17 +160,32 @@ static PetscBool CellExcess(CellState cell[2], PetscReal F[3][CELL_MAX_NODES])
   return PETSC_TRUE;
 }
 
-/*
-   Collective. Computes the mean force of a step, which conserves energy and momentum, minus the mean of the forces at
-   both ends. from: displacement at the start, a state of equilibrium, global, 3 components per node [length]; to:
-   displacement at the end [length]; *excess: the difference, on all rows; zero if a cell is inverted [force]; *valid:
-   whether no cell is inverted.
+/*@
+  ElasticityExcess - Computes the mean force of a step, which conserves energy and momentum, minus the mean of the
+  forces at both ends
 
-   The work of the mean force is the change of `ElasticityEnergy()`, including plastic work. The mean force has neither
-   a resultant nor a moment about the mean positions. For bodies with a constant tangent the difference is zero.
+  Collective
 
-   Gonzalez, Exact energy and momentum conserving algorithms for general models in nonlinear elasticity, 2000.
-*/
+  Input Parameters:
++ e    - the context
+. from - displacement at the start, a state of equilibrium, global, 3 components per node [length]
+- to   - displacement at the end [length]
+
+  Output Parameters:
++ excess - the difference, on all rows; zero if a cell is inverted [force]
+- valid  - whether no cell is inverted
+
+  Level: intermediate
+
+  Notes:
+  The work of the mean force is the change of `ElasticityEnergy()`, including plastic work. The mean force has neither a
+  resultant nor a moment about the mean positions. For bodies with a constant tangent the difference is zero.
+
+  References:
+. * - Gonzalez, Exact energy and momentum conserving algorithms for general models in nonlinear elasticity, 2000.
+
+.seealso: `ElasticityForce()`, `ElasticityCommit()`
+@*/
 PetscErrorCode ElasticityExcess(Elasticity e, Vec from, Vec to, Vec excess, PetscBool *valid)
 {
   Vec                locals[2], flocal;

@@ -56,12 +56,27 @@ PetscErrorCode ElasticitySetMatType(Elasticity e, MatType type)
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Creates the tangent matrix, all its entries allocated and zero. *tangent: n x n matrix of block size 3,
-   laid out as the mesh's global vectors; -elasticity_mat_type <baij>: baij, aij or sbaij.
+/*@
+  ElasticityCreateTangent - Creates the tangent matrix, all its entries allocated and zero
 
-   The matrix is marked as symmetric. `ElasticitySetNearNullSpace()` attaches a near null space.
-*/
+  Collective
+
+  Input Parameter:
+. e - the context
+
+  Output Parameter:
+. tangent - n x n matrix of block size 3, laid out as the mesh's global vectors
+
+  Options Database Key:
+. -elasticity_mat_type <baij> - baij, aij or sbaij
+
+  Level: beginner
+
+  Notes:
+  The matrix is marked as symmetric. `ElasticitySetNearNullSpace()` attaches a near null space.
+
+.seealso: `ElasticityTangent()`, `ElasticitySetNearNullSpace()`
+@*/
 PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
 {
   Vec      global;
@@ -87,13 +102,24 @@ PetscErrorCode ElasticityCreateTangent(Elasticity e, Mat *tangent)
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Attaches the rigid body modes of the reference geometry to a tangent, for smoothed aggregation and nodal
-   AMG. A: tangent, or another matrix laid out like it.
+/*@
+  ElasticitySetNearNullSpace - Attaches the rigid body modes of the reference geometry to a tangent, for smoothed
+  aggregation and nodal AMG
 
-   There are at most six modes, orthonormal, and zero on the rows that are prescribed when this function is called. They
-   take as much memory as six solutions. `PCHYPRE` copies them even if it does not use them.
-*/
+  Collective
+
+  Input Parameters:
++ e - the elasticity
+- A - tangent, or another matrix laid out like it
+
+  Level: beginner
+
+  Notes:
+  There are at most six modes, orthonormal, and zero on the rows that are prescribed when this function is called. They
+  take as much memory as six solutions. `PCHYPRE` copies them even if it does not use them.
+
+.seealso: `ElasticityCreateTangent()`, `ElasticitySetPrescribed()`, `MatSetNearNullSpace()`
+@*/
 PetscErrorCode ElasticitySetNearNullSpace(Elasticity e, Mat A)
 {
   Vec          local, coordinates;

@@ -5,12 +5,25 @@ const MaterialConstant MaterialConstantsFinite[] = {MATERIAL_YOUNG, MATERIAL_POI
 const MaterialConstant MaterialConstantsSmall[]  = {MATERIAL_YOUNG, MATERIAL_POISSON,
    {"expansion", 1, offsetof(Material, expansion), PETSC_FALSE, NULL, NULL, 0, 0}, MATERIAL_DENSITY, {NULL}};
 
-/*
-   Gets the Lame parameters of a material, lambda = E nu/((1+nu)(1-2nu)) and mu = E/(2(1+nu)). material: the material;
-   *lambda: first Lame parameter [force/length^2]; *mu: shear modulus [force/length^2].
+/*@
+  MaterialGetLame - Gets the Lame parameters of a material, lambda = E nu/((1+nu)(1-2nu)) and mu = E/(2(1+nu))
 
-   It is an error unless E > 0 and -1 < nu < 1/2, both finite.
-*/
+  Not Collective
+
+  Input Parameter:
+. material - the material
+
+  Output Parameters:
++ lambda - first Lame parameter [force/length^2]
+- mu     - shear modulus [force/length^2]
+
+  Level: intermediate
+
+  Notes:
+  It is an error unless E > 0 and -1 < nu < 1/2, both finite.
+
+.seealso: `ElasticityCreate()`
+@*/
 PetscErrorCode MaterialGetLame(const Material *material, PetscReal *lambda, PetscReal *mu)
 {
   const PetscReal E = material->young, nu = material->poisson;

@@ -1,12 +1,23 @@
 /* One body at level 0: checks of its parameters, and its grid on the first rank */
 #include "meshimpl.h"
 
-/*
-   Collective. Checks the parameters of a body's shape, or that the mesh file contains the named volume, and the parts
-   of the body's faces. body: the body, the same on all ranks.
+/*@
+  MeshCheckBody - Checks the parameters of a body's shape, or that the mesh file contains the named volume, and the
+  parts of the body's faces
 
-   An error is raised on all ranks. Only the first sections of a Gmsh file, up to the physical names, are read.
-*/
+  Collective
+
+  Input Parameters:
++ comm - communicator
+- body - the body, the same on all ranks
+
+  Level: intermediate
+
+  Notes:
+  An error is raised on all ranks. Only the first sections of a Gmsh file, up to the physical names, are read.
+
+.seealso: `MeshCreate()`, `MeshGetFaceNames()`
+@*/
 PetscErrorCode MeshCheckBody(MPI_Comm comm, const SceneBody *body)
 {
   const Shape *shape;

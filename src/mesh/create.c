@@ -208,26 +208,45 @@ static PetscErrorCode MeshCreateRefined(MPI_Comm comm, PetscInt nbodies, const S
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Creates the mesh of all bodies, which consists of hexahedra and tetrahedra, distributes and refines it,
-   and lays out the displacements. nbodies: number of bodies, at least 1; bodies: the bodies, equal on all ranks;
-   refine: number of uniform refinements of level 0, at least 0; *dm: the mesh, a `DMPLEX` with one connected component
-   per body; -petscpartitioner_type <metis>: partitioner of the level 0 mesh; -dm_view: views the mesh.
+/*@
+  MeshCreate - Creates the mesh of all bodies, which consists of hexahedra and tetrahedra, distributes and refines it,
+  and lays out the displacements
 
-   The label "body" contains the body number of each cell. The label "<body>.<face>" contains the facets of a named
-   face, and their closure. Level 0 is created on rank 0, or read there from Gmsh files. It is refined there until each
-   rank gets enough cells for a balanced partition, and then distributed; refinement continues in parallel. Large meshes
-   of scenes with Gmsh files are distributed before any rank creates a `DMPLEX` of them. New vertices of a curved body
-   lie on its exact surfaces, and vertices inside follow the map of the shape. New vertices of a body from a Gmsh file
-   of second order follow its quadratic cells. If the file is of first order, they follow arcs that are perpendicular to
-   the mean normals of the facets around the vertices.
+  Collective
 
-   Bodies never share vertices, even if they come from one Gmsh file and touch there. A body whose order is 0 gets order
-   1 if it consists of hexahedra, and order 2 if it consists of tetrahedra.
+  Input Parameters:
++ comm    - communicator
+. nbodies - number of bodies, at least 1
+. bodies  - the bodies, equal on all ranks
+- refine  - number of uniform refinements of level 0, at least 0
 
-   If there are more ranks than cells, the last ranks own nothing. It is an error if the memory of the first rank is
-   insufficient for level 0, or if a cell is inverted or flat.
-*/
+  Output Parameter:
+. dm - the mesh, a `DMPLEX` with one connected component per body
+
+  Options Database Keys:
++ -petscpartitioner_type <metis> - partitioner of the level 0 mesh
+- -dm_view                       - views the mesh
+
+  Level: beginner
+
+  Notes:
+  The label "body" contains the body number of each cell. The label "<body>.<face>" contains the facets of a
+  named face, and their closure. Level 0 is created on rank 0, or read there from Gmsh files. It is refined there until
+  each rank gets enough cells for a balanced partition, and then distributed; refinement continues in parallel. Large
+  meshes of scenes with Gmsh files are distributed before any rank creates a `DMPLEX` of them. New vertices of a curved
+  body lie on its exact surfaces, and vertices inside follow the map of the shape. New vertices of a body from a Gmsh
+  file of second order follow its quadratic cells. If the file is of first order, they follow arcs that are
+  perpendicular to the mean normals of the facets around the vertices.
+
+  Bodies never share vertices, even if they come from one Gmsh file and touch there. A body whose order is 0 gets order
+  1 if it consists of hexahedra, and order 2 if it consists of tetrahedra.
+
+  If there are more ranks than cells, the last ranks own nothing. It is an error if the memory of the first rank is
+  insufficient for level 0, or if a cell is inverted or flat.
+
+.seealso: `MeshGetFaceNames()`, `MeshGetFacets()`, `MeshGetFaceVertices()`, `MeshGetFaceDofs()`, `MeshCheckScene()`,
+          `ElasticityCreate()`
+@*/
 PetscErrorCode MeshCreate(MPI_Comm comm, PetscInt nbodies, const SceneBody bodies[], PetscInt refine, DM *dm)
 {
   const MeshLocalRefinement none = {0, NULL, NULL};

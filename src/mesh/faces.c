@@ -8,14 +8,28 @@ PetscErrorCode MeshFaceLabelName(const char body[], const char face[], size_t le
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Gets the names of a body's faces. body: the body, the same on all ranks; *n: number of faces; *names:
-   their names without the name of the body; free them with `MeshRestoreFaceNames()`.
+/*@C
+  MeshGetFaceNames - Gets the names of a body's faces
 
-   These are the faces of the body's shape, or the physical surfaces of its Gmsh file, followed by the parts of faces
-   that the scene defines. Only the first sections of a Gmsh file are read, so that a surface may turn out to have no
-   facet on the body.
-*/
+  Collective
+
+  Input Parameters:
++ comm - communicator
+- body - the body, the same on all ranks
+
+  Output Parameters:
++ n     - number of faces
+- names - their names without the name of the body; free them with `MeshRestoreFaceNames()`
+
+  Level: intermediate
+
+  Notes:
+  These are the faces of the body's shape, or the physical surfaces of its Gmsh file, followed by the parts of
+  faces that the scene defines. Only the first sections of a Gmsh file are read, so that a surface may turn out to have
+  no facet on the body.
+
+.seealso: `MeshCreate()`, `MeshGetFacets()`
+@*/
 PetscErrorCode MeshGetFaceNames(MPI_Comm comm, const SceneBody *body, PetscInt *n, char ***names)
 {
   const Shape       *shape;
@@ -48,7 +62,19 @@ PetscErrorCode MeshGetFaceNames(MPI_Comm comm, const SceneBody *body, PetscInt *
   PetscFunctionReturn(0);
 }
 
-/* Frees the names that `MeshGetFaceNames()` returned. n: number of names, set to 0; names: the names, set to NULL. */
+/*@C
+  MeshRestoreFaceNames - Frees the names that `MeshGetFaceNames()` returned
+
+  Not Collective
+
+  Input Parameters:
++ n     - number of names, set to 0
+- names - the names, set to NULL
+
+  Level: intermediate
+
+.seealso: `MeshGetFaceNames()`
+@*/
 PetscErrorCode MeshRestoreFaceNames(PetscInt *n, char ***names)
 {
   PetscFunctionBegin;

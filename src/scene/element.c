@@ -76,10 +76,23 @@ static PetscErrorCode BodyChooseElement(Scene scene, const SceneBody *body, Pets
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Gets the element of every body. *elements: the element that the scene names for each body, or the one
-   that fits its law and cells; *reasons: why it was chosen, NULL where the scene names it; NULL if not wanted.
-*/
+/*@C
+   SceneChooseElements - Gets the element of every body
+
+   Collective
+
+   Input Parameters:
++  scene - the scene
+-  dm    - its mesh
+
+   Output Parameters:
++  elements - the element that the scene names for each body, or the one that fits its law and cells
+-  reasons  - why it was chosen, NULL where the scene names it; NULL if not wanted
+
+   Level: developer
+
+.seealso: `SceneDescribe()`, `ElasticityCreate()`
+@*/
 PetscErrorCode SceneChooseElements(Scene scene, DM dm, ElementType elements[], const char *reasons[])
 {
   PetscInt *nnodes;

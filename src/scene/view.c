@@ -101,7 +101,19 @@ static PetscErrorCode SceneViewSection(Scene scene, PetscViewer viewer, const ch
   PetscFunctionReturn(0);
 }
 
-/* Collective. Prints a scene as YAML that can be read again, with all numbers to full precision. */
+/*@C
+   SceneView - Prints a scene as YAML that can be read again, with all numbers to full precision
+
+   Collective on the viewer
+
+   Input Parameters:
++  scene  - the scene
+-  viewer - an ASCII viewer
+
+   Level: beginner
+
+.seealso: `SceneLoad()`
+@*/
 PetscErrorCode SceneView(Scene scene, PetscViewer viewer)
 {
   PetscFunctionBegin;

@@ -17,13 +17,24 @@ struct _n_ContactCyclic {
   CyclicCut *cuts;
 };
 
-/*
-   Collective. Sets the cyclic symmetries of the bodies of a contact. n: number of cyclic symmetries; cuts: the cyclic
-   symmetries.
+/*@
+  ContactSetCyclic - Sets the cyclic symmetries of the bodies of a contact
 
-   Each symmetry has two faces, between which the bodies are cut. The row of a vertex on the second face is added to the
-   row of its image on the first face.
-*/
+  Collective
+
+  Input Parameters:
++ contact - the contact
+. n       - number of cyclic symmetries
+- cuts    - the cyclic symmetries
+
+  Level: intermediate
+
+  Note:
+  Each symmetry has two faces, between which the bodies are cut. The row of a vertex on the second face is added to the
+  row of its image on the first face.
+
+.seealso: `ContactCreate()`, `MeshGetCyclicImages()`
+@*/
 PetscErrorCode ContactSetCyclic(Contact contact, PetscInt n, const SceneCyclic cuts[])
 {
   PetscFunctionBegin;

@@ -108,11 +108,24 @@ static PetscErrorCode SectionCut(Elasticity e, const PetscScalar sides[], PetscI
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Adds a section through a body, for the pretension of a bolt. body: number of the body; point: a point of
-   the plane [length]; axis: normal of the plane, of any length but 0; *ncells: number of cells that the plane cuts, on
-   all ranks; negative: another section also cuts one of them.
-*/
+/*@
+  ElasticityAddSection - Adds a section through a body, for the pretension of a bolt
+
+  Collective
+
+  Input Parameters:
++ e     - the context
+. body  - number of the body
+. point - a point of the plane [length]
+- axis  - normal of the plane, of any length but 0
+
+  Output Parameter:
+. ncells - number of cells that the plane cuts, on all ranks; negative: another section also cuts one of them
+
+  Level: beginner
+
+.seealso: `ElasticitySetShortening()`, `ElasticityGetSectionForces()`
+@*/
 PetscErrorCode ElasticityAddSection(Elasticity e, PetscInt body, const PetscReal point[3], const PetscReal axis[3],
   PetscInt *ncells)
 {
@@ -141,10 +154,20 @@ PetscErrorCode ElasticityAddSection(Elasticity e, PetscInt body, const PetscReal
   PetscFunctionReturn(0);
 }
 
-/*
-   Logically collective. Sets the length by which a section shortens its body. section: number of the section, in the
-   order of `ElasticityAddSection()`; shortening: the shortening [length].
-*/
+/*@
+  ElasticitySetShortening - Sets the length by which a section shortens its body
+
+  Logically Collective
+
+  Input Parameters:
++ e          - the context
+. section    - number of the section, in the order of `ElasticityAddSection()`
+- shortening - the shortening [length]
+
+  Level: beginner
+
+.seealso: `ElasticityAddSection()`
+@*/
 PetscErrorCode ElasticitySetShortening(Elasticity e, PetscInt section, PetscReal shortening)
 {
   PetscFunctionBegin;
@@ -152,10 +175,22 @@ PetscErrorCode ElasticitySetShortening(Elasticity e, PetscInt section, PetscReal
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Gets the forces in all sections. u: displacement, global, 3 components per node [length]; *force: force
-   of each section along its axis, positive for tension [force]; infinite if a cut cell is inverted.
-*/
+/*@
+  ElasticityGetSectionForces - Gets the forces in all sections
+
+  Collective
+
+  Input Parameters:
++ e - the context
+- u - displacement, global, 3 components per node [length]
+
+  Output Parameter:
+. force - force of each section along its axis, positive for tension [force]; infinite if a cut cell is inverted
+
+  Level: beginner
+
+.seealso: `ElasticityAddSection()`
+@*/
 PetscErrorCode ElasticityGetSectionForces(Elasticity e, Vec u, PetscReal force[])
 {
   Vec                local;

@@ -58,12 +58,25 @@ void ThermalSubtract(const PetscReal fit[4], CellState *cell)
   }
 }
 
-/*
-   Fits the temperature of a body by a linear function of the position in each cell. body: the body, from 0;
-   `PETSC_DECIDE` for every body with thermal expansion; temperature: function that gives the temperature at a position
-   in the undeformed body; ctx: its context; *fits: 4 values per local cell: temperature at the cell's centre, and its
-   gradient; the fit is added to them [temperature, temperature/length].
-*/
+/*@C
+  ElasticityFitTemperature - Fits the temperature of a body by a linear function of the position in each cell
+
+  Not Collective
+
+  Input Parameters:
++ e           - the context
+. body        - the body, from 0; `PETSC_DECIDE` for every body with thermal expansion
+. temperature - function that gives the temperature at a position in the undeformed body
+- ctx         - its context
+
+  Output Parameter:
+. fits - 4 values per local cell: temperature at the cell's centre, and its gradient; the fit is added to them
+         [temperature, temperature/length]
+
+  Level: intermediate
+
+.seealso: `ElasticitySetTemperature()`
+@*/
 PetscErrorCode ElasticityFitTemperature(Elasticity e, PetscInt                            body,
   PetscErrorCode (*temperature)(void *ctx, const PetscReal x[3], PetscReal *value), void *ctx, PetscReal fits[])
 {
@@ -87,13 +100,24 @@ PetscErrorCode ElasticityFitTemperature(Elasticity e, PetscInt                  
   PetscFunctionReturn(0);
 }
 
-/*
-   Sets the temperature relative to the stress-free temperature. fits: 4 values per local cell, from
-   `ElasticityFitTemperature()`, copied; `NULL`: no temperature. Values of bodies without thermal expansion must be 0.
+/*@
+  ElasticitySetTemperature - Sets the temperature relative to the stress-free temperature
 
-   Energy, force, stress and the error estimate are then computed from the elastic strain. Only laws of small strain
-   have thermal expansion, and their tangent does not depend on the temperature.
-*/
+  Not Collective
+
+  Input Parameters:
++ e    - the context
+- fits - 4 values per local cell, from `ElasticityFitTemperature()`, copied; `NULL`: no temperature. Values of bodies
+         without thermal expansion must be 0
+
+  Level: intermediate
+
+  Notes:
+  Energy, force, stress and the error estimate are then computed from the elastic strain. Only laws of small strain have
+  thermal expansion, and their tangent does not depend on the temperature.
+
+.seealso: `ElasticityFitTemperature()`
+@*/
 PetscErrorCode ElasticitySetTemperature(Elasticity e, const PetscReal fits[])
 {
   PetscFunctionBegin;

@@ -102,11 +102,24 @@ static void FaceUniform(const PetscReal x[3], const void *ctx, PetscReal value[3
   for (int d = 0; d < 3; ++d) value[d] = ((const PetscReal *)ctx)[d];
 }
 
-/*
-   Collective. Adds the integral over a face of each node's shape function times a constant: the load of a dead
-   traction, or the stiffness of springs. face: name of the face, "<body>.<face>"; value: x, y, z per undeformed area;
-   *total: global vector; the integral is added to it, on all rows.
-*/
+/*@
+  ElasticityAddFaceField - Adds the integral over a face of each node's shape function times a constant: the load of a
+  dead traction, or the stiffness of springs
+
+  Collective
+
+  Input Parameters:
++ e     - the context
+. face  - name of the face, "<body>.<face>"
+- value - x, y, z per undeformed area
+
+  Output Parameter:
+. total - global vector; the integral is added to it, on all rows
+
+  Level: intermediate
+
+.seealso: `ElasticityAddForce()`, `ElasticityAddPressure()`, `ElasticitySetSprings()`
+@*/
 PetscErrorCode ElasticityAddFaceField(Elasticity e, const char face[], const PetscReal value[3], Vec total)
 {
   PetscFunctionBegin;
@@ -170,14 +183,28 @@ static PetscBool FaceSolveMoment(const PetscReal s[6], const PetscReal moment[3]
   return (PetscBool)(MatrixSolve(inertia, moment, b) > 1e-12 * size * size * size);
 }
 
-/*
-   Collective. Adds a dead load on a face: the linear traction with a given resultant force and moment. face: name of
-   the face, "<body>.<face>"; resultant: the force [force]; moment: the moment about the point where the force acts
-   [force length]; point: that point; `NULL`: the face's centroid [length]; *force: global vector; the load is added to
-   it, on all rows, the prescribed ones too [force].
+/*@
+  ElasticityAddForce - Adds a dead load on a face: the linear traction with a given resultant force and moment
 
-   The traction is a + b x (x - centroid) per undeformed area: uniform for a force, linear for a moment.
-*/
+  Collective
+
+  Input Parameters:
++ e         - the context
+. face      - name of the face, "<body>.<face>"
+. resultant - the force [force]
+. moment    - the moment about the point where the force acts [force length]
+- point     - that point; `NULL`: the face's centroid [length]
+
+  Output Parameter:
+. force - global vector; the load is added to it, on all rows, the prescribed ones too [force]
+
+  Level: intermediate
+
+  Notes:
+  The traction is a + b x (x - centroid) per undeformed area: uniform for a force, linear for a moment.
+
+.seealso: `ElasticityAddFaceField()`, `ElasticityAddPressure()`
+@*/
 PetscErrorCode ElasticityAddForce(Elasticity e, const char face[], const PetscReal resultant[3],
   const PetscReal moment[3], const PetscReal point[3], Vec force)
 {

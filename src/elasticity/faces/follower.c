@@ -56,18 +56,34 @@ static PetscErrorCode FollowerAddSlope(Elasticity e, const Facet *facet, const P
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Adds the load of a pressure that follows the deformed normal and area of a face, and its derivative. e:
-   the context; face: name of the face, "<body>.<face>"; pressure: positive pushes on the body [force/length^2]; u:
-   displacement, global [length]; *force: global vector; the load at u is added to it, on all rows [force]; *slope:
-   matrix from `ElasticityCreateTangent()`, to be assembled; the symmetric part of the load's derivative is added to it,
-   except in rows and columns of prescribed unknowns; `NULL`: not computed [force/length].
+/*@
+  ElasticityAddFollower - Adds the load of a pressure that follows the deformed normal and area of a face, and its
+  derivative
 
-   For a closed surface, or a surface whose edge is fixed or slides on symmetry planes, the whole derivative is
-   symmetric.
+  Collective
 
-   Schweizerhof and Ramm, Displacement dependent pressure loads in nonlinear finite element analyses, 1984.
-*/
+  Input Parameters:
++ e        - the context
+. face     - name of the face, "<body>.<face>"
+. pressure - positive pushes on the body [force/length^2]
+- u        - displacement, global [length]
+
+  Output Parameters:
++ force - global vector; the load at u is added to it, on all rows [force]
+- slope - matrix from `ElasticityCreateTangent()`, to be assembled; the symmetric part of the load's derivative is added
+          to it, except in rows and columns of prescribed unknowns; `NULL`: not computed [force/length]
+
+  Level: intermediate
+
+  Notes:
+  For a closed surface, or a surface whose edge is fixed or slides on symmetry planes, the whole derivative is
+  symmetric.
+
+  References:
+  Schweizerhof and Ramm, Displacement dependent pressure loads in nonlinear finite element analyses, 1984.
+
+.seealso: `ElasticityAddPressure()`, `ElasticityTangent()`
+@*/
 PetscErrorCode ElasticityAddFollower(Elasticity e, const char face[], PetscReal pressure, Vec u, Vec force, Mat slope)
 {
   ISLocalToGlobalMapping map;

@@ -71,15 +71,29 @@ static PetscErrorCode ElasticityAddVolume(Elasticity e, PetscInt body,
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Computes the lumped mass of unit density, by row sums: the integral of each node's shape function. e: the
-   context; *mass: new global vector, the same positive value for the 3 components of a node [length^3].
+/*@
+  ElasticityLumpedMass - Computes the lumped mass of unit density, by row sums: the integral of each node's shape
+  function
 
-   In tetrahedra of 10 nodes, where row sums are negative at the corners, masses are in proportion to the diagonal of
-   the mass matrix.
+  Collective
 
-   Hinton, Rock and Zienkiewicz, A note on mass lumping and related processes in the finite element method, 1976.
-*/
+  Input Parameter:
+. e - the context
+
+  Output Parameter:
+. mass - new global vector, the same positive value for the 3 components of a node [length^3]
+
+  Level: intermediate
+
+  Notes:
+  In tetrahedra of 10 nodes, where row sums are negative at the corners, masses are in proportion to the diagonal of
+  the mass matrix.
+
+  References:
+  Hinton, Rock and Zienkiewicz, A note on mass lumping and related processes in the finite element method, 1976.
+
+.seealso: `ElasticityCreate()`, `ElasticityAddBodyForce()`
+@*/
 PetscErrorCode ElasticityLumpedMass(Elasticity e, Vec *mass)
 {
   const PetscReal one[3] = {1, 1, 1};
@@ -91,11 +105,23 @@ PetscErrorCode ElasticityLumpedMass(Elasticity e, Vec *mass)
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Adds a dead force per reference volume. body: the body, from 0; `PETSC_DECIDE` for every body; density:
-   the force per reference volume [force/length^3]; *force: global vector; the load is added to it, on all rows, the
-   prescribed ones too [force].
-*/
+/*@
+  ElasticityAddBodyForce - Adds a dead force per reference volume
+
+  Collective
+
+  Input Parameters:
++ e       - the context
+. body    - the body, from 0; `PETSC_DECIDE` for every body
+- density - the force per reference volume [force/length^3]
+
+  Output Parameter:
+. force - global vector; the load is added to it, on all rows, the prescribed ones too [force]
+
+  Level: intermediate
+
+.seealso: `ElasticityAddPressure()`, `ElasticityForce()`
+@*/
 PetscErrorCode ElasticityAddBodyForce(Elasticity e, PetscInt body, const PetscReal density[3], Vec force)
 {
   PetscFunctionBegin;
@@ -165,14 +191,27 @@ static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], Pets
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Adds the load of a dead pressure on a face, -pressure times the reference normal. face: name of the face,
-   "<body>.<face>"; pressure: positive pushes on the body [force/length^2]; *force: global vector; the load is added to
-   it, on all rows, the prescribed ones too [force].
+/*@
+  ElasticityAddPressure - Adds the load of a dead pressure on a face, -pressure times the reference normal
 
-   The load is integrated exactly over the facets of the reference geometry, bilinear or biquadratic. A name that is not
-   a face of the mesh is an error.
-*/
+  Collective
+
+  Input Parameters:
++ e        - the context
+. face     - name of the face, "<body>.<face>"
+- pressure - positive pushes on the body [force/length^2]
+
+  Output Parameter:
+. force - global vector; the load is added to it, on all rows, the prescribed ones too [force]
+
+  Level: intermediate
+
+  Notes:
+  The load is integrated exactly over the facets of the reference geometry, bilinear or biquadratic. A name that is not
+  a face of the mesh is an error.
+
+.seealso: `ElasticityAddBodyForce()`, `ElasticityForce()`, `MeshGetFacets()`
+@*/
 PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal pressure, Vec force)
 {
   PetscFunctionBegin;

@@ -4,15 +4,26 @@
 */
 #include "facesimpl.h"
 
-/*
-   Collective. Sets the stiffness of springs from the unknowns to the ground and between unknowns. stiffness: stiffness
-   of the springs to the ground, one value per row, not negative, referenced; `NULL`: no such springs [force/length];
-   between: stiffness matrix of springs between unknowns, symmetric positive semidefinite, referenced; `NULL`: no such
-   springs [force/length].
+/*@
+  ElasticitySetSprings - Sets the stiffness of springs from the unknowns to the ground and between unknowns
 
-   Energy and force include all springs. The tangent includes only springs to the ground: its nonzero pattern has no
-   entries for the others. The next tangent is assembled completely.
-*/
+  Collective
+
+  Input Parameters:
++ e         - the context
+. stiffness - stiffness of the springs to the ground, one value per row, not negative, referenced; `NULL`: no such
+              springs [force/length]
+- between   - stiffness matrix of springs between unknowns, symmetric positive semidefinite, referenced; `NULL`: no such
+              springs [force/length]
+
+  Level: intermediate
+
+  Notes:
+  Energy and force include all springs. The tangent includes only springs to the ground: its nonzero pattern has no
+  entries for the others. The next tangent is assembled completely.
+
+.seealso: `ElasticityAddFaceField()`, `ElasticityEnergy()`
+@*/
 PetscErrorCode ElasticitySetSprings(Elasticity e, Vec stiffness, Mat between)
 {
   PetscFunctionBegin;

@@ -70,26 +70,40 @@ static PetscErrorCode EstimateAdd(Elasticity e, const PetscBool selected[], cons
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Estimates the discretization error of a displacement in the energy norm. u: displacement, global, 3
-   components per vertex [length]; *bodies: squared energy norm of the error of each body, nbodies values, the same on
-   every rank [force length]; *cells: the part of each local cell, in the order of the mesh's cells [force length]; free
-   with `PetscFree()`. `NULL` if not wanted.
+/*@
+  ElasticityEstimateError - Estimates the discretization error of a displacement in the energy norm
 
-   For linear bodies the norm is |e|^2 = int (s - s_h) : C^(-1) : (s - s_h) with the true stress s and the elements' own
-   stress s_h, and |e|^2/(2 E) is the relative error of the energy E. At finite strain it is the norm of the energy's
-   second derivative at u. The true stress is replaced by one recovered from the cells around each vertex, never across
-   the border of a body.
+  Collective
 
-   For smooth solutions (manufactured ones, and Lame's sphere) with at least 8 cells across the body, the ratio of
-   estimate to true norm is 0.9 to 1.3, and tends to 1 as the mesh is refined. An element that locks has a too small
-   energy E; |e|/sqrt(2 E) shows its error even though |e| misses a part of it. Errors of the solver, of the loads and
-   of the geometry are not included. In bodies with one layer of cells the estimate is rough.
+  Input Parameters:
++ e - the context
+- u - displacement, global, 3 components per vertex [length]
 
-   If a cell is inverted, the estimate is infinite.
+  Output Parameters:
++ bodies - squared energy norm of the error of each body, nbodies values, the same on every rank [force length]
+- cells  - the part of each local cell, in the order of the mesh's cells [force length]; free with `PetscFree()`.
+           `NULL` if not wanted
 
-   Zienkiewicz and Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2, 1992.
-*/
+  Level: intermediate
+
+  Notes:
+  For linear bodies the norm is |e|^2 = int (s - s_h) : C^(-1) : (s - s_h) with the true stress s and the elements' own
+  stress s_h, and |e|^2/(2 E) is the relative error of the energy E. At finite strain it is the norm of the energy's
+  second derivative at u. The true stress is replaced by one recovered from the cells around each vertex, never across
+  the border of a body.
+
+  For smooth solutions (manufactured ones, and Lame's sphere) with at least 8 cells across the body, the ratio of
+  estimate to true norm is 0.9 to 1.3, and tends to 1 as the mesh is refined. An element that locks has a too small
+  energy E; |e|/sqrt(2 E) shows its error even though |e| misses a part of it. Errors of the solver, of the loads and of
+  the geometry are not included. In bodies with one layer of cells the estimate is rough.
+
+  If a cell is inverted, the estimate is infinite.
+
+  References:
+  Zienkiewicz and Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2, 1992.
+
+.seealso: `ElasticityEnergy()`, `ElasticityCellStress()`
+@*/
 PetscErrorCode ElasticityEstimateError(Elasticity e, Vec u, PetscReal bodies[], PetscReal *cells[])
 {
   EstimateSquares squares = {bodies, NULL};

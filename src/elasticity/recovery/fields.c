@@ -45,16 +45,29 @@ static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], c
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Computes the Cauchy stress at the nodes, recovered from the cells around each node. u: displacement,
-   global, 3 components per vertex [length]; *stress: 6 values per node, in the order of the local section: xx yy zz xy
-   yz zx [force/length^2]; free with `PetscFree()`.
+/*@
+  ElasticityNodalStress - Computes the Cauchy stress at the nodes, recovered from the cells around each node
 
-   Displacement gradient and dilatation are recovered by superconvergent patches, body by body, as for the error
-   estimate. The law gives the stress from them. It converges with second order up to the surface; the stress of the
-   cells is of first order. A node of several bodies gets the mean of their values. A node at which the material is
-   inverted gets `PETSC_INFINITY`.
-*/
+  Collective
+
+  Input Parameters:
++ e - the context
+- u - displacement, global, 3 components per vertex [length]
+
+  Output Parameter:
+. stress - 6 values per node, in the order of the local section: xx yy zz xy yz zx [force/length^2]; free with
+           `PetscFree()`
+
+  Level: intermediate
+
+  Notes:
+  Displacement gradient and dilatation are recovered by superconvergent patches, body by body, as for the error
+  estimate. The law gives the stress from them. It converges with second order up to the surface; the stress of the
+  cells is of first order. A node of several bodies gets the mean of their values. A node at which the material is
+  inverted gets `PETSC_INFINITY`.
+
+.seealso: `ElasticityCellStress()`, `ElasticityPointStress()`, `ElasticityEstimateError()`, `ElasticityPrincipal()`
+@*/
 PetscErrorCode ElasticityNodalStress(Elasticity e, Vec u, PetscReal *stress[])
 {
   FieldsSums sums;
@@ -69,15 +82,28 @@ PetscErrorCode ElasticityNodalStress(Elasticity e, Vec u, PetscReal *stress[])
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Computes the Cauchy stress at the quadrature points of the cells. u: displacement, global, 3 components
-   per vertex [length]; *npoints: number of quadrature points of all local cells; *places: 3 undeformed coordinates per
-   point, cell by cell [length]; free with `PetscFree()`; *stress: 6 values per point: xx yy zz xy yz zx
-   [force/length^2]; free with `PetscFree()`.
+/*@
+  ElasticityPointStress - Computes the Cauchy stress at the quadrature points of the cells
 
-   The stress is the one that is conjugate to the element's strain. `ElasticityCellStress()` is its mean over a cell. An
-   inverted point has `PETSC_INFINITY`.
-*/
+  Collective
+
+  Input Parameters:
++ e - the context
+- u - displacement, global, 3 components per vertex [length]
+
+  Output Parameters:
++ npoints - number of quadrature points of all local cells
+. places  - 3 undeformed coordinates per point, cell by cell [length]; free with `PetscFree()`
+- stress  - 6 values per point: xx yy zz xy yz zx [force/length^2]; free with `PetscFree()`
+
+  Level: intermediate
+
+  Notes:
+  The stress is the one that is conjugate to the element's strain. `ElasticityCellStress()` is its mean over a cell. An
+  inverted point has `PETSC_INFINITY`.
+
+.seealso: `ElasticityCellStress()`, `ElasticityNodalStress()`
+@*/
 PetscErrorCode ElasticityPointStress(Elasticity e, Vec u, PetscInt *npoints, PetscReal *places[], PetscReal *stress[])
 {
   Vec                local;
@@ -109,14 +135,25 @@ PetscErrorCode ElasticityPointStress(Elasticity e, Vec u, PetscInt *npoints, Pet
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Computes the strain energy of each cell per undeformed volume. u: displacement, global, 3 components per
-   vertex [length]; *density: mean over each local cell, in the order of the mesh's cells [force/length^2]; free with
-   `PetscFree()`.
+/*@
+  ElasticityCellEnergy - Computes the strain energy of each cell per undeformed volume
 
-   The sum of density times volume is `ElasticityEnergy()` minus the plastic work. An inverted cell has
-   `PETSC_INFINITY`.
-*/
+  Collective
+
+  Input Parameters:
++ e - the context
+- u - displacement, global, 3 components per vertex [length]
+
+  Output Parameter:
+. density - mean over each local cell, in the order of the mesh's cells [force/length^2]; free with `PetscFree()`
+
+  Level: intermediate
+
+  Notes:
+  The sum of density times volume is `ElasticityEnergy()` minus the plastic work. An inverted cell has `PETSC_INFINITY`.
+
+.seealso: `ElasticityEnergy()`, `ElasticityCellStress()`
+@*/
 PetscErrorCode ElasticityCellEnergy(Elasticity e, Vec u, PetscReal *density[])
 {
   Vec                local;

@@ -2,12 +2,24 @@
 #include "recoveryimpl.h"
 #include "src/material/materialimpl.h"
 
-/*
-   Computes the principal values of a stress. stress: the components xx yy zz xy yz zx, in any unit; *principal: the
-   three principal values, the largest first, in the same unit.
+/*@
+  ElasticityPrincipal - Computes the principal values of a stress
 
-   Uses Jacobi's method, which is as accurate for equal values as for distinct ones.
-*/
+  Not Collective
+
+  Input Parameter:
+. stress - the components xx yy zz xy yz zx, in any unit
+
+  Output Parameter:
+. principal - the three principal values, the largest first, in the same unit
+
+  Level: intermediate
+
+  Notes:
+  Uses Jacobi's method, which is as accurate for equal values as for distinct ones.
+
+.seealso: `ElasticityCellStress()`, `ElasticityNodalStress()`
+@*/
 PetscErrorCode ElasticityPrincipal(const PetscReal stress[6], PetscReal principal[3])
 {
   const PetscReal S[9] = {stress[0], stress[3], stress[5], stress[3], stress[1], stress[4], stress[5], stress[4],

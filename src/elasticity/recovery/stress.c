@@ -7,14 +7,27 @@ PetscReal StressVonMises(const PetscReal s[6])
                        3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-/*
-   Collective. Computes the Cauchy stress averaged over each cell, and the von Mises stress of that average. e: the
-   context; u: displacement, global, 3 components per node [length]; *stress: 7 values per local cell, in the order of
-   the mesh's cells: xx yy zz xy yz zx, von Mises [force/length^2]; free with `PetscFree()`.
+/*@
+  ElasticityCellStress - Computes the Cauchy stress averaged over each cell, and the von Mises stress of that average
 
-   The stress is conjugate to the strain of the element: in a cell of `ELEMENT_BBAR` the pressure is that of the mean
-   dilatation. An inverted cell has the value `PETSC_INFINITY`.
-*/
+  Collective
+
+  Input Parameters:
++ e - the context
+- u - displacement, global, 3 components per node [length]
+
+  Output Parameter:
+. stress - 7 values per local cell, in the order of the mesh's cells: xx yy zz xy yz zx, von Mises [force/length^2];
+           free with `PetscFree()`
+
+  Level: intermediate
+
+  Notes:
+  The stress is conjugate to the strain of the element: in a cell of `ELEMENT_BBAR` the pressure is that of the mean
+  dilatation. An inverted cell has the value `PETSC_INFINITY`.
+
+.seealso: `ElasticityForce()`, `ElasticityCreate()`
+@*/
 PetscErrorCode ElasticityCellStress(Elasticity e, Vec u, PetscReal *stress[])
 {
   Vec                local;

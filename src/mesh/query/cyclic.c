@@ -149,15 +149,29 @@ static PetscErrorCode CyclicMatch(const SceneCyclic *cut, const PetscReal axis[3
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Matches the nodes of the two faces of a cyclic symmetry. cut: the two faces and the axis; *turn: rotation
-   that moves the first face onto the second one, minus the identity; *n: number of nodes of the second face that this
-   rank owns; *nodes: global numbers of these nodes; free with `PetscFree()`; *images: global numbers of the nodes of
-   the first face that are moved onto them; a node on the axis is its own image; free with `PetscFree()`.
+/*@C
+  MeshGetCyclicImages - Matches the nodes of the two faces of a cyclic symmetry
 
-   It is an error if 360 degrees is not a multiple of the angle between the faces, or if the faces have different
-   meshes.
-*/
+  Collective
+
+  Input Parameters:
++ dm  - the mesh
+- cut - the two faces and the axis
+
+  Output Parameters:
++ turn   - rotation that moves the first face onto the second one, minus the identity
+. n      - number of nodes of the second face that this rank owns
+. nodes  - global numbers of these nodes; free with `PetscFree()`
+- images - global numbers of the nodes of the first face that are moved onto them; a node on the axis is its own image;
+           free with `PetscFree()`
+
+  Level: developer
+
+  Note:
+  It is an error if 360 degrees is not a multiple of the angle between the faces, or if the faces have different meshes.
+
+.seealso: `MeshGetFaceDofs()`
+@*/
 PetscErrorCode MeshGetCyclicImages(DM dm, const SceneCyclic *cut, PetscReal turn[3][3], PetscInt *n, PetscInt *nodes[],
   PetscInt *images[])
 {

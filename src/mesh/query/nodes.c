@@ -230,11 +230,23 @@ PetscErrorCode MeshGetNodeCoordinates(DM dm, Vec *places)
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Gets the number of nodes of a cell of every body. dm: mesh from `MeshCreate()`; nbodies: number of
-   bodies; *nnodes: number of nodes of each cell of a body, equal on all ranks: 8 or 27 for hexahedra of order 1 or 2, 4
-   or 10 for tetrahedra.
-*/
+/*@
+  MeshGetBodyNodes - Gets the number of nodes of a cell of every body
+
+  Collective
+
+  Input Parameters:
++ dm      - mesh from `MeshCreate()`
+- nbodies - number of bodies
+
+  Output Parameter:
+. nnodes - number of nodes of each cell of a body, equal on all ranks: 8 or 27 for hexahedra of order 1 or 2, 4 or 10
+           for tetrahedra
+
+  Level: intermediate
+
+.seealso: `MeshCreate()`
+@*/
 PetscErrorCode MeshGetBodyNodes(DM dm, PetscInt nbodies, PetscInt nnodes[])
 {
   PetscInt cstart, cend, unknown = nbodies;

@@ -25,13 +25,27 @@ static PetscErrorCode ProbeRaise(DM dm, Scene scene, const SceneProbe *probe, co
     advice);
 }
 
-/*
-   Collective. Finds the points of a scene's probes in its mesh. dm: the mesh, created by `MeshCreate()`; *n: number of
-   points of all probes; *points: the coordinates of the points [length]; free them with `PetscFree()`; *places: the
-   positions in cells that `MeshLocate()` finds; free them with `PetscFree()`.
+/*@C
+  MeshLocateProbes - Finds the points of a scene's probes in its mesh
 
-   It is an error if a point is outside of its body by more than a tenth of the size of a cell.
-*/
+  Collective
+
+  Input Parameters:
++ dm    - the mesh, created by `MeshCreate()`
+- scene - the scene
+
+  Output Parameters:
++ n      - number of points of all probes
+. points - the coordinates of the points [length]; free them with `PetscFree()`
+- places - the positions in cells that `MeshLocate()` finds; free them with `PetscFree()`
+
+  Level: intermediate
+
+  Notes:
+  It is an error if a point is outside of its body by more than a tenth of the size of a cell.
+
+.seealso: `MeshCheckScene()`
+@*/
 PetscErrorCode MeshLocateProbes(DM dm, Scene scene, PetscInt *n, PetscReal (*points[])[3], MeshPlace *places[])
 {
   PetscInt *body, k = 0;

@@ -43,12 +43,25 @@ static PetscErrorCode MeshGetFacePoints(DM dm, const char face[], PetscInt start
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Gets the facets of a named face on this rank. face: name of the face, "<body>.<face>"; *facets: the
-   facets as local DMPlex points, sorted; a sequential index set, which may be empty.
+/*@
+  MeshGetFacets - Gets the facets of a named face on this rank
 
-   Every facet is on exactly one rank. It is an error if the mesh has no face with this name.
-*/
+  Collective
+
+  Input Parameters:
++ dm   - the mesh
+- face - name of the face, "<body>.<face>"
+
+  Output Parameter:
+. facets - the facets as local DMPlex points, sorted; a sequential index set, which may be empty
+
+  Level: intermediate
+
+  Notes:
+  Every facet is on exactly one rank. It is an error if the mesh has no face with this name.
+
+.seealso: `MeshCreate()`, `MeshGetFaceVertices()`
+@*/
 PetscErrorCode MeshGetFacets(DM dm, const char face[], IS *facets)
 {
   PetscInt start, end;
@@ -59,11 +72,22 @@ PetscErrorCode MeshGetFacets(DM dm, const char face[], IS *facets)
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Gets the vertices of a named face on this rank, including those whose facets are on other ranks. face:
-   name of the face, "<body>.<face>"; *vertices: the vertices as local DMPlex points, sorted; a sequential index set,
-   which may be empty.
-*/
+/*@
+  MeshGetFaceVertices - Gets the vertices of a named face on this rank, including those whose facets are on other ranks
+
+  Collective
+
+  Input Parameters:
++ dm   - the mesh
+- face - name of the face, "<body>.<face>"
+
+  Output Parameter:
+. vertices - the vertices as local DMPlex points, sorted; a sequential index set, which may be empty
+
+  Level: intermediate
+
+.seealso: `MeshCreate()`, `MeshGetFacets()`, `MeshGetFaceDofs()`
+@*/
 PetscErrorCode MeshGetFaceVertices(DM dm, const char face[], IS *vertices)
 {
   PetscInt start, end;
@@ -74,11 +98,23 @@ PetscErrorCode MeshGetFaceVertices(DM dm, const char face[], IS *vertices)
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Gets the global rows of one displacement component on a named face. face: name of the face,
-   "<body>.<face>"; component: 0, 1 or 2; *rows: the global rows that this rank owns, sorted; an index set on the mesh's
-   communicator.
-*/
+/*@
+  MeshGetFaceDofs - Gets the global rows of one displacement component on a named face
+
+  Collective
+
+  Input Parameters:
++ dm        - the mesh
+. face      - name of the face, "<body>.<face>"
+- component - 0, 1 or 2
+
+  Output Parameter:
+. rows - the global rows that this rank owns, sorted; an index set on the mesh's communicator
+
+  Level: intermediate
+
+.seealso: `MeshGetFaceVertices()`, `ElasticitySetPrescribed()`
+@*/
 PetscErrorCode MeshGetFaceDofs(DM dm, const char face[], PetscInt component, IS *rows)
 {
   MPI_Comm        comm = PetscObjectComm((PetscObject)dm);

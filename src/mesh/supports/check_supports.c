@@ -98,11 +98,26 @@ static PetscErrorCode SupportCheckBodies(DM dm, Scene scene)
   PetscFunctionReturn(0);
 }
 
-/*
-   Collective. Finds the bodies with free rigid body motions on the mesh dm, which `MeshCreate()` created. rotations: a
-   rotation of each body that nothing resists if the other bodies are held. Without weak springs only bodies with such a
-   rotation count as unsupported, and `MeshCheckScene()` rejects all others.
-*/
+/*@
+  MeshGetUnsupported - Finds the bodies that have free rigid body motions
+
+  Collective
+
+  Input Parameters:
++ dm    - the mesh, created by `MeshCreate()`
+- scene - the scene
+
+  Output Parameters:
++ unsupported - one value per body: whether any of its rigid body motions is free
+- rotations   - of each body, a rotation that nothing resists if the other bodies are held
+
+  Level: intermediate
+
+  Note:
+  Without weak springs only bodies with such a rotation count as unsupported, and `MeshCheckScene()` rejects all others.
+
+.seealso: `MeshCheckScene()`
+@*/
 PetscErrorCode MeshGetUnsupported(DM dm, Scene scene, PetscBool unsupported[], MeshRotation rotations[])
 {
   Support support;
