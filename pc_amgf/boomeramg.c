@@ -33,6 +33,19 @@ static PetscErrorCode BoomerAMGSetDefault(PetscObject obj, const BoomerAMGOption
 }
 
 /*
+   Calls the type's own setfromoptions(). PCSetFromOptions() cannot be used here: it also reads -pc_type, which with
+   this prefix may be meant for the PC that contains this one.
+*/
+static PetscErrorCode BoomerAMGReadOptions(PC pc)
+{
+  PetscFunctionBegin;
+  PetscObjectOptionsBegin((PetscObject)pc);
+  PetscCall((*pc->ops->setfromoptions)(pc, PetscOptionsObject));
+  PetscOptionsEnd();
+  PetscFunctionReturn(0);
+}
+
+/*
    Reads the options of BoomerAMG with other defaults than hypre's. PCHYPRE has no functions for most parameters.
    Therefore the defaults are put into the options database and removed afterwards.
 */
@@ -44,11 +57,7 @@ static PetscErrorCode BoomerAMGSetFromOptions(PC pc, PetscInt n, const BoomerAMG
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(n, &set));
   for (PetscInt i = 0; i < n; i++) PetscCall(BoomerAMGSetDefault((PetscObject)pc, &defaults[i], &set[i]));
-  /* Calls the type's own setfromoptions(). PCSetFromOptions() cannot be used here: it also reads -pc_type, which
-     with this prefix may be meant for the PC that contains this one. */
-  PetscObjectOptionsBegin((PetscObject)pc);
-  PetscCall((*pc->ops->setfromoptions)(pc, PetscOptionsObject));
-  PetscOptionsEnd();
+  PetscCall(BoomerAMGReadOptions(pc));
   PetscCall(PetscObjectGetOptions((PetscObject)pc, &options));
   for (PetscInt i = 0; i < n; i++) {
     char full[PETSC_MAX_OPTION_NAME];

@@ -19,6 +19,14 @@ PetscErrorCode CholeskyDestroy(Cholesky *c)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode NodeBlocksDestroy(NodeBlocks *b)
+{
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < b->n; s++) PetscCall(PetscFree(b->row[s]));
+  PetscCall(PetscFree3(b->first, b->nrows, b->row));
+  PetscFunctionReturn(0);
+}
+
 /*
    Finds the rows of column j: those of the matrix, and those of the children of j in the tree. mark[i] = j for these
    rows; list: the rows after j, in ascending order
@@ -207,8 +215,7 @@ PetscErrorCode CholeskySymbolic(Mat A, Cholesky *c)
   PetscCall(SymbolicOrder(A, &g, perm));
   PetscCall(SymbolicFind(&g, perm, &blocks));
   PetscCall(SymbolicExpand(&g, perm, &blocks, c));
-  for (PetscInt s = 0; s < blocks.n; s++) PetscCall(PetscFree(blocks.row[s]));
-  PetscCall(PetscFree3(blocks.first, blocks.nrows, blocks.row));
+  PetscCall(NodeBlocksDestroy(&blocks));
   PetscCall(PetscFree(perm));
   PetscCall(CholeskyGraphDestroy(&g));
   PetscFunctionReturn(0);

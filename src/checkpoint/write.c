@@ -38,6 +38,21 @@ static PetscErrorCode CheckpointWriteText(MPI_Comm comm, const char name[], cons
   PetscFunctionReturn(0);
 }
 
+/* Writes the scene and the options with which the run was started, as text for the user */
+static PetscErrorCode CheckpointWriteWords(const CheckpointContents *contents, PetscViewer viewer)
+{
+  char *scene, *options;
+
+  PetscFunctionBegin;
+  PetscCall(SceneGetText(contents->scene, &scene));
+  PetscCall(CheckpointWriteText(contents->mesh->comm, "scene", scene, viewer));
+  PetscCall(PetscFree(scene));
+  PetscCall(PetscOptionsGetAll(NULL, &options));
+  PetscCall(CheckpointWriteText(contents->mesh->comm, "options", options[0] ? options : " ", viewer));
+  PetscCall(PetscFree(options));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode CheckpointWriteNumbers(const CheckpointContents *contents, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -65,16 +80,9 @@ static PetscErrorCode CheckpointWriteNumbers(const CheckpointContents *contents,
 static PetscErrorCode CheckpointWriteContents(PetscViewer viewer, void *ctx)
 {
   const CheckpointContents *contents = (const CheckpointContents *)ctx;
-  char                     *scene, *options;
 
   PetscFunctionBegin;
-  /* Writes the scene and the options with which the run was started, as text for the user */
-  PetscCall(SceneGetText(contents->scene, &scene));
-  PetscCall(CheckpointWriteText(contents->mesh->comm, "scene", scene, viewer));
-  PetscCall(PetscFree(scene));
-  PetscCall(PetscOptionsGetAll(NULL, &options));
-  PetscCall(CheckpointWriteText(contents->mesh->comm, "options", options[0] ? options : " ", viewer));
-  PetscCall(PetscFree(options));
+  PetscCall(CheckpointWriteWords(contents, viewer));
   PetscCall(FieldsWriteMesh(viewer, contents->mesh));
   for (PetscInt f = 0; f < contents->checkpoint->nfields; ++f) {
     const CheckpointField *field = &contents->checkpoint->fields[f];

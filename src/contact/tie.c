@@ -44,6 +44,16 @@ static void TieFold(PetscInt n, PetscReal rows[4][4])
   }
 }
 
+/* Adds the rows and the columns of the two functions of a triangle's last vertex in a mass matrix (n = 3) */
+static void TieFoldMass(PetscInt n, PetscReal mass[4][4])
+{
+  TieFold(n, mass);
+  for (PetscInt a = 0; n == 3 && a < 3; ++a) {
+    mass[a][2] += mass[a][3];
+    mass[a][3] = 0.0;
+  }
+}
+
 /* Adds the integrals of nonmortar facet f over its overlaps with the mortar facets near[0 .. nnear - 1] */
 static PetscErrorCode TieAddFacet(const ContactSurface *nonmortar, PetscInt f, const ContactOverlapLimits *limits,
   const ContactRule *rule, const ContactCandidates *mortar, PetscInt nnear, const PetscInt near[], TieSums *sums)
@@ -61,12 +71,7 @@ static PetscErrorCode TieAddFacet(const ContactSurface *nonmortar, PetscInt f, c
     ContactIntegrate(&overlap, x, &mortar->x[12 * near[k]], zero, NULL, &m);
     for (PetscInt a = 0; a < 16; ++a) mass[a / 4][a % 4] += m.D[a / 4][a % 4];
   }
-  /* Adds the rows and the columns of the two functions of a triangle's last vertex in a mass matrix (n = 3) */
-  TieFold(n, mass);
-  for (PetscInt a = 0; n == 3 && a < 3; ++a) {
-    mass[a][2] += mass[a][3];
-    mass[a][3] = 0.0;
-  }
+  TieFoldMass(n, mass);
   (void)ContactFacetMass(x, whole);
   for (PetscInt a = 0; a < 4; ++a) {
     areas[0][a] = mass[a][0] + mass[a][1] + mass[a][2] + mass[a][3];

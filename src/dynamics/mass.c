@@ -32,6 +32,23 @@ static PetscErrorCode MassMarkLight(const Constraints *c, Vec light)
   PetscFunctionReturn(0);
 }
 
+/* Marks in d->inert the rows whose velocity follows from equations of motion */
+static PetscErrorCode MassMarkInert(const Constraints *c, Dynamics *d)
+{
+  PetscScalar *a;
+  PetscInt     n;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(c->bodies.mass, &d->inert));
+  PetscCall(MatGetDiagonal(d->mass, d->inert));
+  PetscCall(VecGetLocalSize(d->inert, &n));
+  PetscCall(VecGetArray(d->inert, &a));
+  for (PetscInt i = 0; i < n; ++i) a[i] = PetscRealPart(a[i]) > 0.0 ? 1.0 : 0.0;
+  PetscCall(VecRestoreArray(d->inert, &a));
+  PetscCall(PrescribedSet(c->prescribed, 0.0, d->inert));
+  PetscFunctionReturn(0);
+}
+
 /* Returns the density of a body. That of a rigid surface gives the cube in the mesh the mass of the surface. */
 static PetscReal MassGetDensity(const SceneBody *body)
 {
@@ -48,8 +65,6 @@ PetscErrorCode MassCreate(const Constraints *c, Dynamics *d)
   const MassType type  = scene->dynamics.mass;
   PetscReal     *density;
   Vec            light = NULL;
-  PetscScalar   *a;
-  PetscInt       n;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(scene->nbodies, &density));
@@ -62,14 +77,7 @@ PetscErrorCode MassCreate(const Constraints *c, Dynamics *d)
   PetscCall(ElasticityCreateMass(c->bodies.elasticity, &d->mass));
   PetscCall(VecDestroy(&light));
   PetscCall(PetscFree(density));
-  /* Marks in d->inert the rows whose velocity follows from equations of motion */
-  PetscCall(VecDuplicate(c->bodies.mass, &d->inert));
-  PetscCall(MatGetDiagonal(d->mass, d->inert));
-  PetscCall(VecGetLocalSize(d->inert, &n));
-  PetscCall(VecGetArray(d->inert, &a));
-  for (PetscInt i = 0; i < n; ++i) a[i] = PetscRealPart(a[i]) > 0.0 ? 1.0 : 0.0;
-  PetscCall(VecRestoreArray(d->inert, &a));
-  PetscCall(PrescribedSet(c->prescribed, 0.0, d->inert));
+  PetscCall(MassMarkInert(c, d));
   PetscFunctionReturn(0);
 }
 

@@ -35,6 +35,17 @@ static void TurnFind(const Constraints *c, const BodyPose poses[], TurnBody bodi
   }
 }
 
+/* Gets the positions of the node with first row i before and after the step, and its part f of a vector */
+static void TurnGetNode(const PetscScalar *arrays[4], PetscInt i, PetscReal before[3], PetscReal after[3],
+  PetscReal f[3])
+{
+  for (int k = 0; k < 3; ++k) {
+    before[k] = PetscRealPart(arrays[0][i + k] + arrays[1][i + k]);
+    after[k]  = PetscRealPart(arrays[0][i + k] + arrays[2][i + k]);
+    f[k]      = PetscRealPart(arrays[3][i + k]);
+  }
+}
+
 /* Adds to the missing moment of each body: -1/2 (displacement of each node relative to the centre) x force. Adds to the
    sums of the arms. */
 static PetscErrorCode TurnSum(const Constraints *c, Vec before, Vec u, Vec force, const BodyPose poses[],
@@ -55,12 +66,7 @@ static PetscErrorCode TurnSum(const Constraints *c, Vec before, Vec u, Vec force
     PetscReal      x[3], y[3], f[3], moment[3];
 
     if (!body->turns) continue;
-    /* Gets the positions of the node with first row i before and after the step, and its part f of a vector */
-    for (int k = 0; k < 3; ++k) {
-      x[k] = PetscRealPart(arrays[0][i + k] + arrays[1][i + k]);
-      y[k] = PetscRealPart(arrays[0][i + k] + arrays[2][i + k]);
-      f[k] = PetscRealPart(arrays[3][i + k]);
-    }
+    TurnGetNode(arrays, i, x, y, f);
     for (int k = 0; k < 3; ++k) x[k] = (y[k] - body->after[k]) - (x[k] - body->before[k]);
     VectorCross(x, f, moment);
     for (int k = 0; k < 3; ++k) body->moment[k] -= 0.5 * moment[k];

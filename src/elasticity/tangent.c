@@ -2,6 +2,22 @@
 #include "elasticityimpl.h"
 #include <mesh.h>
 
+/* Computes a vector with 1 in free rows and 0 in prescribed ones */
+static PetscErrorCode ElasticityFreeRows(Elasticity e, Vec rows)
+{
+  Vec          local;
+  PetscScalar *l;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalVector(e->dm, &local));
+  PetscCall(VecGetArray(local, &l));
+  for (PetscInt i = 0; i < 3 * e->nnodes; ++i) l[i] = (e->prescribed[i / 3] >> i % 3 & 1) ? 0 : 1;
+  PetscCall(VecRestoreArray(local, &l));
+  PetscCall(DMLocalToGlobal(e->dm, local, INSERT_VALUES, rows));
+  PetscCall(DMRestoreLocalVector(e->dm, &local));
+  PetscFunctionReturn(0);
+}
+
 /*
    Sets the rigid modes to zero in prescribed rows and makes them orthonormal again; modes that depend on others are
    dropped. With such modes an AMG needs fewer iterations, the more so the closer Poisson's ratio is to 1/2.
@@ -13,19 +29,11 @@ static PetscErrorCode ElasticityRestrictModes(Elasticity e, MatNullSpace all, Ma
   const Vec      *modes;
   Vec             kept[6], rows;
   PetscScalar     dots[6];
-  Vec             local;
-  PetscScalar    *l;
 
   PetscFunctionBegin;
   PetscCall(MatNullSpaceGetVecs(all, NULL, &nall, &modes));
   PetscCall(VecDuplicate(modes[0], &rows));
-  /* Computes a vector with 1 in free rows and 0 in prescribed ones */
-  PetscCall(DMGetLocalVector(e->dm, &local));
-  PetscCall(VecGetArray(local, &l));
-  for (PetscInt i = 0; i < 3 * e->nnodes; ++i) l[i] = (e->prescribed[i / 3] >> i % 3 & 1) ? 0 : 1;
-  PetscCall(VecRestoreArray(local, &l));
-  PetscCall(DMLocalToGlobal(e->dm, local, INSERT_VALUES, rows));
-  PetscCall(DMRestoreLocalVector(e->dm, &local));
+  PetscCall(ElasticityFreeRows(e, rows));
   for (PetscInt i = 0; i < nall; ++i) {
     PetscReal before, after;
 

@@ -52,6 +52,15 @@ static PetscErrorCode DatasetPlaceCreate(MPI_Comm comm, PetscViewer viewer, cons
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode DatasetPlaceDestroy(DatasetPlace *place)
+{
+  PetscFunctionBegin;
+  DATASET_HDF5(H5Sclose(place->here));
+  DATASET_HDF5(H5Sclose(place->there));
+  DATASET_HDF5(H5Dclose(place->dataset));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode DatasetWriteRecords(MPI_Comm comm, PetscViewer viewer, const char name[], PetscDataType type,
   int dimensions, PetscInt n, PetscInt components, const void *values)
 {
@@ -61,9 +70,7 @@ static PetscErrorCode DatasetWriteRecords(MPI_Comm comm, PetscViewer viewer, con
   PetscCall(PetscDataTypeToHDF5DataType(type, &place.type));
   PetscCall(DatasetPlaceCreate(comm, viewer, name, dimensions, n, components, &place));
   DATASET_HDF5(H5Dwrite(place.dataset, place.type, place.here, place.there, H5P_DEFAULT, values));
-  DATASET_HDF5(H5Sclose(place.here));
-  DATASET_HDF5(H5Sclose(place.there));
-  DATASET_HDF5(H5Dclose(place.dataset));
+  PetscCall(DatasetPlaceDestroy(&place));
   PetscFunctionReturn(0);
 }
 

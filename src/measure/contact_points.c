@@ -91,6 +91,18 @@ static PetscErrorCode PairVerticesCreate(Simulation sim, PetscInt pair, PairRows
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode PairVerticesDestroy(PairVertices *vertices)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&vertices->carried));
+  PetscCall(VecDestroy(&vertices->sides));
+  PetscCall(VecDestroy(&vertices->closing));
+  PetscCall(VecDestroy(&vertices->force));
+  PetscCall(VecDestroy(&vertices->shear));
+  PetscCall(VecDestroy(&vertices->slid));
+  PetscFunctionReturn(0);
+}
+
 /*
    Smooths one component of the friction stress like the pressure (nodal_pressure.c), so that both together satisfy the
    friction law. first: the pair's first point; alone: values before agglomeration.
@@ -285,12 +297,7 @@ PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
     PetscCall(PairReportPoints(sim, &rows, vertices.sides, first, &report->pairs[p]));
     PetscCall(PairMeshMeasure(sim, p, &rows, first, &report->pairs[p]));
     PetscCall(VecDestroy(&alone));
-    PetscCall(VecDestroy(&vertices.carried));
-    PetscCall(VecDestroy(&vertices.sides));
-    PetscCall(VecDestroy(&vertices.closing));
-    PetscCall(VecDestroy(&vertices.force));
-    PetscCall(VecDestroy(&vertices.shear));
-    PetscCall(VecDestroy(&vertices.slid));
+    PetscCall(PairVerticesDestroy(&vertices));
     PetscCall(PairRowsDestroy(&rows));
   }
   PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));

@@ -39,6 +39,15 @@ static PetscErrorCode ConeAllocate(PetscInt n, ContactCone *cone)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode ConeFree(ContactCone *cone)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree3(cone->ray, cone->normal, cone->amount));
+  PetscCall(PetscFree(cone->Q));
+  PetscCall(PetscFree(cone->R));
+  PetscFunctionReturn(0);
+}
+
 /*
    Finds the row whose force does the most negative work on the motion w. Pairs that stick, or have a shear limit, allow
    any friction force.
@@ -179,6 +188,15 @@ static void ConeAdd(PetscInt n, PetscInt columns, const PetscReal A[], PetscReal
     for (PetscInt i = 0; i < n; ++i) y[i] += alpha * factor[k] * A[n * k + i];
 }
 
+/* Computes the unbalanced load: left = load + the sum of factor times ray */
+static PetscErrorCode ConeSubtract(const ContactCone *cone, const PetscReal load[], PetscReal left[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(left, load, cone->n));
+  ConeAdd(cone->n, cone->nrays, cone->ray, 1.0, cone->amount, left);
+  PetscFunctionReturn(0);
+}
+
 static PetscReal *ConeColumn(const ContactCone *cone, PetscInt ray)
 {
   return cone->R + ray * (ray + 1) / 2;
@@ -304,9 +322,7 @@ static PetscErrorCode ConeProject(PetscReal time, const FreeMotions *m, PetscInt
 
     PetscCall(InterruptTest(m->sim, &stop));
     if (stop) break;
-    /* Computes the unbalanced load: left = load + the sum of factor times ray */
-    PetscCall(PetscArraycpy(left, load, cone->n));
-    ConeAdd(cone->n, cone->nrays, cone->ray, 1.0, cone->amount, left);
+    PetscCall(ConeSubtract(cone, load, left));
     if (PetscSqrtReal(ConeDot(n, left, left)) <= negligible * size) break;
     PetscCall(FreeMotionsDisplace(m, left, w));
     for (PetscInt l = 0; l < nlins; ++l) {
@@ -413,6 +429,19 @@ static PetscErrorCode EquilibriumReport(const FreeMotions *m, const ContactCone 
   PetscFunctionReturn(0);
 }
 
+/* Rotates free rigid bodies, and the load on these bodies, back to the last state */
+static PetscErrorCode EquilibriumTurnBack(Simulation sim, PetscReal time, Vec load)
+{
+  const Constraints constraints = SimulationConstraints(sim);
+  PetscBool         anew;
+
+  PetscFunctionBegin;
+  PetscCall(RigidTurnLoads(&constraints, -1.0, time, load));
+  PetscCall(TiesTurn(&constraints, time, sim->path->u, sim->path->u, &anew));
+  PetscCall(RigidTurnLoads(&constraints, 1.0, time, load));
+  PetscFunctionReturn(0);
+}
+
 /*
    Tests, after a solve failed, whether an equilibrium exists for the loads at `time` and the positions of the last
    state. *none: no equilibrium exists; the report then names the moving body and its motion. A signal ends the test,
@@ -425,19 +454,13 @@ PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, St
   FreeMotions          motions;
   PetscReal           *load, *left, size;
   PetscBool            stop;
-  Constraints          constraints;
-  PetscBool            anew;
 
   PetscFunctionBegin;
   *none = PETSC_FALSE;
   if (!sim->contact || !force) PetscFunctionReturn(0);
   PetscCall(InterruptTest(sim, &stop));
   if (stop) PetscFunctionReturn(0);
-  /* Rotates free rigid bodies, and the load on these bodies, back to the last state */
-  constraints = SimulationConstraints(sim);
-  PetscCall(RigidTurnLoads(&constraints, -1.0, time, force));
-  PetscCall(TiesTurn(&constraints, time, sim->path->u, sim->path->u, &anew));
-  PetscCall(RigidTurnLoads(&constraints, 1.0, time, force));
+  PetscCall(EquilibriumTurnBack(sim, time, force));
   PetscCall(EquilibriumMeasureLoad(force, &size));
   PetscCall(FreeMotionsCreate(sim, &motions));
   if (motions.n && size > 0.0) {
@@ -448,9 +471,7 @@ PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, St
     PetscCall(ConeProject(time, &motions, EQUILIBRIUM_ROWS, lins, load, size, &cone, left, none));
     if (*none) PetscCall(EquilibriumReport(&motions, &cone, left, (PetscBool)(lins[0]->slip != NULL), report));
     for (PetscInt l = 0; l < EQUILIBRIUM_ROWS; ++l) PetscCall(ContactLinearizationDestroy(&lins[l]));
-    PetscCall(PetscFree3(cone.ray, cone.normal, cone.amount));
-    PetscCall(PetscFree(cone.Q));
-    PetscCall(PetscFree(cone.R));
+    PetscCall(ConeFree(&cone));
     PetscCall(PetscFree2(load, left));
   }
   PetscCall(FreeMotionsDestroy(&motions));

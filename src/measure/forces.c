@@ -397,15 +397,25 @@ static PetscErrorCode ForcesSumSprings(Simulation sim, Vec u, StepReport *report
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode ForcesSumTies(Simulation sim, Vec ties, StepReport *report)
+{
+  const Constraints constraints = SimulationConstraints(sim);
+  PetscReal        *sums;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
+  PetscCall(TiesMeasure(&constraints, ties, sums));
+  PetscCall(ForcesAddToBodies(report, offsetof(BodyReport, ties), &sums));
+  PetscFunctionReturn(0);
+}
+
 /*
    Sums the forces on each body: those of pairs and faces from the report, springs, ties and loads (NULL: none). Forces
    below `rounding` count as balanced.
 */
 PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, PetscReal rounding, StepReport *report)
 {
-  PetscReal   largest = 0.0;
-  Constraints constraints;
-  PetscReal  *sums;
+  PetscReal largest = 0.0;
 
   PetscFunctionBegin;
   for (PetscInt p = 0; p < report->npairs; ++p) {
@@ -422,12 +432,7 @@ PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, Pe
   }
   if (load) PetscCall(ForcesSumLoads(sim, load, report));
   if (sim->springs.stiffness) PetscCall(ForcesSumSprings(sim, u, report));
-  if (ties) {
-    constraints = SimulationConstraints(sim);
-    PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
-    PetscCall(TiesMeasure(&constraints, ties, sums));
-    PetscCall(ForcesAddToBodies(report, offsetof(BodyReport, ties), &sums));
-  }
+  if (ties) PetscCall(ForcesSumTies(sim, ties, report));
   report->balance = 0.0;
   for (PetscInt b = 0; b < report->nbodies; ++b) largest = PetscMax(largest, report->bodies[b].balance);
   for (PetscInt b = 0; b < report->nbodies; ++b) {

@@ -2,6 +2,22 @@
 #include "measureimpl.h"
 #include "src/state/path.h"
 
+/*
+   Gets the positions of the bodies' nodes. For bodies at small strain they are undeformed, as in the energy, unless
+   rigid bodies turn.
+*/
+static PetscErrorCode FreeMotionsGetPlaces(Simulation sim, Vec *x)
+{
+  PetscBool linear;
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
+  PetscCall(VecDuplicate(sim->places.x, x));
+  PetscCall(VecCopy(sim->places.x, *x));
+  if (!linear || sim->rigid.turns) PetscCall(VecAXPY(*x, 1.0, sim->path->u));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode FreeMotionsMeasureBodies(FreeMotions *m)
 {
   Simulation         sim = m->sim;
@@ -238,16 +254,9 @@ static PetscErrorCode FreeMotionsFind(FreeMotions *m)
 /* Computes the free motions at the last state. Collective. */
 PetscErrorCode FreeMotionsCreate(Simulation sim, FreeMotions *m)
 {
-  PetscBool linear;
-
   PetscFunctionBegin;
   *m = (FreeMotions){.sim = sim, .nbodies = sim->scene->nbodies};
-  /* Gets the positions of the bodies' nodes. For bodies at small strain they are undeformed, as in the energy,
-     unless rigid bodies turn. */
-  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
-  PetscCall(VecDuplicate(sim->places.x, &m->x));
-  PetscCall(VecCopy(sim->places.x, m->x));
-  if (!linear || sim->rigid.turns) PetscCall(VecAXPY(m->x, 1.0, sim->path->u));
+  PetscCall(FreeMotionsGetPlaces(sim, &m->x));
   PetscCall(FreeMotionsMeasureBodies(m));
   PetscCall(FreeMotionsFind(m));
   PetscFunctionReturn(0);

@@ -50,6 +50,20 @@ static PetscErrorCode MeasureGap(const ContactSolution *sol, StepReport *report)
   PetscFunctionReturn(0);
 }
 
+/* Adds the squared errors of the cells to those of earlier load steps */
+static PetscErrorCode MeasureAddErrors(Simulation sim, PetscReal cells[])
+{
+  PetscInt cstart, cend;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
+  if (!sim->run->adapt.errors)
+    PetscCall(PetscCalloc2(cend - cstart, &sim->run->adapt.errors, cend - cstart, &sim->run->adapt.marked));
+  for (PetscInt c = 0; c < cend - cstart; ++c) sim->run->adapt.errors[c] += cells[c];
+  PetscCall(PetscFree(cells));
+  PetscFunctionReturn(0);
+}
+
 /*
    Estimates the discretization error in the energy norm, relative to the energy norm of the displacement.
    report->energy must be set. moves: the bodies only move as a whole, so that their energy is rounding error.
@@ -58,20 +72,12 @@ static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, PetscBool mov
 {
   const PetscReal size = moves ? 0.0 : PetscSqrtReal(2.0 * report->energy);
   PetscReal       sum = 0.0, *cells = NULL;
-  PetscInt        cstart, cend;
 
   PetscFunctionBegin;
   PetscCall(PetscFree(report->body_errors));
   PetscCall(PetscMalloc1(sim->scene->nbodies, &report->body_errors));
   PetscCall(ElasticityEstimateError(sim->elasticity, u, report->body_errors, sim->run->marks ? &cells : NULL));
-  /* Adds the squared errors of the cells to those of earlier load steps */
-  if (sim->run->marks) {
-    PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
-    if (!sim->run->adapt.errors)
-      PetscCall(PetscCalloc2(cend - cstart, &sim->run->adapt.errors, cend - cstart, &sim->run->adapt.marked));
-    for (PetscInt c = 0; c < cend - cstart; ++c) sim->run->adapt.errors[c] += cells[c];
-    PetscCall(PetscFree(cells));
-  }
+  if (sim->run->marks) PetscCall(MeasureAddErrors(sim, cells));
   for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
     sum += report->body_errors[b];
     report->body_errors[b] = size > 0.0 ? PetscSqrtReal(report->body_errors[b]) / size : 0.0;
@@ -127,6 +133,17 @@ static PetscErrorCode MeasureShareForces(Simulation sim, Vec force, Vec ties, Ve
   PetscFunctionReturn(0);
 }
 
+/* Moves the contact forces that a time step has in addition to those at its end from `force` to `inertia` */
+static PetscErrorCode MeasureAddMultipliers(Simulation sim, Vec contact, Vec force, Vec inertia)
+{
+  const PetscReal more = 1.0 / SchemeShare(&sim->scene->dynamics) - 1.0;
+
+  PetscFunctionBegin;
+  PetscCall(VecAXPY(force, -more, contact));
+  PetscCall(VecAXPY(inertia, more, contact));
+  PetscFunctionReturn(0);
+}
+
 /* Reports the plastic work separately from the energy, and the largest plastic strain of each body */
 static PetscErrorCode MeasurePlastic(Simulation sim, StepReport *report)
 {
@@ -175,7 +192,6 @@ static PetscErrorCode MeasureForces(Simulation sim, PetscReal time, Vec load, Ve
   const Constraints constraints = SimulationConstraints(sim);
   Vec               force, ties, rigid, contact = NULL, weighted = NULL, applied = load;
   PetscReal         size, residual, rounding, late = 0.0;
-  PetscReal         more;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &rounding));
@@ -194,12 +210,7 @@ static PetscErrorCode MeasureForces(Simulation sim, PetscReal time, Vec load, Ve
   if (sol->pressure) {
     PetscCall(MeasureContact(sim, time, u, sol, report, &weighted, &contact, &late));
     PetscCall(VecAXPY(force, -1.0, contact));
-    /* Moves the contact forces that a time step has in addition to those at its end from `force` to `inertia` */
-    if (inertia) {
-      more = 1.0 / SchemeShare(&sim->scene->dynamics) - 1.0;
-      PetscCall(VecAXPY(force, -more, contact));
-      PetscCall(VecAXPY(applied, more, contact));
-    }
+    if (inertia) PetscCall(MeasureAddMultipliers(sim, contact, force, applied));
     if (!sim->history->frictional && !inertia) PetscCall(VecDestroy(&contact));
   }
   PetscCall(TiesGetForces(&constraints, force, &ties, &rigid));

@@ -161,6 +161,21 @@ static PetscErrorCode CoverTake(const CoverFacets *facets, Vec gain, Vec carried
 }
 
 /*
+   Lets vertices pass their values on until none has values to pass on. This terminates, since covered areas only grow.
+*/
+static PetscErrorCode CoverAgglomerate(DM dm, const CoverFacets *facets, Vec gain, Vec carried)
+{
+  PetscReal left = 1.0;
+
+  PetscFunctionBegin;
+  while (left > 0.0) {
+    PetscCall(CoverHandOn(dm, facets, carried, gain));
+    PetscCall(CoverTake(facets, gain, carried, &left));
+  }
+  PetscFunctionReturn(0);
+}
+
+/*
    Marks the vertices near partly covered ones. The vector `edge` has three values per vertex, of which the first is set
    to a positive number: at partly covered vertices, and then, ring by ring, at all vertices of facets that contain a
    marked vertex
@@ -262,18 +277,11 @@ PetscErrorCode NodalPressureEvenOut(Simulation sim, const SceneContactPair *pair
 {
   CoverFacets facets;
   Vec         work;
-  PetscReal   left;
 
   PetscFunctionBegin;
   PetscCall(CoverCreate(sim, pair, carried, &facets));
   PetscCall(VecDuplicate(carried, &work));
-  /* Lets vertices pass their values on until none has values to pass on. This terminates, since covered areas only
-     grow. */
-  left = 1.0;
-  while (left > 0.0) {
-    PetscCall(CoverHandOn(sim->dm, &facets, carried, work));
-    PetscCall(CoverTake(&facets, work, carried, &left));
-  }
+  PetscCall(CoverAgglomerate(sim->dm, &facets, work, carried));
   PetscCall(CoverFindEdge(sim->dm, &facets, work));
   for (PetscInt k = 0; k < cover_exchanges; ++k) PetscCall(CoverExchange(sim->dm, &facets, work, carried));
   PetscCall(VecDestroy(&work));

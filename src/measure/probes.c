@@ -86,6 +86,14 @@ static PetscErrorCode ProbeContactCreate(Simulation sim, ProbeContact *contact)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode ProbeContactDestroy(Simulation sim, ProbeContact *contact)
+{
+  PetscFunctionBegin;
+  PetscCall(DMRestoreLocalVector(sim->dm, &contact->values));
+  PetscCall(DMRestoreLocalVector(sim->dm, &contact->paired));
+  PetscFunctionReturn(0);
+}
+
 /* Interpolates n values per node in a cell. The values of a node start at n x the node's number. */
 static void ProbeInterpolate(const MeshPlace *place, const PetscInt node[], PetscInt n, const PetscScalar values[],
   PetscReal result[])
@@ -229,10 +237,7 @@ PetscErrorCode ProbesMeasure(Simulation sim, StepReport *report)
   }
   PetscCall(VecRestoreArrayRead(local, &u));
   PetscCall(DMRestoreLocalVector(sim->dm, &local));
-  if (sim->contact) {
-    PetscCall(DMRestoreLocalVector(sim->dm, &contact.values));
-    PetscCall(DMRestoreLocalVector(sim->dm, &contact.paired));
-  }
+  if (sim->contact) PetscCall(ProbeContactDestroy(sim, &contact));
   PetscCall(ProbesShare(sim, reports));
   PetscCall(ProbesSort(sim, reports, report));
   PetscCall(PetscFree(reports));

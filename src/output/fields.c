@@ -235,6 +235,28 @@ static PetscErrorCode FieldsFillPair(Output output, const StepState *state, Pets
   PetscFunctionReturn(0);
 }
 
+/* Creates the fields that are written only if any pair has friction. */
+static PetscErrorCode FieldsCreateFriction(Output output, const char suffix[], FieldsContact *fields)
+{
+  PetscFunctionBegin;
+  PetscCall(FieldsCreateContact(output, "contact_shear", suffix, 3, 0.0, &fields->shear, &fields->t));
+  PetscCall(FieldsCreateContact(output, "contact_slip", suffix, 3, 0.0, &fields->slip, &fields->d));
+  PetscCall(FieldsCreateContact(output, "contact_slip_path", suffix, 1, 0.0, &fields->path, &fields->l));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FieldsWriteFriction(FieldsContact *fields, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(VecRestoreArray(fields->shear, &fields->t));
+  PetscCall(VecRestoreArray(fields->slip, &fields->d));
+  PetscCall(VecRestoreArray(fields->path, &fields->l));
+  PetscCall(DatasetWrite(&fields->shear, viewer));
+  PetscCall(DatasetWrite(&fields->slip, viewer));
+  PetscCall(DatasetWrite(&fields->path, viewer));
+  PetscFunctionReturn(0);
+}
+
 /*
    Writes the fields of a pair, or those of all pairs together. pair: number of the pair; negative: all pairs. suffix:
    name of the pair, which is appended to the names of its fields; NULL for all pairs.
@@ -252,12 +274,7 @@ static PetscErrorCode FieldsWritePair(Output output, const StepState *state, Pet
   PetscCall(FieldsCreateContact(output, "contact_area", suffix, 1, 0.0, &fields.area, &fields.a));
   PetscCall(FieldsCreateContact(output, "contact_status", suffix, 1, NAN, &fields.status, &fields.s));
   PetscCall(FieldsCreateContact(output, "contact_force", suffix, 3, 0.0, &fields.force, &fields.f));
-  /* Creates the fields that are written only if any pair has friction. */
-  if (output->friction) {
-    PetscCall(FieldsCreateContact(output, "contact_shear", suffix, 3, 0.0, &fields.shear, &fields.t));
-    PetscCall(FieldsCreateContact(output, "contact_slip", suffix, 3, 0.0, &fields.slip, &fields.d));
-    PetscCall(FieldsCreateContact(output, "contact_slip_path", suffix, 1, 0.0, &fields.path, &fields.l));
-  }
+  if (output->friction) PetscCall(FieldsCreateFriction(output, suffix, &fields));
   PetscCall(RankErrorBegin(&error));
   ierr = FieldsFillPair(output, state, pair, &fields);
   PetscCall(RankErrorEnd(output->comm, ierr, &error));
@@ -272,14 +289,16 @@ static PetscErrorCode FieldsWritePair(Output output, const StepState *state, Pet
   PetscCall(DatasetWrite(&fields.area, viewer));
   PetscCall(DatasetWrite(&fields.status, viewer));
   PetscCall(DatasetWrite(&fields.force, viewer));
-  if (fields.shear) {
-    PetscCall(VecRestoreArray(fields.shear, &fields.t));
-    PetscCall(VecRestoreArray(fields.slip, &fields.d));
-    PetscCall(VecRestoreArray(fields.path, &fields.l));
-    PetscCall(DatasetWrite(&fields.shear, viewer));
-    PetscCall(DatasetWrite(&fields.slip, viewer));
-    PetscCall(DatasetWrite(&fields.path, viewer));
-  }
+  if (fields.shear) PetscCall(FieldsWriteFriction(&fields, viewer));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FieldsWriteContact(Output output, const StepState *state, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(FieldsWritePair(output, state, -1, NULL, viewer));
+  for (PetscInt p = 0; p < output->npairs; ++p)
+    PetscCall(FieldsWritePair(output, state, p, output->pairnames[p], viewer));
   PetscFunctionReturn(0);
 }
 
@@ -300,9 +319,7 @@ static PetscErrorCode FieldsWriteState(PetscViewer viewer, void *ctx)
   PetscCall(StressWriteCells(output, state, viewer));
   PetscCall(StressWriteNodes(output, state, viewer));
   PetscCall(StressWriteQuadrature(output, state, viewer));
-  PetscCall(FieldsWritePair(output, state, -1, NULL, viewer));
-  for (PetscInt p = 0; p < output->npairs; ++p)
-    PetscCall(FieldsWritePair(output, state, p, output->pairnames[p], viewer));
+  PetscCall(FieldsWriteContact(output, state, viewer));
   PetscCall(PetscViewerHDF5WriteAttribute(viewer, NULL, "time", PETSC_REAL, &time));
   PetscFunctionReturn(0);
 }

@@ -142,6 +142,17 @@ static PetscErrorCode ViewFactored(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+/* Prints the relative errors in energy that the solver and the mesh cause. */
+static PetscErrorCode ViewErrors(const RunReport *report, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n%5s  %-27s  %s\n", "step", "relative error in energy",
+    "relative error in the energy norm, and the contribution of each body"));
+  PetscCall(TableViewHead(report, TABLE_ERRORS, &SchemaSteps, 1, viewer));
+  PetscCall(TableViewRows(report, TABLE_ERRORS, &SchemaSteps, report->nsteps, report->steps, viewer));
+  PetscFunctionReturn(0);
+}
+
 /* Prints the times with one row per phase; the last row is the total time. */
 static PetscErrorCode ViewTimes(const RunReport *report, PetscViewer viewer)
 {
@@ -256,11 +267,7 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
   PetscCall(ViewTimeSteps(report, viewer));
   PetscCall(ViewSteps(report, TABLE_TRUTH, 2, viewer));
   PetscCall(ViewFallbacks(report, viewer));
-  /* Prints the relative errors in energy that the solver and the mesh cause. */
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\n%5s  %-27s  %s\n", "step", "relative error in energy",
-    "relative error in the energy norm, and the contribution of each body"));
-  PetscCall(TableViewHead(report, TABLE_ERRORS, &SchemaSteps, 1, viewer));
-  PetscCall(TableViewRows(report, TABLE_ERRORS, &SchemaSteps, report->nsteps, report->steps, viewer));
+  PetscCall(ViewErrors(report, viewer));
   if (report->accuracy) PetscCall(ReportViewAccuracy(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewTimes(report, viewer));

@@ -49,6 +49,21 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode SimulationSetUpTangent(Simulation sim)
+{
+  const Constraints constraints = SimulationConstraints(sim);
+  PetscBool         linear;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
+  PetscCall(TiesCreateTangent(&constraints, &sim->K));
+  PetscCall(PetscObjectCompose((PetscObject)sim->K, PCAMGF_COORDINATES_KEY, (PetscObject)sim->places.x));
+  if (linear || sim->ties.C) PetscCall(TiesTangent(&constraints, sim->path->u, sim->K));
+  PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SimulationSetUpContact(Simulation sim)
 {
   Scene scene = sim->scene;
@@ -127,9 +142,7 @@ static PetscErrorCode SimulationReportRotations(Simulation sim)
 @*/
 PetscErrorCode SimulationSetUp(Simulation sim)
 {
-  Scene       scene = sim->scene;
-  Constraints constraints;
-  PetscBool   linear;
+  Scene scene = sim->scene;
 
   PetscFunctionBegin;
   PetscCall(EventsRead(&sim->run->start));
@@ -147,13 +160,7 @@ PetscErrorCode SimulationSetUp(Simulation sim)
   PetscCall(VecSet(sim->path->previous_u, 0.0));
   PetscCall(SimulationSetUpElasticity(sim));
   PetscCall(PetscLogEventEnd(SIM_SetUp, NULL, NULL, NULL, NULL));
-  constraints = SimulationConstraints(sim);
-  PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
-  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
-  PetscCall(TiesCreateTangent(&constraints, &sim->K));
-  PetscCall(PetscObjectCompose((PetscObject)sim->K, PCAMGF_COORDINATES_KEY, (PetscObject)sim->places.x));
-  if (linear || sim->ties.C) PetscCall(TiesTangent(&constraints, sim->path->u, sim->K));
-  PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
+  PetscCall(SimulationSetUpTangent(sim));
   PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.assembly));
   PetscCall(PetscLogEventBegin(SIM_SetUp, NULL, NULL, NULL, NULL));
   PetscCall(SimulationSetUpContact(sim));

@@ -5,6 +5,19 @@
 
 #define SCENE_CONTACT_UPDATES 20
 
+/* Returns the name of the file without its folder and the ending .yaml. */
+static PetscErrorCode SceneDefaultName(const char file[], char **name)
+{
+  const char *slash = strrchr(file, '/');
+  char       *dot;
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrallocpy(slash ? slash + 1 : file, name));
+  dot = strrchr(*name, '.');
+  if (dot && dot != *name) *dot = 0;
+  PetscFunctionReturn(0);
+}
+
 /* Applies command line options, which override the values of the file. */
 static PetscErrorCode SceneSetFromOptions(MPI_Comm comm, const char file[], Scene scene)
 {
@@ -111,10 +124,8 @@ static PetscErrorCode SceneReadLists(SceneKeys keys, Scene scene)
 @*/
 PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
 {
-  SceneKeys   keys;
-  Scene       s;
-  const char *slash;
-  char       *dot;
+  SceneKeys keys;
+  Scene     s;
 
   PetscFunctionBegin;
   PetscCall(SceneKeysCreate(comm, file, &keys));
@@ -124,13 +135,7 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   PetscCall(SceneReadDynamics(keys, s, SceneFindList("dynamics")));
   PetscCall(SceneReadRamps(keys, s));
   PetscCall(SceneReadRows(keys, s, "", SceneLists[0].rows, NULL, PETSC_FALSE, s));
-  /* Returns the name of the file without its folder and the ending .yaml. */
-  if (!s->name) {
-    slash = strrchr(keys->file, '/');
-    PetscCall(PetscStrallocpy(slash ? slash + 1 : keys->file, &s->name));
-    dot = strrchr(s->name, '.');
-    if (dot && dot != s->name) *dot = 0;
-  }
+  if (!s->name) PetscCall(SceneDefaultName(keys->file, &s->name));
   PetscCall(PetscStrallocpy(keys->file, &s->file));
   PetscCall(SceneReadMaterials(keys, s, SceneFindList("materials")));
   PetscCall(SceneReadLists(keys, s));

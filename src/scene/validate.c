@@ -96,6 +96,21 @@ static PetscErrorCode SceneValidateDisplacements(MPI_Comm comm, Scene scene)
   PetscFunctionReturn(0);
 }
 
+/* A rigid surface has no volume; the cells that show it have one */
+static PetscErrorCode SceneValidateBodyForces(MPI_Comm comm, Scene scene)
+{
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < scene->nforces; ++f) {
+    const SceneBodyForce *force = &scene->forces[f];
+
+    SceneRequire(force->body < 0 || !SceneBodyIsSurface(&scene->bodies[force->body]), force,
+      "body force \"%s\" acts on the body \"%s\", which is a rigid surface and has no volume: list its weight "
+      "under forces",
+      force->name, scene->bodies[force->body].name);
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SceneValidatePressures(MPI_Comm comm, Scene scene)
 {
   PetscFunctionBegin;
@@ -224,15 +239,7 @@ PetscErrorCode SceneValidate(MPI_Comm comm, Scene scene)
   PetscCall(SceneValidateBodies(comm, scene));
   PetscCall(SceneValidateDisplacements(comm, scene));
   PetscCall(SceneValidateRigid(comm, scene));
-  /* A rigid surface has no volume; the cells that show it have one */
-  for (PetscInt f = 0; f < scene->nforces; ++f) {
-    const SceneBodyForce *force = &scene->forces[f];
-
-    SceneRequire(force->body < 0 || !SceneBodyIsSurface(&scene->bodies[force->body]), force,
-      "body force \"%s\" acts on the body \"%s\", which is a rigid surface and has no volume: list its weight "
-      "under forces",
-      force->name, scene->bodies[force->body].name);
-  }
+  PetscCall(SceneValidateBodyForces(comm, scene));
   PetscCall(SceneValidatePressures(comm, scene));
   PetscCall(SceneValidateSprings(comm, scene));
   PetscCall(SceneValidateBolts(comm, scene));

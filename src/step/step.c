@@ -66,6 +66,21 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
   PetscFunctionReturn(0);
 }
 
+/* Checks that `step` is the next load step: the time of the last state is its start, or a time within it after a
+   failed attempt. */
+static PetscErrorCode SimulationCheckStep(Simulation sim, PetscInt step)
+{
+  const PetscInt next = (PetscInt)PetscFloorReal(sim->path->time);
+
+  PetscFunctionBegin;
+  PetscCheck(sim->report.steps, sim->comm, PETSC_ERR_ORDER, "call SimulationSetUp() before SimulationStep()");
+  PetscCheck(step >= 0 && step < sim->scene->nsteps, sim->comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "load step %" PetscInt_FMT " is not one of 0 to %" PetscInt_FMT, step, sim->scene->nsteps - 1);
+  PetscCheck(step == next, sim->comm, PETSC_ERR_ORDER,
+    "load step %" PetscInt_FMT " is not the next one, which is %" PetscInt_FMT, step, next);
+  PetscFunctionReturn(0);
+}
+
 /* Halves the time increment after a failed attempt. *again: false if no further cut is allowed. */
 static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscReal *increment, PetscBool *again)
 {
@@ -158,6 +173,16 @@ static PetscErrorCode SimulationReportStep(Simulation sim, StepReport *report)
   PetscFunctionReturn(0);
 }
 
+/* Collective. Warns of what the whole run shows, after its last step */
+static PetscErrorCode SimulationWarn(Simulation sim, StepReport *report)
+{
+  PetscFunctionBegin;
+  PetscCall(StartWarnOfUnmet(sim, report));
+  PetscCall(PenetrationWarn(sim));
+  PetscCall(PairMeshWarn(sim));
+  PetscFunctionReturn(0);
+}
+
 /*@C
    SimulationStep - Solves the next load step
 
@@ -198,17 +223,9 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   PetscBool       again     = PETSC_TRUE, stop;
   StepReport     *report;
   PetscLogDouble  t0, t1;
-  PetscInt        next;
 
   PetscFunctionBegin;
-  /* Checks that `step` is the next load step: the time of the last state is its start, or a time within it after a
-     failed attempt. */
-  next = (PetscInt)PetscFloorReal(sim->path->time);
-  PetscCheck(sim->report.steps, sim->comm, PETSC_ERR_ORDER, "call SimulationSetUp() before SimulationStep()");
-  PetscCheck(step >= 0 && step < sim->scene->nsteps, sim->comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "load step %" PetscInt_FMT " is not one of 0 to %" PetscInt_FMT, step, sim->scene->nsteps - 1);
-  PetscCheck(step == next, sim->comm, PETSC_ERR_ORDER,
-    "load step %" PetscInt_FMT " is not the next one, which is %" PetscInt_FMT, step, next);
+  PetscCall(SimulationCheckStep(sim, step));
   report = &sim->report.steps[step - sim->control->first_step];
   PetscCall(PetscTime(&t0));
   PetscCall(SimulationBeginReport(sim, step, report));
@@ -230,11 +247,6 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   PetscCall(SimulationGetState(sim, report, state));
   PetscCall(PetscTime(&t1));
   report->step_time = t1 - t0;
-  /* Warns of what the whole run shows, after its last step */
-  if (report->converged && step + 1 == sim->scene->nsteps) {
-    PetscCall(StartWarnOfUnmet(sim, report));
-    PetscCall(PenetrationWarn(sim));
-    PetscCall(PairMeshWarn(sim));
-  }
+  if (report->converged && step + 1 == sim->scene->nsteps) PetscCall(SimulationWarn(sim, report));
   PetscFunctionReturn(0);
 }

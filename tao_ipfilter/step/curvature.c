@@ -45,6 +45,16 @@ typedef struct {
   Vec y;
 } CurvatureScale;
 
+static PetscErrorCode CurvatureScaleDestroy(CurvatureScale *s)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&s->forces));
+  PetscCall(KSPDestroy(&s->ksp));
+  PetscCall(VecDestroy(&s->y));
+  PetscCall(VecDestroy(&s->root));
+  PetscFunctionReturn(0);
+}
+
 /* M: the diagonal of the scaling, which remains the caller's */
 static PetscErrorCode CurvatureScaleCreate(Tao tao, Vec M, CurvatureScale *s)
 {
@@ -135,10 +145,7 @@ PetscErrorCode IPNegativeCurvature(Tao tao, PetscBool *found)
     PetscCall(VecAYPX(p, rz / before, v[1]));
     PetscCall(VecNorm(v[0], NORM_2, &norm));
   }
-  PetscCall(MatDestroy(&scale.forces));
-  PetscCall(KSPDestroy(&scale.ksp));
-  PetscCall(VecDestroy(&scale.y));
-  PetscCall(VecDestroy(&scale.root));
+  PetscCall(CurvatureScaleDestroy(&scale));
   for (PetscInt k = 3; k >= 0; k--) PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v[k]));
   PetscFunctionReturn(0);
 }

@@ -74,6 +74,21 @@ static PetscErrorCode FreeTrial(Tao tao, PetscReal margin)
 }
 
 /*
+   Stores the sizes of objective, gradient and unknowns after the step in ip->first, in place of those at the given
+   starting point, which may be too large by orders of magnitude.
+*/
+static PetscErrorCode FreeMeasure(Tao tao)
+{
+  IPFirst *first = ((TAO_IPFILTER *)tao->data)->first;
+
+  PetscFunctionBegin;
+  first->f = ((TAO_IPFILTER *)tao->data)->at.f;
+  PetscCall(VecNorm(tao->gradient, NORM_2, &first->gradient));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &first->x));
+  PetscFunctionReturn(0);
+}
+
+/*
    Moves x along the step if that reduces the objective. *energy: mean step times mean gradient at the new point, per
    unknown.
 */
@@ -84,7 +99,6 @@ PetscErrorCode IPFreeStep(Tao tao, PetscBool *moved, PetscReal *energy)
   PetscReal       step, gradient;
   PetscBool       usable = PETSC_FALSE;
   PetscInt        n;
-  IPFirst        *first;
 
   PetscFunctionBegin;
   *moved = PETSC_FALSE;
@@ -102,12 +116,7 @@ PetscErrorCode IPFreeStep(Tao tao, PetscBool *moved, PetscReal *energy)
   PetscCall(IPIterateCopyPoint(&ip->trial, &ip->at));
   PetscCall(IPBoundsDistance(tao, tao->solution, PETSC_FALSE));
   PetscCall(IPEvaluateDerivatives(tao));
-  /* Stores the sizes of objective, gradient and unknowns after the step in ip->first, in place of those at the
-     given starting point, which may be too large by orders of magnitude. */
-  first    = ((TAO_IPFILTER *)tao->data)->first;
-  first->f = ((TAO_IPFILTER *)tao->data)->at.f;
-  PetscCall(VecNorm(tao->gradient, NORM_2, &first->gradient));
-  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &first->x));
+  PetscCall(FreeMeasure(tao));
   PetscCall(VecNorm(tao->gradient, NORM_1, &gradient));
   *energy = step * gradient / n;
   PetscFunctionReturn(0);

@@ -62,6 +62,19 @@ static PetscErrorCode MeanMagnitude(Tao tao, Vec v, PetscReal *mean)
   PetscFunctionReturn(0);
 }
 
+/* Computes the weighted mean of the constraints' absolute values. Rows out of reach count as zero. */
+static PetscErrorCode MeanLength(Tao tao, PetscReal *mean)
+{
+  Vec near;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &near));
+  PetscCall(IPValuesWithinReach(tao, ((TAO_IPFILTER *)tao->data)->at.c, near));
+  PetscCall(MeanMagnitude(tao, near, mean));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &near));
+  PetscFunctionReturn(0);
+}
+
 /*
    Computes the pressure that, equal in all rows, balances the gradient g in the unknowns where g is large: (g, g) /
    (|g|, |J|^T w)
@@ -177,15 +190,10 @@ static PetscErrorCode StartPredicted(Tao tao)
   PetscReal     length, pressure, mean, terms, bound;
   PetscBool     moved = PETSC_FALSE;
   Vec           z;
-  Vec           near;
 
   PetscFunctionBegin;
   if (!ip->stiff->flat) PetscCall(IPPenaltyStep(tao, &moved));
-  /* Computes the weighted mean of the constraints' absolute values. Rows out of reach count as zero. */
-  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &near));
-  PetscCall(IPValuesWithinReach(tao, ((TAO_IPFILTER *)tao->data)->at.c, near));
-  PetscCall(MeanMagnitude(tao, near, &length));
-  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &near));
+  PetscCall(MeanLength(tao, &length));
   PetscCall(GradientPressure(tao, &ip->first->pressure));
   if (moved) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &z));

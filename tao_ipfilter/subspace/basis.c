@@ -174,6 +174,19 @@ static void BasisForward(const IPBasis *b, const PetscReal s[], PetscReal l[], P
   }
 }
 
+/* Makes v K-orthogonal to P: v -= P (P^T K P)^-1 s, with s = P^T K v. l: L^-1 s, which is overwritten */
+static PetscErrorCode BasisProject(const IPBasis *b, PetscReal l[], Vec v)
+{
+  PetscFunctionBegin;
+  for (PetscInt j = b->n - 1; j >= 0; j--) {
+    for (PetscInt i = j + 1; i < b->n; i++) l[j] -= b->factor[i + j * b->max] * l[i];
+    l[j] /= b->factor[j + j * b->max];
+  }
+  for (PetscInt j = 0; j < b->n; j++) l[j] = -l[j];
+  PetscCall(IPBasisAdd(b, l, v));
+  PetscFunctionReturn(0);
+}
+
 /* Appends direction n, which is stored, to the Gram matrix and its factor. s, l, square: see BasisForward() */
 static void BasisTake(IPBasis *b, const PetscReal s[], const PetscReal l[], PetscReal square)
 {
@@ -219,13 +232,7 @@ PetscErrorCode IPBasisAppend(IPBasis *b, Mat K, Vec d, PetscBool *appended)
     if (*appended) BasisTake(b, s, l, square);
     else {
       PetscCall(VecAXPBY(d, 1.0 / PetscSqrtReal(PetscRealPart(energy)), 0.0, b->d));
-      /* Makes v K-orthogonal to P: v -= P (P^T K P)^-1 s, with s = P^T K v. l: L^-1 s, which is overwritten */
-      for (PetscInt j = b->n - 1; j >= 0; j--) {
-        for (PetscInt i = j + 1; i < b->n; i++) l[j] -= b->factor[i + j * b->max] * l[i];
-        l[j] /= b->factor[j + j * b->max];
-      }
-      for (PetscInt j = 0; j < b->n; j++) l[j] = -l[j];
-      PetscCall(IPBasisAdd(b, l, d));
+      PetscCall(BasisProject(b, l, d));
     }
   }
   PetscCall(PetscFree2(s, l));
@@ -443,6 +450,20 @@ PetscErrorCode IPBasisCompress(IPBasis *b, PetscInt best, PetscInt last, PetscRe
   PetscFunctionReturn(0);
 }
 
+/* Computes the rows of K P that belong to W, and the Gram matrix P^T K P */
+static PetscErrorCode BasisMultiplyAll(IPBasis *b, Mat K)
+{
+  PetscFunctionBegin;
+  for (PetscInt j = 0; j < b->n; j++) {
+    PetscCall(BasisExpand(b, j));
+    PetscCall(BasisMultiply(b, K, j));
+    PetscCall(IPBasisDots(b, 0, j + 1, b->Kd, &b->gram[j * b->max]));
+    for (PetscInt i = 0; i < j; i++) b->gram[j + i * b->max] = b->gram[i + j * b->max];
+  }
+  PetscCall(BasisFactor(b));
+  PetscFunctionReturn(0);
+}
+
 /* Sets the directions to zero on a set of unknowns. *cut becomes true if an entry of this rank was not zero. */
 static PetscErrorCode BasisCut(IPBasis *b, IS set, PetscBool *cut)
 {
@@ -508,15 +529,6 @@ PetscErrorCode IPBasisUpdate(IPBasis *b, Mat K, PetscBool new_K, IS fixed, IS W)
   if (valid) PetscCall(ISDestroy(&b->W));
   else PetscCall(BasisForgetW(b));
   b->W = W;
-  /* Computes the rows of K P that belong to W, and the Gram matrix P^T K P */
-  if (!valid && b->n) {
-    for (PetscInt j = 0; j < b->n; j++) {
-      PetscCall(BasisExpand(b, j));
-      PetscCall(BasisMultiply(b, K, j));
-      PetscCall(IPBasisDots(b, 0, j + 1, b->Kd, &b->gram[j * b->max]));
-      for (PetscInt i = 0; i < j; i++) b->gram[j + i * b->max] = b->gram[i + j * b->max];
-    }
-    PetscCall(BasisFactor(b));
-  }
+  if (!valid && b->n) PetscCall(BasisMultiplyAll(b, K));
   PetscFunctionReturn(0);
 }

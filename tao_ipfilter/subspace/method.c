@@ -20,6 +20,21 @@
 #include "tao_ipfilter/solver/terms.h"
 
 /*
+   Finds whether the Krylov method's preconditioner can be one for K alone: PCAMGF, whose filter is switched off (*amg),
+   or a factorization, which is computed once for all solves (*factored)
+*/
+static PetscErrorCode FilteredIsServed(Tao tao, PetscBool *amg, PetscBool *factored)
+{
+  PC pc;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, amg));
+  PetscCall(PetscObjectTypeCompareAny((PetscObject)pc, factored, PCCHOLESKY, PCLU, ""));
+  PetscFunctionReturn(0);
+}
+
+/*
    Finds whether the method may be used for this problem. With -tao_ipfilter_subspace auto it is used only if the
    problem certainly has the required form and no option concerns Newton systems, e.g. a tolerance of the Krylov method.
 */
@@ -29,7 +44,6 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
   const IPOptions *opt = ip->opt;
   IPFiltered      *f   = IPFilteredOf(tao);
   PetscBool        amg, factored;
-  PC               pc;
 
   PetscFunctionBegin;
   f->newton = (PetscBool)(ip->method->linear && !ip->method->constant);
@@ -37,11 +51,7 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
     (PetscBool)((opt->subspace != IP_SUBSPACE_FALSE || ip->terms->n) && ip->mi && !ip->me && !ip->pair[IP_CEILING].n &&
                 !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->qn->B && !ip->hess->products);
   if (!*applies || opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n) PetscFunctionReturn(0);
-  /* Finds whether the Krylov method's preconditioner can be one for K alone: PCAMGF, whose filter is switched off
-     (*amg), or a factorization, which is computed once for all solves (*factored) */
-  PetscCall(KSPGetPC(tao->ksp, &pc));
-  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amg));
-  PetscCall(PetscObjectTypeCompareAny((PetscObject)pc, &factored, PCCHOLESKY, PCLU, ""));
+  PetscCall(FilteredIsServed(tao, &amg, &factored));
   *applies = (PetscBool)(factored || (amg && opt->forcing == IP_FORCING_ADAPTIVE));
   if (!ip->method->linear || opt->direct_always || opt->measure != IP_KKT_RELATIVE || opt->start != IP_START_WARM)
     *applies = PETSC_FALSE;
@@ -289,6 +299,18 @@ static PetscErrorCode FilteredSolveReduced(Tao tao, IPRecycle *recycle, PetscBoo
   PetscFunctionReturn(0);
 }
 
+/* Adds a direction computed from the residual r. If the basis is full, it is compressed first. */
+static PetscErrorCode FilteredAddDirection(Tao tao, IPRecycle *recycle, Vec r, PetscBool *added)
+{
+  PetscFunctionBegin;
+  if (recycle->basis.n == recycle->basis.max) {
+    PetscCall(IPFilteredMakeRoom(tao, &recycle->basis));
+    PetscCall(FilteredCentreHere(tao, &recycle->basis));
+  }
+  PetscCall(IPFilteredExtend(tao, recycle, r, added));
+  PetscFunctionReturn(0);
+}
+
 /*
    Computes r = -ip->rx, set to zero on W. *exact: false if the reduced problem was not solved exactly, that is, r was
    not small on W or the constraints are violated. The cause is rounding, or a problem that is not quadratic. Violations
@@ -364,14 +386,7 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
   PetscCall(FilteredResidual(tao, r, &exact));
   if (*done && exact) PetscCall(FilteredReconsider(tao, recycle, done));
-  /* Adds a direction computed from the residual r. If the basis is full, it is compressed first. */
-  if (*done && exact) {
-    if (recycle->basis.n == recycle->basis.max) {
-      PetscCall(IPFilteredMakeRoom(tao, &recycle->basis));
-      PetscCall(FilteredCentreHere(tao, &recycle->basis));
-    }
-    PetscCall(IPFilteredExtend(tao, recycle, r, (ip->terms->n ? &exact : done)));
-  }
+  if (*done && exact) PetscCall(FilteredAddDirection(tao, recycle, r, ip->terms->n ? &exact : done));
   f->ncentred = exact || (recycle->whole && !f->nfutile) ? 0 : f->ncentred + 1;
   if (f->ncentred > in_a_row) *done = PETSC_FALSE;
   if (*done && !exact) PetscCall(FilteredCentreHere(tao, &recycle->basis));

@@ -183,6 +183,15 @@ static PetscErrorCode RowsPlaceWeights(Vec v, Vec all, PetscInt first)
   PetscFunctionReturn(0);
 }
 
+/* Copies v to *copy, which is created at the first call */
+static PetscErrorCode RowsKeep(Vec v, Vec *copy)
+{
+  PetscFunctionBegin;
+  if (!*copy) PetscCall(VecDuplicate(v, copy));
+  PetscCall(VecCopy(v, *copy));
+  PetscFunctionReturn(0);
+}
+
 /* Joins the weights of c_I and of the rows that follow in one vector, rows->D */
 static PetscErrorCode RowsJoinWeights(Tao tao, PetscBool below)
 {
@@ -226,11 +235,7 @@ PetscErrorCode IPRowsUpdate(Tao tao, Vec D)
 
   PetscFunctionBegin;
   PetscCall(IPRowsTake(tao));
-  /* Copies v to *copy, which is created at the first call */
-  if (ip->mi) {
-    if (!rows->inequality) PetscCall(VecDuplicate(D, &rows->inequality));
-    PetscCall(VecCopy(D, rows->inequality));
-  }
+  if (ip->mi) PetscCall(RowsKeep(D, &rows->inequality));
   if (below) {
     PetscCall(VecDestroy(&rows->below));
     PetscCall(MatCreateVecs(below, NULL, &rows->below));

@@ -69,6 +69,17 @@ typedef struct {
   Vec number, tangent[2];
 } CyclicFields;
 
+static PetscErrorCode CyclicFieldsCreate(Contact contact, CyclicFields *fields)
+{
+  PetscInt n;
+
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < 2; ++a) PetscCall(DMCreateGlobalVector(contact->dm, &fields->tangent[a]));
+  PetscCall(VecGetLocalSize(fields->tangent[0], &n));
+  PetscCall(VecCreateMPI(contact->comm, n / 3, PETSC_DETERMINE, &fields->number));
+  PetscFunctionReturn(0);
+}
+
 /* Sets the fields for a pair. row[k]: number of row k of the linearization in the fields; negative: the row is left
    out */
 static PetscErrorCode CyclicFieldsSet(Contact contact, const ContactLinearization lin, PetscInt pair,
@@ -94,6 +105,14 @@ static PetscErrorCode CyclicFieldsSet(Contact contact, const ContactLinearizatio
   }
   for (PetscInt a = 0; a < 2; ++a) PetscCall(VecRestoreArray(fields->tangent[a], &t[a]));
   PetscCall(VecRestoreArray(fields->number, &number));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CyclicFieldsDestroy(CyclicFields *fields)
+{
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < 2; ++a) PetscCall(VecDestroy(&fields->tangent[a]));
+  PetscCall(VecDestroy(&fields->number));
   PetscFunctionReturn(0);
 }
 
@@ -184,12 +203,9 @@ static PetscErrorCode CyclicSetGoals(Contact contact, const ContactLinearization
 {
   CyclicFields fields;
   PetscInt    *rows, first;
-  PetscInt     n;
 
   PetscFunctionBegin;
-  for (PetscInt a = 0; a < 2; ++a) PetscCall(DMCreateGlobalVector(contact->dm, &fields.tangent[a]));
-  PetscCall(VecGetLocalSize(fields.tangent[0], &n));
-  PetscCall(VecCreateMPI(contact->comm, n / 3, PETSC_DETERMINE, &fields.number));
+  PetscCall(CyclicFieldsCreate(contact, &fields));
   PetscCall(PetscMalloc1(lin->nlocal, &rows));
   for (PetscInt k = 0; k < lin->nlocal; ++k) {
     rows[k]  = 0;
@@ -210,8 +226,7 @@ static PetscErrorCode CyclicSetGoals(Contact contact, const ContactLinearization
   }
   for (PetscInt p = 0; p < contact->npairs; ++p) PetscCall(CyclicFindGoals(contact, lin, p, rows, &fields, goals));
   PetscCall(PetscFree(rows));
-  for (PetscInt a = 0; a < 2; ++a) PetscCall(VecDestroy(&fields.tangent[a]));
-  PetscCall(VecDestroy(&fields.number));
+  PetscCall(CyclicFieldsDestroy(&fields));
   PetscFunctionReturn(0);
 }
 
@@ -372,6 +387,18 @@ static PetscErrorCode CyclicSetSums(Contact contact, const CyclicGoal goals[], P
   PetscFunctionReturn(0);
 }
 
+/* Moves the data of the remaining rows to the front of the arrays */
+static void CyclicMoveRows(PetscInt nkept, const PetscInt kept[], ContactLinearization lin)
+{
+  for (PetscInt k = 0; k < nkept; ++k) {
+    lin->vertex[k] = lin->vertex[kept[k]];
+    lin->pair[k]   = lin->pair[kept[k]];
+    for (PetscInt c = 0; c < 3; ++c) lin->normal[3 * k + c] = lin->normal[3 * kept[k] + c];
+    for (PetscInt c = 0; lin->tangent && c < 6; ++c) lin->tangent[6 * k + c] = lin->tangent[6 * kept[k] + c];
+  }
+  lin->nlocal = nkept;
+}
+
 /* Collective. Replaces the rows of a vertex and of its image by one row */
 PetscErrorCode ContactCyclicMerge(Contact contact, ContactLinearization lin)
 {
@@ -396,14 +423,7 @@ PetscErrorCode ContactCyclicMerge(Contact contact, ContactLinearization lin)
   PetscCall(CyclicMergeMatrix(merge, lin->mass, mass, &lin->derivative));
   PetscCall(CyclicMergeMatrix(merge, lin->mass, mass, &lin->cover));
   PetscCall(CyclicMergeSlip(contact, merge, goals, nkept, lin->mass, mass, lin));
-  /* Moves the data of the remaining rows to the front of the arrays */
-  for (PetscInt k = 0; k < nkept; ++k) {
-    lin->vertex[k] = lin->vertex[kept[k]];
-    lin->pair[k]   = lin->pair[kept[k]];
-    for (PetscInt c = 0; c < 3; ++c) lin->normal[3 * k + c] = lin->normal[3 * kept[k] + c];
-    for (PetscInt c = 0; lin->tangent && c < 6; ++c) lin->tangent[6 * k + c] = lin->tangent[6 * kept[k] + c];
-  }
-  lin->nlocal = nkept;
+  CyclicMoveRows(nkept, kept, lin);
   PetscCall(VecDestroy(&lin->g));
   PetscCall(VecDestroy(&lin->mass));
   lin->g    = gap;

@@ -145,6 +145,18 @@ static PetscErrorCode PrescribedRowsMarkFree(const ContactPairData *pair, const 
   PetscFunctionReturn(0);
 }
 
+/* Collective. Creates a sequential vector with the values of `rows` at the vertices of the pair's facets */
+static PetscErrorCode PrescribedRowsGather(const ContactPairData *pair, Vec rows, Vec *gathered)
+{
+  IS from;
+
+  PetscFunctionBegin;
+  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, 4 * pair->nonmortar.nfacets, pair->row, PETSC_USE_POINTER, &from));
+  PetscCall(ContactGatherEntries(rows, from, gathered));
+  PetscCall(ISDestroy(&from));
+  PetscFunctionReturn(0);
+}
+
 /*
    Returns whether vertex i of the nonmortar facets matches one of the n mortar vertices. If so, the mean gaps of the
    facets beside it vanish while both faces bend alike. Other formulations of the gap do not have this property when the
@@ -172,15 +184,11 @@ static PetscErrorCode PrescribedRowsFindNeighbours(const ContactPairData *pair, 
 {
   Vec                gathered;
   const PetscScalar *at;
-  IS                 from;
 
   PetscFunctionBegin;
   *nneighbours = 0;
   PetscCall(PetscMalloc1(8 * pair->nonmortar.nfacets, neighbours));
-  /* Creates a sequential vector with the values of `rows` at the vertices of the pair's facets */
-  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, 4 * pair->nonmortar.nfacets, pair->row, PETSC_USE_POINTER, &from));
-  PetscCall(ContactGatherEntries(free, from, &gathered));
-  PetscCall(ISDestroy(&from));
+  PetscCall(PrescribedRowsGather(pair, free, &gathered));
   PetscCall(VecGetArrayRead(gathered, &at));
   for (PetscInt i = 0; i < 4 * pair->nonmortar.nfacets; ++i) {
     const PetscInt edge[2] = {4 * (i / 4) + (i + 1) % 4, 4 * (i / 4) + (i + 3) % 4};

@@ -91,6 +91,18 @@ static PetscErrorCode ModelCreate(MPI_Comm comm, Scene scene, DetectModel *m)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode ModelDestroy(DetectModel *m)
+{
+  PetscFunctionBegin;
+  PetscCall(MeshSurfacesDestroy(&m->surfaces));
+  PetscCall(PetscFree3(m->area, m->nfacets, m->bulge));
+  PetscCall(PetscFree(m->normal));
+  PetscCall(PetscFree3(m->thickness, m->box, m->fine));
+  PetscCall(PetscFree(m->mass));
+  PetscCall(PetscFree(m->tool));
+  PetscFunctionReturn(0);
+}
+
 /* Creates a name that no contact pair and no tie has: the names of the nonmortar and of the mortar body, and a number
    from 2 on if needed */
 static PetscErrorCode RuleMakeName(Scene scene, const char nonmortar[], const char mortar[], char **name)
@@ -299,12 +311,7 @@ PetscErrorCode ContactDetect(MPI_Comm comm, Scene scene)
   }
   PetscCall(PetscFree3(rules, pairs, tied));
   PetscCall(PetscFree(found));
-  PetscCall(MeshSurfacesDestroy(&model.surfaces));
-  PetscCall(PetscFree3(model.area, model.nfacets, model.bulge));
-  PetscCall(PetscFree(model.normal));
-  PetscCall(PetscFree3(model.thickness, model.box, model.fine));
-  PetscCall(PetscFree(model.mass));
-  PetscCall(PetscFree(model.tool));
+  PetscCall(ModelDestroy(&model));
   PetscCall(RulesDestroy(scene));
   PetscFunctionReturn(0);
 }

@@ -53,6 +53,19 @@ static void FacingMerge(FacingList *list)
   list->n = n;
 }
 
+/* Appends a record. Merges the list before it is enlarged. */
+static PetscErrorCode FacingAppend(const FacingRecord *record, FacingList *list)
+{
+  PetscFunctionBegin;
+  if (list->n == list->max) {
+    FacingMerge(list);
+    if (2 * list->n >= list->max) list->max = 2 * list->max + 1024;
+    PetscCall(PetscRealloc(sizeof(*list->record) * list->max, &list->record));
+  }
+  list->record[list->n++] = *record;
+  PetscFunctionReturn(0);
+}
+
 /* What limits a search */
 typedef struct {
   Scene scene;
@@ -147,13 +160,7 @@ static PetscErrorCode FacingShootFacet(const DetectState *state, const FacingLim
   }
   for (PetscInt k = 0; k < n; ++k) {
     for (PetscInt side = 0; side < 2; ++side) found[k].tied[side] = found[k].tied[side] >= DETECT_RAYS ? 1.0 : 0.0;
-    /* Appends a record. Merges the list before it is enlarged. */
-    if (list->n == list->max) {
-      FacingMerge(list);
-      if (2 * list->n >= list->max) list->max = 2 * list->max + 1024;
-      PetscCall(PetscRealloc(sizeof(*list->record) * list->max, &list->record));
-    }
-    list->record[list->n++] = found[k];
+    PetscCall(FacingAppend(&found[k], list));
   }
   PetscFunctionReturn(0);
 }
@@ -226,6 +233,16 @@ static PetscErrorCode FacingFindPrescribed(Scene scene, PetscBool prescribed[])
   PetscFunctionReturn(0);
 }
 
+/* Collective. Collects the records of all ranks on every rank */
+static PetscErrorCode FacingGather(MPI_Comm comm, FacingList *list)
+{
+  PetscFunctionBegin;
+  FacingMerge(list);
+  PetscCall(RecordsGather(comm, FACING_REALS, &list->n, &list->record));
+  FacingMerge(list);
+  PetscFunctionReturn(0);
+}
+
 /* Returns the length of all rays: the largest distance of any rule plus the largest prescribed motion [length] */
 static PetscReal FacingLargestReach(const DetectModel *model, Scene scene, PetscReal extent)
 {
@@ -267,10 +284,7 @@ PetscErrorCode DetectFacing(const DetectModel *model, Scene scene, PetscInt *n, 
     PetscCall(DetectStateDestroy(&state));
   }
   PetscCall(PetscFree2(moves, prescribed));
-  /* Collects the records of all ranks on every rank */
-  FacingMerge(&list);
-  PetscCall(RecordsGather(model->comm, FACING_REALS, &list.n, &list.record));
-  FacingMerge(&list);
+  PetscCall(FacingGather(model->comm, &list));
   *n = list.n;
   PetscCall(PetscCalloc1(list.n, pairs));
   for (PetscInt i = 0; i < list.n; ++i) {

@@ -56,11 +56,18 @@ static void FallHold(Scene scene, DetectMove moves[])
   }
 }
 
+/* Shortens the shift to the size of the whole model: nothing is beyond it */
+static void FallLimit(PetscReal largest, DetectMove *move)
+{
+  const PetscReal length = VectorNorm(move->shift);
+
+  for (PetscInt c = 0; c < 3 && length > largest; ++c) move->shift[c] *= largest / length;
+}
+
 /* Computes the motions of all bodies at one time [load steps] if nothing is prescribed and nothing touches them */
 PetscErrorCode DetectFall(const DetectModel *model, Scene scene, PetscReal time, DetectMove moves[])
 {
   const PetscReal elapsed = time * SceneTimeStep(scene);
-  PetscReal       length;
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(moves, scene->nbodies));
@@ -93,9 +100,7 @@ PetscErrorCode DetectFall(const DetectModel *model, Scene scene, PetscReal time,
       move->rotation[c] = elapsed * scene->bodies[b].spin[c];
       move->center[c]   = 0.5 * (model->box[6 * b + c] + model->box[6 * b + 3 + c]);
     }
-    /* Shortens the shift to the size of the whole model: nothing is beyond it */
-    length = VectorNorm(move->shift);
-    for (PetscInt c = 0; c < 3 && length > model->size; ++c) move->shift[c] *= model->size / length;
+    FallLimit(model->size, move);
     move->moves = move->falls = (PetscBool)(VectorNorm(move->shift) > 0.0 || VectorNorm(move->rotation) > 0.0);
   }
   PetscFunctionReturn(0);

@@ -102,6 +102,17 @@ static PetscErrorCode GmshCutVolume(const GmshMesh *mesh, const SceneBody *body,
   PetscFunctionReturn(0);
 }
 
+/* Extracts the coordinates of the vertices */
+static PetscErrorCode GmshCutCoordinates(const GmshMesh *mesh, const PetscInt number[], ShapeGrid *grid)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(3 * grid->nvertices, &grid->coordinates));
+  for (PetscInt v = 0; v < mesh->nnodes; ++v) {
+    if (number[v] >= 0) PetscCall(PetscArraycpy(grid->coordinates + 3 * number[v], mesh->x + 3 * v, 3));
+  }
+  PetscFunctionReturn(0);
+}
+
 /* Extracts the curves of second-order cells, unless all edges are straight. *quadratic: whether the cells are of second
    order */
 static PetscErrorCode GmshCutCurve(const GmshMesh *mesh, PetscInt volume, PetscBool *quadratic, ShapeGrid *grid)
@@ -268,11 +279,7 @@ static PetscErrorCode GmshCutBody(const GmshMesh *mesh, const SceneBody *body, P
   PetscCall(GmshCutVolume(mesh, body, volume, number, grid));
   PetscCheck(grid->ncells, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "the volume \"%s\" of %s has no cells",
     body->gmsh.volume, body->gmsh.file);
-  /* Extracts the coordinates of the vertices */
-  PetscCall(PetscMalloc1(3 * grid->nvertices, &grid->coordinates));
-  for (PetscInt v = 0; v < mesh->nnodes; ++v) {
-    if (number[v] >= 0) PetscCall(PetscArraycpy(grid->coordinates + 3 * number[v], mesh->x + 3 * v, 3));
-  }
+  PetscCall(GmshCutCoordinates(mesh, number, grid));
   if (body->curved) {
     PetscCall(GmshCutCurve(mesh, volume, &quadratic, grid));
     if (!quadratic && grid->ncorners == 8) PetscCall(ShapeGridProject(grid));

@@ -195,6 +195,20 @@ static PetscBool GmshGetNodesOfBlock(GmshReader *reader, PetscInt64 n, PetscInt6
   return PETSC_TRUE;
 }
 
+/* Stores the numbers of nodes, which have been checked */
+static PetscErrorCode GmshStoreNodes(GmshMesh *mesh, PetscInt64 n, const PetscInt64 numbers[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(n, &mesh->number, n, &mesh->place));
+  mesh->nnodes = (PetscInt)n;
+  for (PetscInt i = 0; i < mesh->nnodes; ++i) {
+    mesh->number[i] = (PetscInt)numbers[i];
+    mesh->place[i]  = i;
+  }
+  PetscCall(PetscSortIntWithArray(mesh->nnodes, mesh->number, mesh->place));
+  PetscFunctionReturn(0);
+}
+
 /* Reads the number of blocks, and the number of nodes or elements in them. Format 2 has one block. Format 4.1 also
    gives the range of the numbers, on which PETSc relies. */
 static PetscErrorCode GmshGetBlocks(GmshReader *reader, const char what[], PetscInt64 *nblocks, PetscInt64 *count,
@@ -248,16 +262,7 @@ static PetscErrorCode GmshCheckNodes(GmshReader *reader, PetscBool *sound)
     *sound = GmshWrong(&reader->in, "the numbers of its nodes run from %lld to %lld, but it announces %lld to %lld",
       (long long)reader->first, (long long)(reader->first + reader->nnodes - 1), (long long)range[0],
       (long long)range[1]);
-  /* Stores the numbers of nodes, which have been checked */
-  if (*sound) {
-    PetscCall(PetscMalloc2(total, &reader->mesh->number, total, &reader->mesh->place));
-    reader->mesh->nnodes = (PetscInt)total;
-    for (PetscInt i = 0; i < reader->mesh->nnodes; ++i) {
-      reader->mesh->number[i] = (PetscInt)numbers[i];
-      reader->mesh->place[i]  = i;
-    }
-    PetscCall(PetscSortIntWithArray(reader->mesh->nnodes, reader->mesh->number, reader->mesh->place));
-  }
+  if (*sound) PetscCall(GmshStoreNodes(reader->mesh, total, numbers));
   PetscCall(PetscFree(numbers));
   if (*sound) *sound = GmshExpectNext(&reader->in, "$EndNodes");
   PetscFunctionReturn(0);

@@ -48,6 +48,18 @@ static PetscErrorCode EvaluateBlockFill(DM dm, PetscInt first, const Vec local[]
   PetscFunctionReturn(0);
 }
 
+/* Collective. Sends a block from rank `from` to all ranks */
+static PetscErrorCode EvaluateBlockSend(MPI_Comm comm, PetscMPIInt from, EvaluateBlock *block)
+{
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Bcast(&block->n, 1, MPIU_INT, from, comm));
+  PetscCallMPI(MPI_Bcast(block->body, (PetscMPIInt)block->n, MPIU_INT, from, comm));
+  PetscCallMPI(MPI_Bcast(block->nnodes, (PetscMPIInt)block->n, MPIU_INT, from, comm));
+  PetscCallMPI(
+    MPI_Bcast(block->values, (PetscMPIInt)(3 * MESH_MAX_NODES * block->nvecs * block->n), MPIU_REAL, from, comm));
+  PetscFunctionReturn(0);
+}
+
 /* Tests the cells of the block, and evaluates the fields at those points whose nearest position so far is in one of
    these cells. number: number of the block's first cell among the cells of all ranks */
 static PetscErrorCode EvaluateBlockUse(const EvaluateBlock *block, PetscInt number, PetscInt npoints,
@@ -93,12 +105,7 @@ static PetscErrorCode EvaluateAll(DM dm, const Vec local[], EvaluateBlock *block
     for (PetscInt first = 0; first < ncells; first += EVALUATE_CELLS) {
       block->n = PetscMin(EVALUATE_CELLS, ncells - first);
       if (rank == from) PetscCall(EvaluateBlockFill(dm, cstart + first, local, block));
-      /* Sends a block from rank `from` to all ranks */
-      PetscCallMPI(MPI_Bcast(&block->n, 1, MPIU_INT, from, comm));
-      PetscCallMPI(MPI_Bcast(block->body, (PetscMPIInt)block->n, MPIU_INT, from, comm));
-      PetscCallMPI(MPI_Bcast(block->nnodes, (PetscMPIInt)block->n, MPIU_INT, from, comm));
-      PetscCallMPI(
-        MPI_Bcast(block->values, (PetscMPIInt)(3 * MESH_MAX_NODES * block->nvecs * block->n), MPIU_REAL, from, comm));
+      PetscCall(EvaluateBlockSend(comm, from, block));
       PetscCall(EvaluateBlockUse(block, number, npoints, locator, values));
       number += block->n;
     }

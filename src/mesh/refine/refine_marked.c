@@ -25,6 +25,16 @@ PetscErrorCode MeshNumberCells(DM dm, const MeshHanging *hanging)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode MarksAppend(MeshMarks *marks, PetscInt n, PetscInt cells[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscRealloc((marks->n + 1) * sizeof(*marks->count), &marks->count));
+  PetscCall(PetscRealloc((marks->n + 1) * sizeof(*marks->cells), &marks->cells));
+  marks->count[marks->n]   = n;
+  marks->cells[marks->n++] = cells;
+  PetscFunctionReturn(0);
+}
+
 /*
    Collective. Adds the marked cells of a mesh to the marks. The next mesh that is created with these marks has the
    marked cells refined. dm: mesh that MeshCreateScene() has created with these marks; marked: whether to mark each
@@ -51,10 +61,7 @@ PetscErrorCode MeshMarksAdd(DM dm, const PetscBool marked[], MeshMarks *marks)
   }
   PetscCall(ISRestoreIndices(numbers, &number));
   PetscCall(IntegersGather(comm, "the marked cells", n, local, counts, displs, &total, &all));
-  PetscCall(PetscRealloc((marks->n + 1) * sizeof(*marks->count), &marks->count));
-  PetscCall(PetscRealloc((marks->n + 1) * sizeof(*marks->cells), &marks->cells));
-  marks->count[marks->n]   = all ? total : 0;
-  marks->cells[marks->n++] = all;
+  PetscCall(MarksAppend(marks, all ? total : 0, all));
   PetscCall(PetscFree3(local, counts, displs));
   PetscFunctionReturn(0);
 }

@@ -94,6 +94,13 @@ static PetscErrorCode ZoneCreate(DM dm, const SceneBody bodies[], const SceneRef
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode ZoneDestroy(Zone *zone)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(zone->facets[k]));
+  PetscFunctionReturn(0);
+}
+
 /* Returns whether a box is within the distance of a facet of each face, or of the zone's box */
 static PetscBool ZoneHolds(const Zone *zone, PetscReal distance, const PetscReal box[6])
 {
@@ -189,9 +196,7 @@ PetscErrorCode MeshHexesRefineZones(DM dm, const SceneBody bodies[], PetscInt n,
     if (more) PetscCall(MeshHexesRefine(hexes, marked));
     PetscCall(PetscFree(marked));
   }
-  for (PetscInt z = 0; z < n; ++z) {
-    for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscFree(zones[z].facets[k]));
-  }
+  for (PetscInt z = 0; z < n; ++z) PetscCall(ZoneDestroy(&zones[z]));
   PetscCall(PetscFree(zones));
   PetscFunctionReturn(0);
 }

@@ -134,6 +134,15 @@ static PetscInt RegionFind(PetscInt parent[], PetscInt f)
   return f;
 }
 
+/* Numbers the regions in the order of their first facets */
+static void RegionNumber(ShapeBoundary *b)
+{
+  b->nregions = 0;
+  for (PetscInt f = 0; f < b->n; ++f) b->region[f] = RegionFind(b->region, f);
+  for (PetscInt f = 0; f < b->n; ++f) b->region[f] = b->region[f] == f ? -1 - b->nregions++ : b->region[f];
+  for (PetscInt f = 0; f < b->n; ++f) b->region[f] = b->region[f] < 0 ? -1 - b->region[f] : b->region[b->region[f]];
+}
+
 PetscErrorCode ShapeBoundarySplit(const PetscReal x[], PetscReal degrees, ShapeBoundary *b)
 {
   const PetscReal cosine = PetscCosReal(degrees * PETSC_PI / 180);
@@ -164,11 +173,7 @@ PetscErrorCode ShapeBoundarySplit(const PetscReal x[], PetscReal degrees, ShapeB
       b->region[PetscMax(one, two)] = PetscMin(one, two);
     }
   }
-  /* Numbers the regions in the order of their first facets */
-  b->nregions = 0;
-  for (PetscInt f = 0; f < b->n; ++f) b->region[f] = RegionFind(b->region, f);
-  for (PetscInt f = 0; f < b->n; ++f) b->region[f] = b->region[f] == f ? -1 - b->nregions++ : b->region[f];
-  for (PetscInt f = 0; f < b->n; ++f) b->region[f] = b->region[f] < 0 ? -1 - b->region[f] : b->region[b->region[f]];
+  RegionNumber(b);
   PetscCall(PetscFree(edges));
   PetscFunctionReturn(0);
 }

@@ -87,6 +87,17 @@ PetscErrorCode SceneKeysError(SceneKeys keys, const char owner[], const char key
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode SceneKeysRemember(SceneKeys keys, const char key[])
+{
+  PetscFunctionBegin;
+  if (keys->nasked == keys->maxasked) {
+    keys->maxasked = 2 * keys->maxasked + 16;
+    PetscCall(PetscRealloc(keys->maxasked * sizeof(*keys->asked), &keys->asked));
+  }
+  PetscCall(PetscStrallocpy(key, &keys->asked[keys->nasked++]));
+  PetscFunctionReturn(0);
+}
+
 /* Gets the text of a key. *value: owned by `keys`; NULL if the file does not have the key. */
 PetscErrorCode SceneKeysGet(SceneKeys keys, PetscBool required, const char **value, const char format[], ...)
 {
@@ -97,11 +108,7 @@ PetscErrorCode SceneKeysGet(SceneKeys keys, PetscBool required, const char **val
   va_start(args, format);
   PetscCall(PetscVSNPrintf(key, sizeof(key), format, NULL, args));
   va_end(args);
-  if (keys->nasked == keys->maxasked) {
-    keys->maxasked = 2 * keys->maxasked + 16;
-    PetscCall(PetscRealloc(keys->maxasked * sizeof(*keys->asked), &keys->asked));
-  }
-  PetscCall(PetscStrallocpy(key, &keys->asked[keys->nasked++]));
+  PetscCall(SceneKeysRemember(keys, key));
   *value = SceneValuesUse(&keys->values, key);
   if (*value || !required || keys->error[0]) PetscFunctionReturn(0);
   SceneKeysSay(keys, key, PETSC_FALSE, sizeof(name), name);

@@ -79,6 +79,17 @@ static PetscErrorCode RepeatedBeginNode(RepeatedKeys *keys, const yaml_event_t *
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode RepeatedPush(RepeatedKeys *keys, PetscBool mapping, size_t line)
+{
+  PetscFunctionBegin;
+  if (keys->depth == keys->maxdepth) {
+    keys->maxdepth = 2 * keys->maxdepth + 16;
+    PetscCall(PetscRealloc(keys->maxdepth * sizeof(*keys->levels), &keys->levels));
+  }
+  keys->levels[keys->depth++] = (RepeatedLevel){.mapping = mapping, .length = keys->length, .line = line};
+  PetscFunctionReturn(0);
+}
+
 /* Removes the numbers of entries from a path, which messages do not contain. */
 static void RepeatedStrip(char path[])
 {
@@ -116,14 +127,7 @@ PetscErrorCode RepeatedKeysRead(RepeatedKeys *keys, const yaml_event_t *event)
   PetscFunctionBegin;
   if (mapping || list || event->type == YAML_SCALAR_EVENT || event->type == YAML_ALIAS_EVENT)
     PetscCall(RepeatedBeginNode(keys, event));
-  if (mapping || list) {
-    if (keys->depth == keys->maxdepth) {
-      keys->maxdepth = 2 * keys->maxdepth + 16;
-      PetscCall(PetscRealloc(keys->maxdepth * sizeof(*keys->levels), &keys->levels));
-    }
-    keys->levels[keys->depth++] =
-      (RepeatedLevel){.mapping = mapping, .length = keys->length, .line = event->start_mark.line + 1};
-  }
+  if (mapping || list) PetscCall(RepeatedPush(keys, mapping, event->start_mark.line + 1));
   if (event->type == YAML_MAPPING_END_EVENT) PetscCall(RepeatedCheckEntry(keys));
   if (event->type == YAML_MAPPING_END_EVENT || event->type == YAML_SEQUENCE_END_EVENT) --keys->depth;
   PetscFunctionReturn(0);

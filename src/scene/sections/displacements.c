@@ -187,6 +187,23 @@ static PetscErrorCode DisplacementSetPlace(SceneKeys keys, Scene scene, const ch
   PetscFunctionReturn(0);
 }
 
+/*
+   Finds which motions of a rigid body are free. A component is prescribed at all nodes only if neither this component
+   nor a rotation that changes it is free.
+*/
+static PetscErrorCode DisplacementRelease(SceneKeys keys, const char owner[], SceneDisplacement *d)
+{
+  PetscFunctionBegin;
+  if (SceneTurnsFreely(d) && SceneRotates(d))
+    PetscCall(SceneKeysError(keys, owner, NULL,
+      "prescribes one rotation of a rigid body while another one is free; if one rotation is free, "
+      "the others must be 0 or free"));
+  for (PetscInt i = 0; i < 3; ++i) d->released[i] = (PetscBool)!d->fixed[i];
+  for (PetscInt i = 0; i < 3; ++i)
+    d->fixed[i] = (PetscBool) !(d->released[i] || d->released[3 + (i + 1) % 3] || d->released[3 + (i + 2) % 3]);
+  PetscFunctionReturn(0);
+}
+
 /* rotation: whether the entry has this key, whose value may be 0 */
 static PetscErrorCode DisplacementSetMotion(SceneKeys keys, const char owner[], PetscBool center, PetscBool rotation,
   SceneDisplacement *d)
@@ -202,17 +219,7 @@ static PetscErrorCode DisplacementSetMotion(SceneKeys keys, const char owner[], 
       "has a free rotation, which only a rigid body can have, as {body: <body>, ...}"));
   else if (d->moves && !whole && !(d->fixed[0] && d->fixed[1] && d->fixed[2]))
     PetscCall(SceneKeysError(keys, owner, NULL, "has a rotation, so that no component of its value may be free"));
-  /* Finds which motions of a rigid body are free. A component is prescribed at all nodes only if neither this
-     component nor a rotation that changes it is free. */
-  if (whole) {
-    if (SceneTurnsFreely(d) && SceneRotates(d))
-      PetscCall(SceneKeysError(keys, owner, NULL,
-        "prescribes one rotation of a rigid body while another one is free; if one rotation is free, "
-        "the others must be 0 or free"));
-    for (PetscInt i = 0; i < 3; ++i) d->released[i] = (PetscBool)!d->fixed[i];
-    for (PetscInt i = 0; i < 3; ++i)
-      d->fixed[i] = (PetscBool) !(d->released[i] || d->released[3 + (i + 1) % 3] || d->released[3 + (i + 2) % 3]);
-  }
+  if (whole) PetscCall(DisplacementRelease(keys, owner, d));
   PetscFunctionReturn(0);
 }
 

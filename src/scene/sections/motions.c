@@ -48,11 +48,24 @@ PetscErrorCode SceneValidateMotions(MPI_Comm comm, const SceneDisplacement *a, c
   PetscFunctionReturn(0);
 }
 
+/* Checks that there is something to compute: an elastic body, or a free motion of a rigid one. */
+static PetscErrorCode SceneValidateUnknowns(MPI_Comm comm, Scene scene)
+{
+  PetscBool some = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < scene->nbodies; ++b)
+    some = (PetscBool)(some || scene->bodies[b].material.type != MATERIAL_RIGID);
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d)
+    some = (PetscBool)(some || SceneFreesMotion(&scene->displacements[d]));
+  PetscCheck(some, comm, PETSC_ERR_USER_INPUT,
+    "%severy body is rigid, and no motion of any of them is free: there is nothing to compute", scene->places.file);
+  PetscFunctionReturn(0);
+}
+
 /* Checks that every rigid body is moved as a whole, and that no other displacement applies to its faces. */
 PetscErrorCode SceneValidateRigid(MPI_Comm comm, Scene scene)
 {
-  PetscBool some;
-
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     const SceneBody *body  = &scene->bodies[b];
@@ -74,13 +87,6 @@ PetscErrorCode SceneValidateRigid(MPI_Comm comm, Scene scene)
       "value: [0, 0, 0]}",
       body->name, body->name, body->name);
   }
-  /* Checks that there is something to compute: an elastic body, or a free motion of a rigid one. */
-  some = PETSC_FALSE;
-  for (PetscInt b = 0; b < scene->nbodies; ++b)
-    some = (PetscBool)(some || scene->bodies[b].material.type != MATERIAL_RIGID);
-  for (PetscInt d = 0; d < scene->ndisplacements; ++d)
-    some = (PetscBool)(some || SceneFreesMotion(&scene->displacements[d]));
-  PetscCheck(some, comm, PETSC_ERR_USER_INPUT,
-    "%severy body is rigid, and no motion of any of them is free: there is nothing to compute", scene->places.file);
+  PetscCall(SceneValidateUnknowns(comm, scene));
   PetscFunctionReturn(0);
 }

@@ -1,6 +1,15 @@
 /* load and ramps: factors of the load in each load step, and of quantities that have their own ramp. */
 #include "sectionsimpl.h"
 
+/* Sets a linear increase from 0 to 1. */
+static PetscErrorCode SceneSetUniformLoad(SceneRamp *ramp, PetscInt nsteps)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(PetscMax(0, nsteps), &ramp->factor));
+  for (PetscInt i = 0; i < nsteps; ++i) ramp->factor[i] = (PetscReal)(i + 1) / (PetscReal)nsteps;
+  PetscFunctionReturn(0);
+}
+
 /*
    Finds the number of load steps if the scene does not state it. *nsteps: number of factors of the first ramp that has
    factors, or 1.
@@ -59,9 +68,7 @@ static PetscErrorCode SceneReadLoad(SceneKeys keys, Scene scene, PetscInt nramps
         scene->nsteps, SCENE_MAX_STEPS));
       scene->nsteps = SCENE_MAX_STEPS;
     }
-    /* Sets a linear increase from 0 to 1. */
-    PetscCall(PetscMalloc1(PetscMax(0, scene->nsteps), &ramp->factor));
-    for (PetscInt i = 0; i < scene->nsteps; ++i) ramp->factor[i] = (PetscReal)(i + 1) / (PetscReal)scene->nsteps;
+    PetscCall(SceneSetUniformLoad(ramp, scene->nsteps));
     PetscCall(SceneReadProgram(keys, "load", scene, ramp, &program));
   }
   if (scene->nsteps < 1)

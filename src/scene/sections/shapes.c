@@ -84,6 +84,20 @@ static PetscErrorCode SceneReadShapeName(SceneKeys keys, const char owner[], Sce
   PetscFunctionReturn(0);
 }
 
+/* Reads the file of a rigid surface, and sets its point and the size of its cube from the facets */
+static PetscErrorCode SceneReadStl(SceneKeys keys, const char owner[], SceneBody *body)
+{
+  const PetscReal scale = body->gmsh.scale != 0 ? body->gmsh.scale : 1.0;
+
+  PetscFunctionBegin;
+  if (scale <= 0 || PetscIsInfOrNanReal(scale))
+    PetscCall(SceneKeysError(keys, owner, "scale", "is %g, which must be above 0", (double)scale));
+  else
+    PetscCall(SceneStlCreate(keys->comm, ScenePlace(body), body->gmsh.file, scale, &body->stl,
+      &body->own[SURFACE_POINT], &body->own[SURFACE_SIZE]));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode SceneReadShape(SceneKeys keys, const char owner[], SceneBody *body)
 {
   char            key[SCENE_KEY_LENGTH];
@@ -91,7 +105,6 @@ PetscErrorCode SceneReadShape(SceneKeys keys, const char owner[], SceneBody *bod
   SceneOctant    *octant     = &body->octant;
   SceneSphere    *spheres[]  = {&octant->inner, &octant->outer, &octant->cap};
   const ShapeKey *shape_keys = NULL;
-  PetscReal       scale;
 
   PetscFunctionBegin;
   PetscCall(SceneReadShapeName(keys, owner, body));
@@ -109,15 +122,7 @@ PetscErrorCode SceneReadShape(SceneKeys keys, const char owner[], SceneBody *bod
     }
   }
   if (body->gmsh.file) PetscCall(SceneResolveFile(keys->file, &body->gmsh.file));
-  /* Reads the file of a rigid surface, and sets its point and the size of its cube from the facets */
-  if (body->shape == SHAPE_RIGID_STL && body->gmsh.file) {
-    scale = body->gmsh.scale != 0 ? body->gmsh.scale : 1.0;
-    if (scale <= 0 || PetscIsInfOrNanReal(scale))
-      PetscCall(SceneKeysError(keys, owner, "scale", "is %g, which must be above 0", (double)scale));
-    else
-      PetscCall(SceneStlCreate(keys->comm, ScenePlace(body), body->gmsh.file, scale, &body->stl,
-        &body->own[SURFACE_POINT], &body->own[SURFACE_SIZE]));
-  }
+  if (body->shape == SHAPE_RIGID_STL && body->gmsh.file) PetscCall(SceneReadStl(keys, owner, body));
   if (body->shape != SHAPE_BOX) {
     PetscCall(PetscSNPrintf(key, sizeof(key), "%s_curved", owner));
     PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));

@@ -46,17 +46,31 @@ static PetscErrorCode ResponseMult(Mat shell, Vec x, Vec y)
   PetscFunctionReturn(0);
 }
 
+/* Computes D = 1/diag(K); 1 where the diagonal of K is not positive, and 0 in prescribed rows. */
+static PetscErrorCode ResponseDiagonal(StepProblem *p, Vec D)
+{
+  PetscScalar *d;
+  PetscInt     n;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetDiagonal(p->K, D));
+  PetscCall(VecGetLocalSize(D, &n));
+  PetscCall(VecGetArray(D, &d));
+  for (PetscInt i = 0; i < n; ++i) d[i] = PetscRealPart(d[i]) > 0.0 ? 1.0 / d[i] : 1.0;
+  PetscCall(VecRestoreArray(D, &d));
+  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, D));
+  PetscFunctionReturn(0);
+}
+
 /*
    Replaces g by g' (see the top of this file) in p->g, in the rows whose vertices were under pressure in the last
    solution. Does nothing if no pair has smooth surfaces, or if the system for w is not solved.
 */
 PetscErrorCode ContactUpdateAnticipate(StepProblem *p, ContactLinearization lin)
 {
-  GapResponse  r = {.J = lin->J, .B = lin->derivative};
-  Vec          g, w;
-  PetscBool    found = PETSC_FALSE;
-  PetscScalar *d;
-  PetscInt     n;
+  GapResponse r = {.J = lin->J, .B = lin->derivative};
+  Vec         g, w;
+  PetscBool   found = PETSC_FALSE;
 
   PetscFunctionBegin;
   if (!lin->derivative) PetscFunctionReturn(0);
@@ -68,13 +82,7 @@ PetscErrorCode ContactUpdateAnticipate(StepProblem *p, ContactLinearization lin)
   PetscCall(VecDuplicate(p->base, &r.force));
   PetscCall(VecDuplicate(p->base, &r.du));
   PetscCall(ContactHistoryFindClosed(p->sim->history, lin, r.closed));
-  /* Computes D = 1/diag(K); 1 where the diagonal of K is not positive, and 0 in prescribed rows. */
-  PetscCall(MatGetDiagonal(p->K, r.D));
-  PetscCall(VecGetLocalSize(r.D, &n));
-  PetscCall(VecGetArray(r.D, &d));
-  for (PetscInt i = 0; i < n; ++i) d[i] = PetscRealPart(d[i]) > 0.0 ? 1.0 / d[i] : 1.0;
-  PetscCall(VecRestoreArray(r.D, &d));
-  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, r.D));
+  PetscCall(ResponseDiagonal(p, r.D));
   PetscCall(VecPointwiseMult(g, r.closed, lin->g));
   PetscCall(MatrixFreeSolve(g, w, &r, ResponseMult, ANTICIPATE_TOLERANCE, ANTICIPATE_ITERATIONS, &found));
   if (found) {

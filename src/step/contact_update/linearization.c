@@ -95,6 +95,21 @@ PetscErrorCode ContactUpdateBegin(StepProblem *p, PetscBool foreseen, Vec u, con
   PetscFunctionReturn(0);
 }
 
+/* Warns that contact updates are damped, but only once in a run. */
+static PetscErrorCode ContactUpdateWarnDamped(Simulation sim, const StepReport *report)
+{
+  PetscInt before = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < sim->report.nsteps; ++s) before += sim->report.steps[s].gap_damped;
+  if (!before)
+    PetscCall(ReportWarn(sim->comm, &sim->report, NULL,
+      "load step %" PetscInt_FMT ": contact iterations do not converge; they are damped from now on. Use smaller load "
+      "steps, or swap mortar and nonmortar",
+      report->step));
+  PetscFunctionReturn(0);
+}
+
 /*
    Moves u_linearized to the point at which the gap is linearized next, and linearizes the gap there. at_u: the
    linearization at the solution u on entry, the new linearization on exit.
@@ -106,7 +121,6 @@ PetscErrorCode ContactUpdateNext(StepProblem *p, Anderson *secants, const Contac
   PetscBool  damped, at_solution, found = PETSC_FALSE;
   PetscReal  proximal;
   Vec        next;
-  PetscInt   before;
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &next));
@@ -120,17 +134,7 @@ PetscErrorCode ContactUpdateNext(StepProblem *p, Anderson *secants, const Contac
       ReportReason(report, PETSC_FALSE, "bodies that weak springs hold do not come to rest in contact updates"));
     PetscFunctionReturn(0);
   }
-  /* Warns that contact updates are damped, but only once in a run. */
-  if (damped) {
-    before = 0;
-    for (PetscInt s = 0; s < sim->report.nsteps; ++s) before += sim->report.steps[s].gap_damped;
-    if (!before)
-      PetscCall(ReportWarn(sim->comm, &sim->report, NULL,
-        "load step %" PetscInt_FMT
-        ": contact iterations do not converge; they are damped from now on. Use smaller load "
-        "steps, or swap mortar and nonmortar",
-        report->step));
-  }
+  if (damped) PetscCall(ContactUpdateWarnDamped(sim, report));
   if (damped) PetscCall(FrictionReleaseOpen(p));
   report->gap_damped += damped;
   p->by_newton = (PetscBool)(found && !damped);

@@ -161,6 +161,19 @@ static PetscErrorCode PenaltyCreate(StepProblem *p, Penalty *penalty)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode PenaltyDestroy(Penalty *penalty)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&penalty->c));
+  PetscCall(VecDestroy(&penalty->stiffness));
+  PetscCall(VecDestroy(&penalty->force));
+  PetscCall(MatDestroy(&penalty->K));
+  PetscCall(MatDestroy(&penalty->DJ));
+  PetscCall(MatDestroy(&penalty->JtDJ));
+  PetscCall(MatDestroy(&penalty->A));
+  PetscFunctionReturn(0);
+}
+
 /*
    Creates the solver: Newton's method with full steps and exact linear solves. With it the set of penetrated rows
    settles in a few steps, as in an active set method. With a line search or inexact solves the scene two_block on mesh
@@ -252,12 +265,6 @@ PetscErrorCode PenaltySolve(StepProblem *p, PetscBool resume, Vec u, StepReport 
   PetscCall(PenaltyReport(&penalty, snes, u, report));
   if (report->converged) PetscCall(PenaltyKeepContact(&penalty, sol));
   PetscCall(SNESDestroy(&snes));
-  PetscCall(VecDestroy(&penalty.c));
-  PetscCall(VecDestroy(&penalty.stiffness));
-  PetscCall(VecDestroy(&penalty.force));
-  PetscCall(MatDestroy(&penalty.K));
-  PetscCall(MatDestroy(&penalty.DJ));
-  PetscCall(MatDestroy(&penalty.JtDJ));
-  PetscCall(MatDestroy(&penalty.A));
+  PetscCall(PenaltyDestroy(&penalty));
   PetscFunctionReturn(0);
 }
