@@ -44,7 +44,7 @@ static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal take
     PetscMax(rounding, PetscMax(PetscAbsReal(work), PetscMax(PetscAbsReal(stored), PetscAbsReal(taken))));
   path->presses = PETSC_FALSE;
   for (PetscInt p = 0; p < report->npairs; ++p)
-    path->presses = (PetscBool)(path->presses || (report->pairs[p].frictional && report->pairs[p].normal_force > 0.0));
+    path->presses = (PetscBool)(path->presses || (report->pairs[p].frictional && report->pairs[p].size > 0.0));
   path->pressed = (PetscBool)(path->pressed || path->presses);
   report->imbalance =
     path->turnover > 0.0 ? path->unbalanced / PetscMax(path->turnover, at_rest * PetscAbsReal(path->energy)) : 0.0;
