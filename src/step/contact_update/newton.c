@@ -376,7 +376,7 @@ static PetscErrorCode NewtonStep(GapNewton *s, Vec z, Vec x, Vec next, PetscBool
 */
 static PetscBool NewtonIsNear(StepProblem *p, const StepReport *report)
 {
-  const PetscReal progress = 0.7, fast = 0.1;
+  const PetscReal progress = 1.0, fast = 0.5;
 
   if (!(report->update_error > 0.0)) return PETSC_FALSE;
   if (p->sim->control->tolerances.gap_change < PETSC_SQRT_MACHINE_EPSILON) return PETSC_FALSE;
