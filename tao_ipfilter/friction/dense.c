@@ -78,58 +78,72 @@ static PetscErrorCode TermDenseMakeColumns(IPTermSystem *t, PetscInt n, const Pe
 }
 
 /*
-   Assembles row i of the scaled dense matrix N. N has n rows of the system, followed by the directions, and columns of
-   length n + k. place: position of each of the system's rows among the n, or negative.
+   Gets the coefficients of row `row` in the equation: at most three of the motions and three of the forces, times the
+   row's scale. Entries that are not used are zero.
 */
-static PetscErrorCode TermDenseAssembleRow(IPTermSystem *t, const IPReducedSystem *s, PetscInt n, const PetscInt rows[],
-  const PetscInt place[], PetscInt i, PetscReal N[])
+static PetscErrorCode TermDenseGetRow(Mat B, PetscInt row, PetscReal scale, PetscInt columns[3], PetscReal values[3])
 {
-  const PetscInt     ld = n + s->k, row = rows[i];
-  const PetscInt    *columns;
-  const PetscScalar *values;
+  const PetscInt    *at;
+  const PetscScalar *a;
   PetscInt           nc;
 
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < ld; j++) N[i + (size_t)j * (size_t)ld] = 0.0;
-  PetscCall(MatGetRow(t->Bv, row, &nc, &columns, &values));
-  for (PetscInt c = 0; c < nc; c++) {
-    const PetscReal by_v = t->scale[row] * PetscRealPart(values[c]);
-
-    if (by_v == 0.0) continue;
-    for (PetscInt j = 0; j < n; j++)
-      N[i + (size_t)j * (size_t)ld] += by_v * t->scale[rows[j]] * t->C[columns[c] + (size_t)rows[j] * (size_t)t->m];
-    for (PetscInt j = 0; j < s->k; j++)
-      N[i + (size_t)(n + j) * (size_t)ld] -= by_v * s->JZ[columns[c] + (size_t)j * (size_t)t->m];
+  PetscCall(MatGetRow(B, row, &nc, &at, &a));
+  for (PetscInt c = 0; c < 3; c++) {
+    columns[c] = c < nc ? at[c] : row;
+    values[c]  = c < nc ? scale * PetscRealPart(a[c]) : 0.0;
   }
-  PetscCall(MatRestoreRow(t->Bv, row, &nc, &columns, &values));
-  PetscCall(MatGetRow(t->Bf, row, &nc, &columns, &values));
-  for (PetscInt c = 0; c < nc; c++) {
-    if (place[columns[c]] >= 0)
-      N[i + (size_t)place[columns[c]] * (size_t)ld] += t->scale[row] * t->scale[columns[c]] * PetscRealPart(values[c]);
-  }
-  PetscCall(MatRestoreRow(t->Bf, row, &nc, &columns, &values));
+  PetscCall(MatRestoreRow(B, row, &nc, &at, &a));
   PetscFunctionReturn(0);
 }
 
-/* Assembles the scaled dense matrix N of n rows and the directions */
+/*
+   Assembles the scaled dense matrix N of n rows and the directions, column after column, so that memory is read and
+   written in order. by_v: coefficients of the motions at; N has columns of length n + k.
+*/
+static void TermDenseAssembleMotions(const IPTermSystem *t, const IPReducedSystem *s, PetscInt n, const PetscInt rows[],
+  PetscInt at[][3], PetscReal by_v[][3], PetscReal N[])
+{
+  const PetscInt ld = n + s->k;
+
+  for (PetscInt j = 0; j < ld; j++) {
+    const PetscReal *v      = j < n ? t->C + (size_t)rows[j] * (size_t)t->m : s->JZ + (size_t)(j - n) * (size_t)t->m;
+    const PetscReal  scale  = j < n ? t->scale[rows[j]] : -1.0;
+    PetscReal       *column = N + (size_t)j * (size_t)ld;
+
+    for (PetscInt i = 0; i < n; i++)
+      column[i] = scale * (by_v[i][0] * v[at[i][0]] + by_v[i][1] * v[at[i][1]] + by_v[i][2] * v[at[i][2]]);
+    for (PetscInt i = 0; i < s->k; i++)
+      column[n + i] = j < n ? scale * s->JZ[rows[j] + (size_t)i * (size_t)t->m] : s->T[i + (j - n) * s->kmax];
+    if (j >= n) column[j] += t->hold * s->G[j - n];
+  }
+}
+
+/*
+   Assembles the scaled dense matrix N of n rows of the system, followed by the directions
+*/
 static PetscErrorCode TermDenseAssemble(IPTermSystem *t, const IPReducedSystem *s, PetscInt n, const PetscInt rows[],
   PetscReal N[])
 {
   const PetscInt ld = n + s->k;
-  PetscInt      *place;
+  PetscInt      *place, (*at)[3];
+  PetscReal(*by)[3];
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(t->m, &place));
+  PetscCall(PetscMalloc3(t->m, &place, n, &at, n, &by));
   for (PetscInt i = 0; i < t->m; i++) place[i] = -1;
   for (PetscInt i = 0; i < n; i++) place[rows[i]] = i;
-  for (PetscInt i = 0; i < n; i++) PetscCall(TermDenseAssembleRow(t, s, n, rows, place, i, N));
-  for (PetscInt i = 0; i < s->k; i++) {
-    for (PetscInt j = 0; j < ld; j++)
-      N[n + i + (size_t)j * (size_t)ld] =
-        j < n ? t->scale[rows[j]] * s->JZ[rows[j] + (size_t)i * (size_t)t->m] : s->T[i + (j - n) * s->kmax];
-    N[n + i + (size_t)(n + i) * (size_t)ld] += t->hold * s->G[i];
+  for (PetscInt i = 0; i < n; i++) PetscCall(TermDenseGetRow(t->Bv, rows[i], t->scale[rows[i]], at[i], by[i]));
+  TermDenseAssembleMotions(t, s, n, rows, at, by, N);
+  for (PetscInt i = 0; i < n; i++) {
+    PetscCall(TermDenseGetRow(t->Bf, rows[i], t->scale[rows[i]], at[i], by[i]));
+    for (PetscInt c = 0; c < 3; c++) {
+      const PetscInt j = place[at[i][c]];
+
+      if (j >= 0) N[i + (size_t)j * (size_t)ld] += t->scale[at[i][c]] * by[i][c];
+    }
   }
-  PetscCall(PetscFree(place));
+  PetscCall(PetscFree3(place, at, by));
   PetscFunctionReturn(0);
 }
 

@@ -15,7 +15,10 @@ PetscErrorCode IPComplianceDestroy(IPCompliance *c)
   PetscFunctionReturn(0);
 }
 
-/* Computes the Cholesky factorization of K_WW. *definite: false if K_WW is not positive definite */
+/*
+   Computes the Cholesky factorization of K_WW. *F: factors of a matrix with the same nonzero pattern, or NULL.
+   *definite: false if K_WW is not positive definite
+*/
 static PetscErrorCode ComplianceFactor(Mat K, Mat *F, PetscBool *definite)
 {
   MatFactorError error;
@@ -23,19 +26,28 @@ static PetscErrorCode ComplianceFactor(Mat K, Mat *F, PetscBool *definite)
 
   PetscFunctionBegin;
   PetscCall(MatFactorInfoInitialize(&info));
-  PetscCall(MatGetFactor(K, MATSOLVERAMGF, MAT_FACTOR_CHOLESKY, F));
-  PetscCall(MatCholeskyFactorSymbolic(*F, K, NULL, &info));
+  if (!*F) {
+    PetscCall(MatGetFactor(K, MATSOLVERAMGF, MAT_FACTOR_CHOLESKY, F));
+    PetscCall(MatCholeskyFactorSymbolic(*F, K, NULL, &info));
+  }
   PetscCall(MatCholeskyFactorNumeric(*F, K, &info));
   PetscCall(MatFactorGetError(*F, &error));
   *definite = (PetscBool)(error == MAT_FACTOR_NOERROR);
   PetscFunctionReturn(0);
 }
 
-/* Sets up for a sequential K_WW, without constraint rows. *definite: false if K_WW is not positive definite. */
+/*
+   Sets up for a sequential K_WW, without constraint rows. c->F: NULL, or factors of a matrix with the same nonzero
+   pattern. *definite: false if K_WW is not positive definite.
+*/
 PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, PetscBool *definite)
 {
+  Mat F = c->F;
+
   PetscFunctionBegin;
+  c->F = NULL;
   PetscCall(IPComplianceDestroy(c));
+  c->F = F;
   PetscCall(ComplianceFactor(K, &c->F, definite));
   PetscCall(MatGetSize(K, &c->n, NULL));
   PetscFunctionReturn(0);

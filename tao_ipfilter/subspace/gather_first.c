@@ -27,12 +27,14 @@ static PetscErrorCode GatherRow(Mat A, const Gather *g, PetscInt r, PetscInt col
 {
   const PetscInt    *columns, row = g->place[r];
   const PetscScalar *values;
-  PetscInt           nc, place, n = 0, nmirror = 0;
+  PetscInt           nc, place, next = 0, n = 0, nmirror = 0;
 
   PetscFunctionBegin;
   PetscCall(MatGetRow(A, g->rows[r], &nc, &columns, &values));
   for (PetscInt k = 0; k < nc; k++) {
-    PetscCall(PetscFindInt(columns[k], g->nw, g->w, &place));
+    place = next;
+    if (place >= g->nw || g->w[place] != columns[k]) PetscCall(PetscFindInt(columns[k], g->nw, g->w, &place));
+    if (place >= 0) next = place + 1; /* where the next column is if it, too, is the next one in W */
     if (place < 0 || (values[k] == 0.0 && !g->symmetric) || (g->half && columns[k] < g->rows[r])) continue;
     if (S) {
       column[n] = place;

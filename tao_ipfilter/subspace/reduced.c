@@ -161,6 +161,25 @@ static PetscErrorCode ReducedAllocate(IPReduced *r, PetscInt kmax)
   PetscFunctionReturn(0);
 }
 
+/* Finds whether two sequential AIJ matrices, which may be NULL, have the same nonzero pattern */
+static PetscErrorCode ReducedHaveSamePattern(Mat A, Mat B, PetscBool *same)
+{
+  const PetscInt *ia, *ja, *ib, *jb;
+  PetscInt        n, m;
+  PetscBool       done;
+
+  PetscFunctionBegin;
+  *same = PETSC_FALSE;
+  if (!A || !B) PetscFunctionReturn(0);
+  PetscCall(MatGetRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &n, &ia, &ja, &done));
+  PetscCall(MatGetRowIJ(B, 0, PETSC_FALSE, PETSC_FALSE, &m, &ib, &jb, &done));
+  if (n == m) PetscCall(PetscArraycmp(ia, ib, n + 1, same));
+  if (*same) PetscCall(PetscArraycmp(ja, jb, ia[n], same));
+  PetscCall(MatRestoreRowIJ(B, 0, PETSC_FALSE, PETSC_FALSE, &m, &ib, &jb, &done));
+  PetscCall(MatRestoreRowIJ(A, 0, PETSC_FALSE, PETSC_FALSE, &n, &ia, &ja, &done));
+  PetscFunctionReturn(0);
+}
+
 /* Sets up the space for a new K or W: gathers and factors K_WW */
 static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IPBasis *basis, PetscBool *definite)
 {
@@ -168,8 +187,12 @@ static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IP
   IS              all, mine, places;
   const PetscInt *w;
   PetscInt        nw;
+  PetscBool       same;
+  Mat             former = r->KWW, factors = r->compliance.F;
 
   PetscFunctionBegin;
+  PetscCall(PetscObjectReference((PetscObject)former));
+  PetscCall(PetscObjectReference((PetscObject)factors));
   PetscCall(IPReducedDestroy(r));
   PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)x), &rank));
   r->first = (PetscBool)!rank;
@@ -188,6 +211,10 @@ static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IP
   PetscCall(VecScatterCreate(x, mine, r->on_W, places, &r->to_W));
   PetscCall(ISDestroy(&places));
   PetscCall(ISDestroy(&mine));
+  PetscCall(ReducedHaveSamePattern(former, r->KWW, &same));
+  if (same) r->compliance.F = factors;
+  else PetscCall(MatDestroy(&factors));
+  PetscCall(MatDestroy(&former));
   PetscCall(ReducedFactor(r, definite));
   PetscCall(IPReducedAgree(r, ReducedAllocate(r, r->companions.n + basis->max)));
   r->K_id = ((PetscObject)K)->id;
