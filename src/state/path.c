@@ -53,6 +53,34 @@ PetscErrorCode PathContinue(Simulation sim, PetscReal time, Vec u)
 }
 
 /*
+   Finds whether the state at `time` continues the path: prescribed displacements are those of the extrapolated path, up
+   to a fraction of the increment
+*/
+PetscErrorCode PathIsSmooth(Simulation sim, PetscReal time, PetscBool *smooth)
+{
+  const PetscReal fraction = 0.3;
+  PetscReal       ratio    = 0.0, increment, off;
+  Vec             step, u;
+
+  PetscFunctionBegin;
+  PetscCall(PathRatio(sim, time, &ratio));
+  PetscCall(VecDuplicate(sim->path->u, &step));
+  PetscCall(VecDuplicate(sim->path->u, &u));
+  PetscCall(VecWAXPY(step, -1.0, sim->path->previous_u, sim->path->u));
+  PetscCall(VecScale(step, ratio));
+  PetscCall(VecNorm(step, NORM_INFINITY, &increment));
+  PetscCall(VecAXPY(step, 1.0, sim->path->u));
+  PetscCall(VecCopy(step, u));
+  PetscCall(PrescribedApply(&sim->prescribed, time, u));
+  PetscCall(VecAXPY(u, -1.0, step));
+  PetscCall(VecNorm(u, NORM_INFINITY, &off));
+  *smooth = (PetscBool)(increment > 0.0 && off <= fraction * increment);
+  PetscCall(VecDestroy(&u));
+  PetscCall(VecDestroy(&step));
+  PetscFunctionReturn(0);
+}
+
+/*
    Computes the factor for the stored pressures at the start of a load step. *scale: ratio of the ramp factors at `time`
    and at the last state if there is only one ramp, because pressures are then about proportional to it; otherwise 1.
 */

@@ -50,35 +50,42 @@ static PetscErrorCode ContactUpdateMakeRigid(StepProblem *p, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* Finds whether vertices of any pair stick in the load step */
-static PetscErrorCode ContactUpdateFindSticking(const StepProblem *p, PetscBool *sticks)
+/*
+   Finds whether friction allows to linearize the gap at the extrapolated path: if no vertices stick, which they do where
+   they close, and if the path is smooth. From elsewhere bodies that friction holds might be lost.
+*/
+static PetscErrorCode ContactUpdateMayContinue(const StepProblem *p, PetscBool *may)
 {
+  Simulation sim  = p->sim;
+  PetscBool  rubs = PETSC_FALSE, sticks = PETSC_FALSE;
+
   PetscFunctionBegin;
-  *sticks = PETSC_FALSE;
-  for (PetscInt k = 0; k < p->sim->scene->npairs; ++k) {
+  *may = PETSC_TRUE;
+  for (PetscInt k = 0; k < sim->scene->npairs; ++k) {
     PetscReal mu = 0.0;
 
-    PetscCall(FrictionGetCoefficient(p->sim->scene, p->time, k, &mu));
-    if (mu >= PETSC_INFINITY) *sticks = PETSC_TRUE;
+    PetscCall(FrictionGetCoefficient(sim->scene, p->time, k, &mu));
+    if (mu > 0.0) rubs = PETSC_TRUE;
+    if (mu >= PETSC_INFINITY) sticks = PETSC_TRUE;
   }
+  if (rubs) PetscCall(PathIsSmooth(sim, p->time, may));
+  if (sticks) *may = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
 /*
    Sets sim->solved->linearization, and creates *u_linearized, the displacement of this linearization. It is u if u is a
    forecast; an extrapolation of the path if the gap may be linearized again; otherwise the last state. The last state
-   is always used in the first load step, after a cut, and if vertices stick, which they do where they close.
+   is always used in the first load step and after a cut.
 */
 PetscErrorCode ContactUpdateBegin(StepProblem *p, PetscBool foreseen, Vec u, const StepReport *report,
   Vec *u_linearized)
 {
   Simulation sim       = p->sim;
   PetscBool  continues = (PetscBool)(sim->path->time > 0.0 && sim->scene->contact_updates > 1 && !report->cuts);
-  PetscBool  sticks    = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(ContactUpdateFindSticking(p, &sticks));
-  if (sticks) continues = PETSC_FALSE;
+  if (continues) PetscCall(ContactUpdateMayContinue(p, &continues));
   PetscCall(VecDuplicate(u, u_linearized));
   PetscCall(VecCopy(foreseen ? u : sim->path->u, *u_linearized));
   if (foreseen || continues) {
