@@ -51,8 +51,8 @@ static PetscErrorCode ContactUpdateMakeRigid(StepProblem *p, Vec u)
 }
 
 /*
-   Finds whether friction allows to linearize the gap at the extrapolated path: if no vertices stick, which they do where
-   they close, and if the path is smooth. From elsewhere bodies that friction holds might be lost.
+   Finds whether friction allows to linearize the gap at the extrapolated path: no vertices stick, which they do where
+   they close, and the path is smooth. Otherwise bodies that friction holds might be lost.
 */
 static PetscErrorCode ContactUpdateMayContinue(const StepProblem *p, PetscBool *may)
 {
