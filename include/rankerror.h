@@ -15,4 +15,21 @@ PETSC_EXTERN PetscErrorCode RankErrorBegin(RankError *);
 /* Collective. code: the return value of the work on this rank. Afterwards the RankError is the same on every rank */
 PETSC_EXTERN PetscErrorCode RankErrorEnd(MPI_Comm, PetscErrorCode code, RankError *);
 
+/*
+   Collective. Does `work`, a call that is not collective, on the ranks where `here` is true; an error on any rank is
+   raised on all. The message of RankCallFor() begins with a text.
+*/
+#define RankCallFor(comm, here, work, ...) \
+  do { \
+    RankError      rank_error; \
+    PetscErrorCode rank_code = 0; \
+    PetscCall(RankErrorBegin(&rank_error)); \
+    if (here) rank_code = work; \
+    PetscCall(RankErrorRaise(comm, rank_code, &rank_error, __VA_ARGS__)); \
+  } while (0)
+#define RankCall(comm, here, work) RankCallFor(comm, here, work, "%s", "")
+/* RankErrorEnd(), which then raises the error, with a text before its message */
+PETSC_EXTERN PetscErrorCode RankErrorRaise(MPI_Comm, PetscErrorCode code, RankError *, const char format[], ...)
+  PETSC_ATTRIBUTE_FORMAT(4, 5);
+
 #endif

@@ -82,12 +82,10 @@ static PetscErrorCode ElasticityNumberCells(Elasticity e, DMLabel label, PetscIn
 
 static PetscErrorCode ElasticitySetUpCells(Elasticity e)
 {
-  MPI_Comm       comm = PetscObjectComm((PetscObject)e->dm);
-  RankError      error;
-  PetscErrorCode ierr;
-  PetscSection   section;
-  DMLabel        label;
-  PetscInt       start, end, size;
+  MPI_Comm     comm = PetscObjectComm((PetscObject)e->dm);
+  PetscSection section;
+  DMLabel      label;
+  PetscInt     start, end, size;
 
   PetscFunctionBegin;
   PetscCall(DMGetLabel(e->dm, MESH_BODY_LABEL, &label));
@@ -98,10 +96,7 @@ static PetscErrorCode ElasticitySetUpCells(Elasticity e)
   PetscCall(PetscSectionGetStorageSize(section, &size));
   e->nnodes = size / 3;
   e->ncells = end - start;
-  PetscCall(RankErrorBegin(&error));
-  ierr = ElasticityNumberCells(e, label, start);
-  PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "%s", error.message);
+  RankCall(comm, PETSC_TRUE, ElasticityNumberCells(e, label, start));
   PetscFunctionReturn(0);
 }
 

@@ -1,5 +1,6 @@
 /* Reports the error of one rank on all ranks */
 #include <rankerror.h>
+#include <stdarg.h>
 #include <string.h>
 
 /*
@@ -61,4 +62,18 @@ PetscErrorCode RankErrorEnd(MPI_Comm comm, PetscErrorCode code, RankError *error
   }
   error->code = (PetscErrorCode)shared;
   PetscFunctionReturn(0);
+}
+
+PetscErrorCode RankErrorRaise(MPI_Comm comm, PetscErrorCode code, RankError *error, const char format[], ...)
+{
+  char    text[1024];
+  va_list args;
+
+  PetscFunctionBegin;
+  PetscCall(RankErrorEnd(comm, code, error));
+  if (!error->code) PetscFunctionReturn(0);
+  va_start(args, format);
+  PetscCall(PetscVSNPrintf(text, sizeof(text), format, NULL, args));
+  va_end(args);
+  SETERRQ(comm, error->code, "%s%s", text, error->message);
 }

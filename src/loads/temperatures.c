@@ -31,19 +31,13 @@ static PetscErrorCode TemperaturesFit(Scene scene, Elasticity elasticity, Temper
 
 PetscErrorCode TemperaturesCreate(Scene scene, Elasticity elasticity, MPI_Comm comm, Temperatures *temperatures)
 {
-  RankError      error;
-  PetscErrorCode ierr;
-
   PetscFunctionBegin;
   *temperatures = (Temperatures){.comm = comm, .scene = scene, .elasticity = elasticity};
   if (!scene->ntemperatures) PetscFunctionReturn(0);
   PetscCall(ElasticityGetCellCount(elasticity, &temperatures->n));
   temperatures->n *= 4;
   PetscCall(PetscCalloc2(scene->nramps, &temperatures->fits, temperatures->n + 1, &temperatures->now));
-  PetscCall(RankErrorBegin(&error));
-  ierr = TemperaturesFit(scene, elasticity, temperatures);
-  PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "%s", error.message);
+  RankCall(comm, PETSC_TRUE, TemperaturesFit(scene, elasticity, temperatures));
   PetscFunctionReturn(0);
 }
 

@@ -246,13 +246,8 @@ static PetscErrorCode ForcesCountSharers(Simulation sim, PetscInt rstart, PetscI
 */
 static PetscErrorCode ForcesTakeAll(Simulation sim, Vec u, Vec ties, const char face[], ForceSum *sum)
 {
-  static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
-  ForceField             field;
-
   PetscFunctionBegin;
-  PetscCall(ForceFieldGet(sim, u, ties, &field));
-  PetscCall(ForceSumAddFace(sim, &field, face, all, NULL, sum));
-  PetscCall(ForceFieldRestore(sim, u, ties, &field));
+  PetscCall(ForcesAddFace(sim, face, u, ties, sum));
   for (PetscInt c = 0; c < 3; ++c) {
     IS              is;
     const PetscInt *rows;

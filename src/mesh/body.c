@@ -36,20 +36,15 @@ PetscErrorCode MeshCheckBody(MPI_Comm comm, const SceneBody *body)
    insufficient. */
 static PetscErrorCode MeshCreateGrid(MPI_Comm comm, const SceneBody *body, const Shape *shape, MeshBody *mesh)
 {
-  RankError      error;
-  PetscErrorCode ierr = 0;
-  PetscMPIInt    rank;
+  PetscMPIInt rank;
 
   PetscFunctionBegin;
   PetscCall(shape->size(comm, body, &mesh->ncells, &mesh->nvertices));
   mesh->ncorners = 8;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCall(RankErrorBegin(&error));
-  if (rank == 0) ierr = shape->create(body, &mesh->grid);
-  PetscCall(RankErrorEnd(comm, ierr, &error));
-  SceneCheck(!error.code, comm, error.code, body,
-    "Body \"%s\": the first rank cannot create its %" PetscInt64_FMT " level 0 cells: %s", body->name, mesh->ncells,
-    error.message);
+  RankCallFor(comm, rank == 0, shape->create(body, &mesh->grid),
+    "%sBody \"%s\": the first rank cannot create its %" PetscInt64_FMT " level 0 cells: ", ScenePlace(body), body->name,
+    mesh->ncells);
   PetscFunctionReturn(0);
 }
 

@@ -392,23 +392,14 @@ static PetscErrorCode DistributeExchange(Distribute *dist, MeshOwners *owners)
 
 PetscErrorCode MeshDistributeGrids(MPI_Comm comm, PetscInt nbodies, MeshBody meshes[], MeshOwners *owners)
 {
-  Distribute     dist = {.comm = comm, .nbodies = nbodies, .meshes = meshes};
-  RankError      error;
-  PetscErrorCode ierr = 0;
-  PetscMPIInt    rank;
+  Distribute  dist = {.comm = comm, .nbodies = nbodies, .meshes = meshes};
+  PetscMPIInt rank;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCall(RankErrorBegin(&error));
-  if (!rank) ierr = DistributePrepare(&dist);
-  PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "The first rank cannot partition the mesh of all bodies: %s",
-    error.message);
-  PetscCall(RankErrorBegin(&error));
-  ierr = DistributeExchange(&dist, owners);
-  PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "The mesh of all bodies cannot be distributed to the ranks: %s",
-    error.message);
+  RankCallFor(comm, !rank, DistributePrepare(&dist), "The first rank cannot partition the mesh of all bodies: ");
+  RankCallFor(comm, PETSC_TRUE, DistributeExchange(&dist, owners),
+    "The mesh of all bodies cannot be distributed to the ranks: ");
   PetscCall(PetscFree3(dist.part, dist.count, dist.facetpart));
   PetscCall(PetscFree3(dist.owner, dist.place, dist.here));
   PetscFunctionReturn(0);

@@ -118,10 +118,8 @@ static PetscErrorCode MetisCheckSize(MPI_Comm comm, PetscInt n)
 static PetscErrorCode MetisPartitionDistributed(MPI_Comm comm, PetscInt nparts, PetscInt nv, const PetscInt start[],
   const PetscInt adjacency[], PetscBool weighted, const PetscInt weights[], PetscInt part[])
 {
-  RankError      error;
-  PetscErrorCode ierr = 0;
-  PetscMPIInt    rank, size, *counts, *displs, nvlocal;
-  PetscInt       nvall, neall, *degree, *alldegree, *alladjacency, *allweights = NULL, *allpart = NULL;
+  PetscMPIInt rank, size, *counts, *displs, nvlocal;
+  PetscInt    nvall, neall, *degree, *alldegree, *alladjacency, *allweights = NULL, *allpart = NULL;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
@@ -134,12 +132,9 @@ static PetscErrorCode MetisPartitionDistributed(MPI_Comm comm, PetscInt nparts, 
   if (weighted)
     PetscCall(IntegersGather(comm, "the graph for METIS", nv, weights, counts, displs, &nvall, &allweights));
   PetscCall(IntegersGather(comm, "the graph for METIS", nv, degree, counts, displs, &nvall, &alldegree));
-  PetscCall(RankErrorBegin(&error));
-  if (!rank) ierr = MetisPartitionGathered(nparts, nvall, alldegree, alladjacency, allweights, &allpart);
-  PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code,
-    "The first rank cannot partition a graph of %" PetscInt_FMT " vertices into %" PetscInt_FMT " parts: %s", nvall,
-    nparts, error.message);
+  RankCallFor(comm, !rank, MetisPartitionGathered(nparts, nvall, alldegree, alladjacency, allweights, &allpart),
+    "The first rank cannot partition a graph of %" PetscInt_FMT " vertices into %" PetscInt_FMT " parts: ", nvall,
+    nparts);
   PetscCall(PetscMPIIntCast(nv, &nvlocal));
   PetscCallMPI(MPI_Scatterv(allpart, counts, displs, MPIU_INT, part, nvlocal, MPIU_INT, 0, comm));
   PetscCall(PetscFree(allpart));

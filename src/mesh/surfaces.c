@@ -119,20 +119,15 @@ static PetscErrorCode SurfacesBroadcast(MPI_Comm comm, PetscInt nbodies, SceneBo
 */
 PetscErrorCode MeshSurfacesCreate(MPI_Comm comm, PetscInt nbodies, SceneBody bodies[], MeshSurfaces *surfaces)
 {
-  MeshBody      *meshes;
-  RankError      error;
-  PetscErrorCode ierr = 0;
-  PetscMPIInt    rank;
+  MeshBody   *meshes;
+  PetscMPIInt rank;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(surfaces, sizeof(*surfaces)));
   PetscCall(PetscCalloc1(nbodies, &meshes));
   PetscCall(MeshCreateBodies(comm, nbodies, bodies, meshes));
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCall(RankErrorBegin(&error));
-  if (!rank) ierr = SurfacesAddBodies(nbodies, bodies, meshes, surfaces);
-  PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "%s", error.message);
+  RankCall(comm, !rank, SurfacesAddBodies(nbodies, bodies, meshes, surfaces));
   PetscCall(SurfacesBroadcast(comm, nbodies, bodies, surfaces));
   PetscCall(MeshDestroyBodies(nbodies, meshes));
   PetscCall(PetscFree(meshes));

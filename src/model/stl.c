@@ -261,20 +261,15 @@ static void StlMeasure(const struct _n_SceneStl *s, PetscReal centre[3], PetscRe
 PetscErrorCode SceneStlCreate(MPI_Comm comm, const char place[], const char file[], PetscReal scale, SceneStl *stl,
   PetscReal centre[3], PetscReal *edge)
 {
-  RankError      error;
-  PetscErrorCode ierr = 0;
-  PetscMPIInt    rank, count;
-  SceneStl       s;
-  StlSorted     *work;
+  PetscMPIInt rank, count;
+  SceneStl    s;
+  StlSorted  *work;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&s));
   *stl = s;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCall(RankErrorBegin(&error));
-  if (!rank) ierr = StlLoad(file, scale, s);
-  PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "%s%s", place, error.message);
+  RankCallFor(comm, !rank, StlLoad(file, scale, s), "%s", place);
   PetscCallMPI(MPI_Bcast(&s->n, 1, MPIU_INT, 0, comm));
   PetscCallMPI(MPI_Bcast(&s->size, 1, MPIU_REAL, 0, comm));
   PetscCall(PetscMPIIntCast(9 * s->n, &count));

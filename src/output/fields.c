@@ -264,9 +264,7 @@ static PetscErrorCode FieldsWriteFriction(FieldsContact *fields, PetscViewer vie
 static PetscErrorCode FieldsWritePair(Output output, const StepState *state, PetscInt pair, const char suffix[],
   PetscViewer viewer)
 {
-  FieldsContact  fields = {.shear = NULL};
-  RankError      error;
-  PetscErrorCode ierr;
+  FieldsContact fields = {.shear = NULL};
 
   PetscFunctionBegin;
   PetscCall(FieldsCreateContact(output, "contact_pressure", suffix, 1, 0.0, &fields.pressure, &fields.p));
@@ -275,10 +273,7 @@ static PetscErrorCode FieldsWritePair(Output output, const StepState *state, Pet
   PetscCall(FieldsCreateContact(output, "contact_status", suffix, 1, NAN, &fields.status, &fields.s));
   PetscCall(FieldsCreateContact(output, "contact_force", suffix, 3, 0.0, &fields.force, &fields.f));
   if (output->friction) PetscCall(FieldsCreateFriction(output, suffix, &fields));
-  PetscCall(RankErrorBegin(&error));
-  ierr = FieldsFillPair(output, state, pair, &fields);
-  PetscCall(RankErrorEnd(output->comm, ierr, &error));
-  PetscCheck(!error.code, output->comm, error.code, "%s", error.message);
+  RankCall(output->comm, PETSC_TRUE, FieldsFillPair(output, state, pair, &fields));
   PetscCall(VecRestoreArray(fields.pressure, &fields.p));
   PetscCall(VecRestoreArray(fields.gap, &fields.g));
   PetscCall(VecRestoreArray(fields.area, &fields.a));

@@ -134,7 +134,7 @@ PetscErrorCode SceneLoad(MPI_Comm comm, const char file[], Scene *scene)
   s->contact_updates = SCENE_CONTACT_UPDATES;
   PetscCall(SceneReadDynamics(keys, s, SceneFindList("dynamics")));
   PetscCall(SceneReadRamps(keys, s));
-  PetscCall(SceneReadRows(keys, s, "", SceneLists[0].rows, NULL, PETSC_FALSE, s));
+  PetscCall(SceneReadRows(keys, s, "", SceneLists[0].rows, NULL, s));
   if (!s->name) PetscCall(SceneDefaultName(keys->file, &s->name));
   PetscCall(PetscStrallocpy(keys->file, &s->file));
   PetscCall(SceneReadMaterials(keys, s, SceneFindList("materials")));

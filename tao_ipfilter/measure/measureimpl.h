@@ -12,7 +12,7 @@ PETSC_INTERN PetscErrorCode IPCompliances(Tao, Mat, Vec);
 PETSC_INTERN PetscErrorCode IPComputeStiffness(Tao);
 PETSC_INTERN PetscErrorCode IPStiffnessUpdate(Tao);
 PETSC_INTERN PetscErrorCode IPStiffnessTerms(Tao, PetscReal *);
-PETSC_INTERN PetscErrorCode IPStiffnessEnergies(Tao, PetscReal *largest, PetscReal *mean);
+PETSC_INTERN PetscErrorCode IPStiffnessMeanEnergy(Tao, PetscReal *mean);
 
 /* own.c */
 PETSC_INTERN PetscErrorCode IPOwnTerms(Mat, Vec x, Vec sums, Vec largest);

@@ -20,8 +20,8 @@ PetscErrorCode IPStiffnessTerms(Tao tao, PetscReal *size)
   PetscFunctionReturn(0);
 }
 
-/* Computes the largest energy |H_jj| x_j^2 of an unknown, and the mean energy. Either output may be NULL. */
-PetscErrorCode IPStiffnessEnergies(Tao tao, PetscReal *largest, PetscReal *mean)
+/* Computes the mean energy |H_jj| x_j^2 of an unknown */
+PetscErrorCode IPStiffnessMeanEnergy(Tao tao, PetscReal *mean)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   Vec           energies;
@@ -32,10 +32,9 @@ PetscErrorCode IPStiffnessEnergies(Tao tao, PetscReal *largest, PetscReal *mean)
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &energies));
   PetscCall(VecPointwiseMult(energies, ip->stiff->hdiag, tao->solution));
   PetscCall(VecPointwiseMult(energies, energies, tao->solution));
-  if (largest) PetscCall(VecNorm(energies, NORM_INFINITY, largest));
   PetscCall(VecSum(energies, &sum));
   PetscCall(VecGetSize(energies, &n));
-  if (mean) *mean = PetscRealPart(sum) / n;
+  *mean = PetscRealPart(sum) / n;
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &energies));
   PetscFunctionReturn(0);
 }

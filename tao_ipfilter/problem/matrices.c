@@ -170,19 +170,6 @@ static PetscErrorCode CheckJacobian(Tao tao, Mat J, const char kind[])
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CheckVector(Tao tao, Vec v, const char what[])
-{
-  PetscBool nest;
-
-  PetscFunctionBegin;
-  PetscCall(PetscObjectTypeCompare((PetscObject)v, VECNEST, &nest));
-  PetscCheck(!nest, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP,
-    "TAOIPFILTER does not accept a %s of type nest, as MatCreateVecs() makes it for a MATNEST: use a plain vector of "
-    "the same layout",
-    what);
-  PetscFunctionReturn(0);
-}
-
 /*
    Rejects matrices that cannot be used, and sets hess->products, whether only products with the Hessian are used.
    *changed: this differs from the last solve.
@@ -194,10 +181,15 @@ PetscErrorCode IPMatricesCheck(Tao tao, PetscBool *changed)
   PetscBool     has, needed;
   const char   *reader, *instead;
   MatType       type;
+  PetscBool     nest;
   PetscInt      n;
 
   PetscFunctionBegin;
-  PetscCall(CheckVector(tao, tao->solution, "solution"));
+  PetscCall(PetscObjectTypeCompare((PetscObject)tao->solution, VECNEST, &nest));
+  PetscCheck(!nest, comm, PETSC_ERR_SUP,
+    "TAOIPFILTER does not accept a solution of type nest, as MatCreateVecs() makes it for a MATNEST: use a plain "
+    "vector "
+    "of the same layout");
   if (ip->mi) PetscCall(CheckJacobian(tao, tao->jacobian_inequality, "inequality"));
   if (ip->me > ip->sides->nall) PetscCall(CheckJacobian(tao, tao->jacobian_equality, "equality"));
   PetscCall(MatrixHasEntries(tao->hessian, &has));

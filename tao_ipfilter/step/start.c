@@ -336,7 +336,7 @@ static PetscErrorCode StartBounds(Tao tao)
   else if (!ip->mi && ip->opt->scaling == IP_SCALING_PROBLEM && ip->opt->start != IP_START_COLD) {
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
     if (ip->stiff->flat) PetscCall(BoundsErrorBound(tao, &mean));
-    else PetscCall(IPStiffnessEnergies(tao, NULL, &mean));
+    else PetscCall(IPStiffnessMeanEnergy(tao, &mean));
     ip->mu = IP_PREDICT_MU * (mean > 0.0 ? mean : ip->stiff->hscale * (x > 0.0 ? x * x : 1.0));
   }
   PetscCall(IPBoundsCenter(tao));

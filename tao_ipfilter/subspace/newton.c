@@ -161,7 +161,7 @@ static PetscErrorCode NewtonRounding(Tao tao, PetscReal *rounding)
   PetscInt  n;
 
   PetscFunctionBegin;
-  PetscCall(IPStiffnessEnergies(tao, NULL, &mean));
+  PetscCall(IPStiffnessMeanEnergy(tao, &mean));
   PetscCall(VecGetSize(tao->solution, &n));
   *rounding = 10.0 * PETSC_MACHINE_EPSILON * PetscMax(n * mean, PetscAbsReal(((TAO_IPFILTER *)tao->data)->at.f));
   PetscFunctionReturn(0);

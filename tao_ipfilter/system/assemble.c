@@ -185,8 +185,11 @@ static PetscErrorCode HessianUnfolds(Tao tao, Mat H, PetscBool *unfolds)
   PetscFunctionReturn(0);
 }
 
-/* Sets (INSERT_VALUES) or adds (ADD_VALUES) one row of H to A */
-static PetscErrorCode SetRow(Mat A, Mat H, PetscInt row, InsertMode mode)
+/*
+   Sets (INSERT_VALUES) or adds (ADD_VALUES) one row of H to A. mirrored: H is an upper triangle; the row is inserted as
+   a column too. Entries left of the diagonal are inserted by the row that holds them, if that row is written too.
+*/
+static PetscErrorCode SetRow(Mat A, Mat H, PetscInt row, PetscBool mirrored, InsertMode mode)
 {
   const PetscInt    *c;
   const PetscScalar *v;
@@ -195,24 +198,7 @@ static PetscErrorCode SetRow(Mat A, Mat H, PetscInt row, InsertMode mode)
   PetscFunctionBegin;
   PetscCall(MatGetRow(H, row, &nc, &c, &v));
   PetscCall(MatSetValues(A, 1, &row, nc, c, v, mode));
-  PetscCall(MatRestoreRow(H, row, &nc, &c, &v));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Inserts one row of an upper triangle, and its mirror image as a column. Entries left of the diagonal are inserted by
-   the row that holds them in the upper triangle, if that row is written too.
-*/
-static PetscErrorCode SetRowMirrored(Mat A, Mat H, PetscInt row)
-{
-  const PetscInt    *c;
-  const PetscScalar *v;
-  PetscInt           nc;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetRow(H, row, &nc, &c, &v));
-  PetscCall(MatSetValues(A, 1, &row, nc, c, v, INSERT_VALUES));
-  PetscCall(MatSetValues(A, nc, c, 1, &row, v, INSERT_VALUES));
+  if (mirrored) PetscCall(MatSetValues(A, nc, c, 1, &row, v, mode));
   PetscCall(MatRestoreRow(H, row, &nc, &c, &v));
   PetscFunctionReturn(0);
 }
@@ -267,7 +253,7 @@ static PetscErrorCode CondensedCopyHessian(Mat A, Mat H)
     PetscFunctionReturn(0);
   }
   if (sbaij) PetscCall(MatGetRowUpperTriangular(H));
-  for (PetscInt i = rstart; i < rend; i++) PetscCall(SetRow(A, H, i, INSERT_VALUES));
+  for (PetscInt i = rstart; i < rend; i++) PetscCall(SetRow(A, H, i, PETSC_FALSE, INSERT_VALUES));
   if (sbaij) PetscCall(MatRestoreRowUpperTriangular(H));
   PetscFunctionReturn(0);
 }
@@ -280,10 +266,7 @@ static PetscErrorCode CondensedRestoreTouched(IPCondensed *cond, Mat H, PetscBoo
   PetscFunctionBegin;
   PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)H, &sbaij, MATSEQSBAIJ, MATMPISBAIJ, ""));
   if (sbaij) PetscCall(MatGetRowUpperTriangular(H));
-  for (PetscInt r = 0; r < cond->ntouched; r++) {
-    if (unfolds) PetscCall(SetRowMirrored(cond->A, H, cond->touched[r]));
-    else PetscCall(SetRow(cond->A, H, cond->touched[r], INSERT_VALUES));
-  }
+  for (PetscInt r = 0; r < cond->ntouched; r++) PetscCall(SetRow(cond->A, H, cond->touched[r], unfolds, INSERT_VALUES));
   if (sbaij) PetscCall(MatRestoreRowUpperTriangular(H));
   PetscFunctionReturn(0);
 }
@@ -324,6 +307,7 @@ PetscErrorCode IPCondensedAddProduct(IPCondensed *cond)
   PetscFunctionBegin;
   PetscCall(MatAssemblyBegin(cond->A, MAT_FLUSH_ASSEMBLY));
   PetscCall(MatAssemblyEnd(cond->A, MAT_FLUSH_ASSEMBLY));
-  for (PetscInt r = 0; r < cond->ntouched; r++) PetscCall(SetRow(cond->A, cond->JtDJ, cond->touched[r], ADD_VALUES));
+  for (PetscInt r = 0; r < cond->ntouched; r++)
+    PetscCall(SetRow(cond->A, cond->JtDJ, cond->touched[r], PETSC_FALSE, ADD_VALUES));
   PetscFunctionReturn(0);
 }

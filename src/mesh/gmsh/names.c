@@ -67,20 +67,16 @@ static PetscErrorCode GmshReadPhysicalNames(const SceneBody *body, PetscInt dim,
 /* Collective. Gets the entries of one dimension on all ranks */
 static PetscErrorCode GmshGetPhysicalEntries(MPI_Comm comm, const SceneBody *body, PetscInt dim, char **entries)
 {
-  RankError      error;
-  PetscErrorCode ierr = 0;
-  PetscMPIInt    rank;
-  PetscInt64     length;
-  size_t         size = 1; /* with the zero byte */
+  PetscMPIInt rank;
+  PetscInt64  length;
+  size_t      size = 1; /* with the zero byte */
 
   PetscFunctionBegin;
   *entries = NULL;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   SceneCheck(body->gmsh.file, comm, PETSC_ERR_ARG_NULL, body, "Body \"%s\" names no mesh file", body->name);
-  PetscCall(RankErrorBegin(&error));
-  if (rank == 0) ierr = GmshReadPhysicalNames(body, dim, &size, entries);
-  PetscCall(RankErrorEnd(comm, ierr, &error));
-  SceneCheck(!error.code, comm, error.code, body, "Body \"%s\": %s", body->name, error.message);
+  RankCallFor(comm, rank == 0, GmshReadPhysicalNames(body, dim, &size, entries), "%sBody \"%s\": ", ScenePlace(body),
+    body->name);
   length = (PetscInt64)size - 1;
   PetscCall(FileBroadcastText(comm, &length, entries));
   PetscFunctionReturn(0);

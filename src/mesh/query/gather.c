@@ -38,10 +38,8 @@ PetscErrorCode RecordsGather(MPI_Comm comm, PetscInt reals, PetscInt *n, void *r
 PetscErrorCode IntegersGather(MPI_Comm comm, const char what[], PetscInt n, const PetscInt local[],
   PetscMPIInt counts[], PetscMPIInt displs[], PetscInt *total, PetscInt **all)
 {
-  RankError      error;
-  PetscErrorCode ierr = 0;
-  PetscMPIInt    rank, size, count;
-  PetscInt       sum = n;
+  PetscMPIInt rank, size, count;
+  PetscInt    sum = n;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
@@ -53,11 +51,8 @@ PetscErrorCode IntegersGather(MPI_Comm comm, const char what[], PetscInt n, cons
   for (PetscMPIInt r = 1; !rank && r < size; ++r) displs[r] = displs[r - 1] + counts[r - 1];
   *total = sum;
   *all   = NULL;
-  PetscCall(RankErrorBegin(&error));
-  if (!rank) ierr = PetscMalloc1(*total, all);
-  PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "The first rank cannot gather %" PetscInt_FMT " entries of %s: %s", sum,
-    what, error.message);
+  RankCallFor(comm, !rank, PetscMalloc1(*total, all),
+    "The first rank cannot gather %" PetscInt_FMT " entries of %s: ", sum, what);
   PetscCallMPI(MPI_Gatherv(local, count, MPIU_INT, *all, counts, displs, MPIU_INT, 0, comm));
   PetscFunctionReturn(0);
 }

@@ -195,7 +195,7 @@ typedef struct _n_SceneList {
 
 /* rows.c: reads, prints and frees entries with the rows of the table */
 PETSC_INTERN PetscErrorCode SceneReadRows(SceneKeys, Scene, const char owner[], const SceneKey rows[],
-  const char kind[], PetscBool listed, void *entry);
+  const char kind[], void *entry);
 PETSC_INTERN PetscErrorCode SceneHasKey(SceneKeys, const char owner[], const char name[], PetscBool *has);
 PETSC_INTERN PetscErrorCode SceneHasOneOf(SceneKeys, const char owner[], const char kind[], const char first[],
   const char second[], PetscBool *has_second);

@@ -32,16 +32,11 @@ static PetscErrorCode SceneKeysReadText(const char file[], PetscInt64 *length, c
 /* Gets the text of the file on all ranks. *text: freed by the caller. */
 static PetscErrorCode SceneKeysGetText(MPI_Comm comm, const char file[], PetscInt64 *length, char **text)
 {
-  RankError      error;
-  PetscErrorCode ierr = 0;
-  PetscMPIInt    rank;
+  PetscMPIInt rank;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCall(RankErrorBegin(&error));
-  if (rank == 0) ierr = SceneKeysReadText(file, length, text);
-  PetscCall(RankErrorEnd(comm, ierr, &error));
-  PetscCheck(!error.code, comm, error.code, "%s", error.message);
+  RankCall(comm, rank == 0, SceneKeysReadText(file, length, text));
   PetscCall(FileBroadcastText(comm, length, text));
   PetscFunctionReturn(0);
 }

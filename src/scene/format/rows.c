@@ -70,15 +70,15 @@ static PetscErrorCode RowRead(SceneKeys keys, Scene scene, const SceneKey *row, 
 
 /*
    Reads the rows that apply to `kind`; NULL: the rows that apply to all kinds. owner: prefix of the entry,
-   "<list>_<name>", or "" at the top level. listed: true if required keys may be missing. A required text that is
-   missing becomes an empty text, so that it is never NULL.
+   "<list>_<name>", or "" at the top level. A required text that is missing becomes an empty text, so that it is never
+   NULL.
 */
 PetscErrorCode SceneReadRows(SceneKeys keys, Scene scene, const char owner[], const SceneKey rows[], const char kind[],
-  PetscBool listed, void *entry)
+  void *entry)
 {
   PetscFunctionBegin;
   for (const SceneKey *row = rows; row->name; ++row) {
-    const PetscBool required = (PetscBool)(row->need == SCENE_REQUIRED && !listed);
+    const PetscBool required = (PetscBool)(row->need == SCENE_REQUIRED);
     char            key[SCENE_KEY_LENGTH];
     const char     *text;
 
@@ -139,7 +139,7 @@ PetscErrorCode SceneReadList(SceneKeys keys, Scene scene, const SceneList *list,
     PetscCall(PetscSNPrintf(owner, sizeof(owner), "%s_%s", list->name, names[i]));
     ((SceneEntry *)entry)->name  = names[i];
     ((SceneEntry *)entry)->place = SceneGetPlace(&keys->places, owner);
-    PetscCall(SceneReadRows(keys, scene, owner, list->rows, NULL, PETSC_FALSE, entry));
+    PetscCall(SceneReadRows(keys, scene, owner, list->rows, NULL, entry));
     keys->list = list;
     if (list->finish) PetscCall(list->finish(keys, scene, owner, entry));
   }

@@ -38,7 +38,7 @@ PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], 
   }
   PetscCall(SceneReadConstants(keys, owner, listed, &body->material));
   PetscCall(SceneFinishInertia(keys, scene, owner, body));
-  PetscCall(SceneReadRows(keys, scene, owner, keys->list->rows, "elastic", PETSC_FALSE, body));
+  PetscCall(SceneReadRows(keys, scene, owner, keys->list->rows, "elastic", body));
   PetscCall(SceneHasKey(keys, owner, "order", &listed));
   if (listed && !body->order) PetscCall(SceneKeysError(keys, owner, NULL, "has order = 0, which must be 1 or 2"));
   PetscFunctionReturn(0);

@@ -41,7 +41,7 @@ PetscErrorCode SceneReadDynamics(SceneKeys keys, Scene scene, const SceneList *l
   }
   if (!any) PetscFunctionReturn(0);
   *d = *(const SceneDynamics *)list->initial;
-  PetscCall(SceneReadRows(keys, scene, list->name, list->rows, NULL, PETSC_FALSE, d));
+  PetscCall(SceneReadRows(keys, scene, list->name, list->rows, NULL, d));
   PetscCall(DynamicsCheck(keys, d));
   if (keys->error[0])
     d->time_step = d->end_time = 1.0; /* the values are valid, but nothing is simulated after an
