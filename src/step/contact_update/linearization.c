@@ -52,7 +52,7 @@ static PetscErrorCode ContactUpdateMakeRigid(StepProblem *p, Vec u)
 
 /*
    Finds whether friction allows to linearize the gap at the extrapolated path: no vertices stick, which they do where
-   they close, and the path is smooth. Otherwise bodies that friction holds might be lost.
+   they close, no body rolls, and the path is smooth. Otherwise bodies that friction holds might be lost.
 */
 static PetscErrorCode ContactUpdateMayContinue(const StepProblem *p, PetscBool *may)
 {
@@ -69,7 +69,7 @@ static PetscErrorCode ContactUpdateMayContinue(const StepProblem *p, PetscBool *
     if (mu >= PETSC_INFINITY) sticks = PETSC_TRUE;
   }
   if (rubs) PetscCall(PathIsSmooth(sim, p->time, may));
-  if (sticks) *may = PETSC_FALSE;
+  if (sticks || (rubs && sim->rigid.turns)) *may = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
