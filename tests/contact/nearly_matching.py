@@ -19,6 +19,20 @@ displacements:
 """
 
 
+GASKET = """bodies:
+  - low: {shape: tube_arc, axis: z, radii: [20, 40], angles: [0, 360], extent: [0, 10], cells: [4, 24, 2], young: 2.1e5,
+          poisson: 0.3}
+  - gasket: {shape: tube_arc, axis: z, radii: [20, 35], angles: [0, 360], extent: [10, 12], cells: [3, 24, 1],
+             young: 200, poisson: 0.45}
+  - up: {shape: tube_arc, axis: z, radii: [20, 40], angles: [0, 360], extent: [12, 22], cells: [4, 24, 2],
+         young: 2.1e5, poisson: 0.3}
+displacements: [hold: {face: low.lmin, value: [0, 0, 0]}]
+pressures: [bolts: {face: up.lmax, value: 5}]
+contact: [auto: {friction: 0.2}]
+load: {steps: 1}
+"""
+
+
 def balls(n, shift, z, more=""):
     return BALLS.format(n=n, x=shift, y=0.7 * float(shift), z=z, more=more)
 
@@ -35,6 +49,7 @@ def collision(shift):
 def scenes():
     files = {f"pressed_{n}_{shift}": pressed(n, shift) for n, shift in itertools.product(PRESSED, SHIFTS)}
     files |= {f"collision_{shift}": collision(shift) for shift in SHIFTS[::2]}
+    files["gasket"] = GASKET
     for name, text in files.items():
         with open(name + ".yaml", "w") as file:
             file.write(text)
@@ -66,6 +81,7 @@ def check_runs(title, names, updates):
 def check():
     for n in PRESSED:
         check_runs(f"{n} cells", [f"pressed_{n}_{shift}" for shift in SHIFTS], 6)
+    check_runs("gasket that slides radially", ["gasket"], 6)
     check_runs("collision", [f"collision_{shift}" for shift in SHIFTS[::2]], 6)
 
 

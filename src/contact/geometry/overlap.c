@@ -124,14 +124,16 @@ static void OverlapKeepCorners(PetscInt n, const PetscReal polygon[][2], PetscIn
   }
 }
 
-/* Returns the number of the polygon's vertex that is nearest to y */
-static PetscInt OverlapNearestVertex(PetscInt n, const PetscReal polygon[][2], const PetscReal y[2])
+/* Returns which of the n vertices vertex[] of the polygon is nearest to y */
+static PetscInt OverlapNearestVertex(PetscInt n, const PetscInt vertex[], const PetscReal polygon[][2],
+  const PetscReal y[2])
 {
   PetscReal least   = PETSC_MAX_REAL;
   PetscInt  nearest = 0;
 
   for (PetscInt i = 0; i < n; ++i) {
-    const PetscReal square = PetscSqr(polygon[i][0] - y[0]) + PetscSqr(polygon[i][1] - y[1]);
+    const PetscReal *p      = polygon[vertex[i]];
+    const PetscReal  square = PetscSqr(p[0] - y[0]) + PetscSqr(p[1] - y[1]);
 
     if (square < least) {
       least   = square;
@@ -141,41 +143,80 @@ static PetscInt OverlapNearestVertex(PetscInt n, const PetscReal polygon[][2], c
   return nearest;
 }
 
-/*
-   Adds the quadrature points of the triangles that connect one vertex of the polygon, the apex, with the edges of the
-   polygon. Their weights are multiplied by `sign`. If the mortar facet is extended beyond its border (bound > 1), the
-   apex is the vertex nearest to a nonmortar vertex, because rounding would otherwise decide which vertex comes first.
-   first: number of the polygon's first corner in the overlap; map1, map2: the facets; bound: bound of the parameters on
-   the mortar facet
-*/
-static void OverlapAddPolygon(const ContactRule *rule, PetscReal sign, PetscInt n, const PetscReal polygon[][2],
-  PetscInt first, const ContactBilinear *map1, const ContactBilinear *map2, PetscReal bound, ContactOverlap *o)
+/* What the quadrature points of an overlap are computed from */
+typedef struct {
+  const ContactRule     *rule;
+  const ContactBilinear *map1, *map2; /* the nonmortar and the mortar facet */
+  PetscReal              sign;        /* sign of the nonmortar facet's convex part */
+  PetscReal              bound;       /* bound of the parameters on the mortar facet */
+} OverlapQuadrature;
+
+/* Adds the quadrature points of the triangle of the polygon's vertices v. first: number of the polygon's first corner
+   in the overlap */
+static void OverlapAddTriangle(const OverlapQuadrature *use, const PetscReal polygon[][2], PetscInt first,
+  const PetscInt v[3], ContactOverlap *o)
 {
-  const PetscInt apex = bound > 1.0 ? OverlapNearestVertex(n, polygon, map1->q[0]) : 0;
+  PetscReal tri[3][2], area;
+
+  for (PetscInt i = 0; i < 3; ++i) {
+    for (PetscInt d = 0; d < 2; ++d) tri[i][d] = polygon[v[i]][d];
+  }
+  area = use->sign * ContactPolygonArea(3, (const PetscReal(*)[2])tri);
+  /* Triangles without area are included, because their derivatives need not be zero. */
+  o->area += area;
+  o->triangle[o->ntriangles++] = (ContactTriangle){{first + v[0], first + v[1], first + v[2]}, use->sign};
+  for (PetscInt q = 0; q < use->rule->n; ++q) {
+    PetscReal y[2] = {0.0, 0.0};
+
+    for (PetscInt i = 0; i < 3; ++i) {
+      for (PetscInt d = 0; d < 2; ++d) y[d] += use->rule->barycentric[q][i] * tri[i][d];
+    }
+    o->weight[o->n] = area * use->rule->weight[q];
+    ContactInverseMap(use->map1, y, 1.0, o->xi1[o->n]);
+    ContactInverseMap(use->map2, y, use->bound, o->xi2[o->n]);
+    ++o->n;
+  }
+}
+
+/*
+   Cuts off those vertices of the polygon that lie on the line between their neighbours, each with the triangle of the
+   three, whose quadrature points are added. Where edges of the two facets coincide, rounding decides whether and where
+   they intersect; such vertices must not determine the large triangles. left: numbers of the vertices that remain.
+   Returns their number.
+*/
+static PetscInt OverlapCutCollinear(const OverlapQuadrature *use, PetscInt n, const PetscReal polygon[][2],
+  PetscInt first, PetscInt left[], ContactOverlap *o)
+{
+  for (PetscInt i = 0; i < n; ++i) left[i] = i;
+  for (PetscInt i = 0; i < n && n > 3;) {
+    const PetscInt v[3] = {left[(i + n - 1) % n], left[i], left[(i + 1) % n]};
+
+    if (OverlapIsOnLine(polygon[v[0]], polygon[v[2]], polygon[v[1]])) {
+      OverlapAddTriangle(use, polygon, first, v, o);
+      for (PetscInt k = i; k + 1 < n; ++k) left[k] = left[k + 1];
+      --n;
+    } else ++i;
+  }
+  return n;
+}
+
+/*
+   Adds the quadrature points of a polygon, which is divided into triangles. They connect one vertex, the apex, with the
+   edges of the polygon. The apex is the vertex nearest to a nonmortar vertex, because rounding decides which vertex of
+   the polygon comes first. The error of the quadrature would otherwise depend on rounding, and contact updates would
+   not converge.
+*/
+static void OverlapAddPolygon(const OverlapQuadrature *use, PetscInt nvertices, const PetscReal polygon[][2],
+  PetscInt first, ContactOverlap *o)
+{
+  PetscInt       left[CONTACT_MAX_POLYGON];
+  const PetscInt n    = OverlapCutCollinear(use, nvertices, polygon, first, left, o);
+  const PetscInt apex = OverlapNearestVertex(n, left, polygon, use->map1->q[0]);
 
   for (PetscInt t = 1; t + 1 < n; ++t) {
-    const PetscInt  i = (apex + t) % n, j = (apex + t + 1) % n;
-    const PetscReal tri[3][2] = {
-      {polygon[apex][0], polygon[apex][1]},
-      {polygon[i][0], polygon[i][1]},
-      {polygon[j][0], polygon[j][1]},
-    };
-    const PetscReal area = sign * ContactPolygonArea(3, tri);
+    const PetscInt v[3] = {left[apex], left[(apex + t) % n], left[(apex + t + 1) % n]};
 
-    /* Triangles without area are included, because their derivatives need not be zero. */
-    o->area += area;
-    o->triangle[o->ntriangles++] = (ContactTriangle){{first + apex, first + i, first + j}, sign};
-    for (PetscInt q = 0; q < rule->n; ++q) {
-      PetscReal y[2] = {0.0, 0.0};
-
-      for (PetscInt v = 0; v < 3; ++v) {
-        for (PetscInt d = 0; d < 2; ++d) y[d] += rule->barycentric[q][v] * tri[v][d];
-      }
-      o->weight[o->n] = area * rule->weight[q];
-      ContactInverseMap(map1, y, 1.0, o->xi1[o->n]);
-      ContactInverseMap(map2, y, bound, o->xi2[o->n]);
-      ++o->n;
-    }
+    OverlapAddTriangle(use, polygon, first, v, o);
   }
 }
 
@@ -222,12 +263,12 @@ static PetscBool OverlapPutMortar(const PetscReal p1[4][2], PetscInt border1, Pe
 PetscBool ContactOverlapFindAtBorder(const PetscReal x1[12], PetscInt border1, const PetscReal x2[12], PetscInt border2,
   const ContactOverlapLimits *limits, const ContactRule *rule, ContactOverlap *o)
 {
-  const PetscInt  nmortar = ContactFacetIsTriangle(x2) ? 3 : 4;
-  PetscReal       n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], sign[2], smaller;
-  PetscInt        size[2], vertex[2][4], nparts;
-  PetscReal       bound = 1.0;
-  ContactFrame    frame;
-  ContactBilinear map[2];
+  const PetscInt    nmortar = ContactFacetIsTriangle(x2) ? 3 : 4;
+  PetscReal         n2[3], p1[4][2], p2[4][2], reversed[4][2], h1[4], h2[4], part[2][4][2], sign[2], smaller;
+  PetscInt          size[2], vertex[2][4], nparts;
+  ContactFrame      frame;
+  ContactBilinear   map[2];
+  OverlapQuadrature use = {.rule = rule, .map1 = &map[0], .map2 = &map[1], .bound = 1.0};
 
   o->n = o->ncorners = o->ntriangles = 0;
   o->area                            = 0.0;
@@ -237,9 +278,11 @@ PetscBool ContactOverlapFindAtBorder(const PetscReal x1[12], PetscInt border1, c
   ContactFrameProject(&frame, x1, p1, h1);
   ContactFrameProject(&frame, x2, p2, h2);
   if (OverlapPutMortar((const PetscReal(*)[2])p1, border1, nmortar, (const PetscReal(*)[2])p2, border2, reversed))
-    bound = 1.5; /* An edge moves by at most a fifth of the facet's size: parameters on a rectangle stay below 1.4. */
+    use.bound = 1.5; /* an edge moves by at most a fifth of the facet's size: parameters on a rectangle are below 1.4 */
   smaller = PetscMin(PetscAbsReal(ContactPolygonArea(4, p1)), PetscAbsReal(ContactPolygonArea(nmortar, reversed)));
   nparts  = OverlapConvexParts(p1, size, part, vertex, sign);
+  ContactBilinearCreate(p1, &map[0]);
+  ContactBilinearCreate(p2, &map[1]);
   for (PetscInt k = 0; k < nparts; ++k) {
     PetscReal polygon[CONTACT_MAX_POLYGON][2];
     PetscInt  edge[CONTACT_MAX_POLYGON][2];
@@ -249,9 +292,8 @@ PetscBool ContactOverlapFindAtBorder(const PetscReal x1[12], PetscInt border1, c
     if (n < 3 || !(PetscAbsReal(ContactPolygonArea(n, polygon)) > limits->overlap_drop * smaller)) continue;
     OverlapShareEdges(n, polygon, nmortar, size[k], part[k], edge);
     OverlapKeepCorners(n, polygon, nmortar, edge, size[k], vertex[k], o);
-    ContactBilinearCreate(p1, &map[0]);
-    ContactBilinearCreate(p2, &map[1]);
-    OverlapAddPolygon(rule, sign[k], n, polygon, o->ncorners - n, &map[0], &map[1], bound, o);
+    use.sign = sign[k];
+    OverlapAddPolygon(&use, n, (const PetscReal(*)[2])polygon, o->ncorners - n, o);
   }
   if (!(o->area > 0.0)) return PETSC_FALSE;
   o->gap = OverlapMeanGap(o, h1, h2);
