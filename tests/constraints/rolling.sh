@@ -2,7 +2,7 @@
 long=${1-}
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/constraints/rolling.py" scenes
-for scene in ${long:+roller} wheel; do
+for scene in ${long:+roller} wheel tube; do
   "$contact" $scene.yaml -quiet -summary $scene.json || echo "$scene: exit code $?"
 done
 "$contact" bend.yaml -quiet -summary bend.json -output bend || echo "bend: exit code $?"

@@ -51,25 +51,52 @@ static PetscErrorCode ContactUpdateMakeRigid(StepProblem *p, Vec u)
 }
 
 /*
-   Finds whether friction allows to linearize the gap at the extrapolated path: no vertices stick, which they do where
-   they close, no body rolls, and the path is smooth. Otherwise bodies that friction holds might be lost.
+   Finds whether pairs have friction, and whether friction allows to linearize the gap at the extrapolated path: no
+   vertices stick, which they do where they close, no rigid body rolls, and the path is smooth. Otherwise bodies that
+   friction holds might be lost.
 */
-static PetscErrorCode ContactUpdateMayContinue(const StepProblem *p, PetscBool *may)
+static PetscErrorCode ContactUpdateMayContinue(const StepProblem *p, PetscBool *rubs, PetscBool *may)
 {
-  Simulation sim  = p->sim;
-  PetscBool  rubs = PETSC_FALSE, sticks = PETSC_FALSE;
+  Simulation sim    = p->sim;
+  PetscBool  sticks = PETSC_FALSE;
 
   PetscFunctionBegin;
-  *may = PETSC_TRUE;
+  *rubs = PETSC_FALSE;
+  *may  = PETSC_TRUE;
   for (PetscInt k = 0; k < sim->scene->npairs; ++k) {
     PetscReal mu = 0.0;
 
     PetscCall(FrictionGetCoefficient(sim->scene, p->time, k, &mu));
-    if (mu > 0.0) rubs = PETSC_TRUE;
+    if (mu > 0.0) *rubs = PETSC_TRUE;
     if (mu >= PETSC_INFINITY) sticks = PETSC_TRUE;
   }
-  if (rubs) PetscCall(PathIsSmooth(sim, p->time, may));
-  if (sticks || (rubs && sim->rigid.turns)) *may = PETSC_FALSE;
+  if (*rubs) PetscCall(PathIsSmooth(sim, p->time, may));
+  if (sticks || (*rubs && sim->rigid.turns)) *may = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/*
+   Extrapolates the path: u is the last state on entry, and the extrapolated displacement on exit. *continued: false if
+   u is not changed, because friction does not allow it. With friction no body may rotate from the last state to the
+   extrapolated one, since friction holds a body that rolls.
+*/
+static PetscErrorCode ContactUpdateContinue(const StepProblem *p, Vec u, PetscBool *continued)
+{
+  Simulation   sim    = p->sim;
+  const Bodies bodies = SimulationBodies(sim);
+  PetscBool    rubs, rolls = PETSC_FALSE;
+  Vec          excess;
+
+  PetscFunctionBegin;
+  PetscCall(ContactUpdateMayContinue(p, &rubs, continued));
+  if (!*continued) PetscFunctionReturn(0);
+  PetscCall(PathContinue(sim, p->time, u));
+  if (!rubs) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(u, &excess));
+  PetscCall(ArcsGetExcess(&bodies, sim->path->u, u, excess, &rolls));
+  PetscCall(VecDestroy(&excess));
+  if (rolls) PetscCall(VecCopy(sim->path->u, u));
+  *continued = (PetscBool)!rolls;
   PetscFunctionReturn(0);
 }
 
@@ -85,11 +112,10 @@ PetscErrorCode ContactUpdateBegin(StepProblem *p, PetscBool foreseen, Vec u, con
   PetscBool  continues = (PetscBool)(sim->path->time > 0.0 && sim->scene->contact_updates > 1 && !report->cuts);
 
   PetscFunctionBegin;
-  if (continues) PetscCall(ContactUpdateMayContinue(p, &continues));
   PetscCall(VecDuplicate(u, u_linearized));
   PetscCall(VecCopy(foreseen ? u : sim->path->u, *u_linearized));
+  if (continues && !foreseen) PetscCall(ContactUpdateContinue(p, *u_linearized, &continues));
   if (foreseen || continues) {
-    if (!foreseen) PetscCall(PathContinue(sim, p->time, *u_linearized));
     PetscCall(ContactUpdateMakeRigid(p, *u_linearized));
     PetscCall(ContactLinearizationDestroy(&sim->solved->upcoming));
   }
