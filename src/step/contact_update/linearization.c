@@ -76,8 +76,8 @@ static PetscErrorCode ContactUpdateMayContinue(const StepProblem *p, PetscBool *
 }
 
 /*
-   Extrapolates the path: u is the last state on entry, and the extrapolated displacement on exit. *continued: false if
-   u is not changed, because friction does not allow it. With friction no body may rotate from the last state to the
+   Extrapolates the path. u: the last state on entry, the extrapolated displacement on exit. *continued: false if u is
+   not changed, because friction does not allow it. With friction no body may rotate from the last state to the
    extrapolated one, since friction holds a body that rolls.
 */
 static PetscErrorCode ContactUpdateContinue(const StepProblem *p, Vec u, PetscBool *continued)

@@ -13,7 +13,7 @@
      may be the cause, and the tolerance is at most a tenth of the previous one.
 
      With friction, updates converge more slowly, so that accurate solves are of less use. The three numbers are then
-     1e-2, 0.3 and a half.
+     1e-2, 0.3 and a half; but a tenth if the change did not fall at all.
 
      The tolerance of the load step is used in these cases:
      - for the last update;
@@ -27,8 +27,8 @@ PetscErrorCode ContactUpdateSetTolerance(StepProblem *p, PetscBool foreseen, Pet
 {
   Simulation      sim   = p->sim;
   const PetscBool slip  = (PetscBool) !!sim->solved->linearization->slip;
-  const PetscReal first = slip ? 1e-2 : 1e-3, fraction = slip ? 0.3 : 0.1, slow = slip ? 0.5 : 0.1, fair = 0.5,
-                  before = p->tolerance, allowed = sim->control->tolerances.gap_change;
+  const PetscReal first = slip ? 1e-2 : 1e-3, fraction = slip ? 0.3 : 0.1, slow = slip ? 0.5 : 0.1, strict = 0.1,
+                  fair = 0.5, before = p->tolerance, allowed = sim->control->tolerances.gap_change;
   PetscReal size;
 
   PetscFunctionBegin;
@@ -42,7 +42,7 @@ PetscErrorCode ContactUpdateSetTolerance(StepProblem *p, PetscBool foreseen, Pet
   p->tolerance = PetscMin(first, fraction * report->update_error / size);
   if (again) PetscFunctionReturn(0);
   if (report->contact_updates > 1 && report->update_error > fair * p->gap_change)
-    p->tolerance = PetscMin(p->tolerance, slow * before);
+    p->tolerance = PetscMin(p->tolerance, (report->update_error < p->gap_change ? slow : strict) * before);
   if (report->contact_updates > 1 && !slip && PetscSqr(report->update_error) <= allowed * size * p->gap_change)
     p->tolerance = 0.0;
   p->gap_change = report->update_error;
