@@ -116,8 +116,8 @@ static void ArcGetExcess(const BodyArc *arc, const PetscReal Q[3][3], const Pets
   }
 }
 
-/* Computes the difference between the path along arcs from displacement u0 to u1 and the chord [length]. *any: whether
-   any body rotates. If none does, the difference is zero and the vector is not set. */
+/* Computes the difference between the path along arcs from displacement u0 to u1 and the chord [length]; NULL if not
+   wanted. *any: whether any body rotates. If none does, the difference is zero and the vector is not set. */
 PetscErrorCode ArcsGetExcess(const Bodies *b, Vec u0, Vec u1, Vec excess, PetscBool *any)
 {
   BodyPose          *poses;
@@ -130,8 +130,8 @@ PetscErrorCode ArcsGetExcess(const Bodies *b, Vec u0, Vec u1, Vec excess, PetscB
   PetscCall(PetscMalloc2(b->scene->nbodies, &poses, b->scene->nbodies, &arcs));
   PetscCall(PosesFind(b, u0, u1, poses));
   PetscCall(ArcsFind(b, u0, poses, arcs, any));
-  PetscCall(VecGetLocalSize(excess, &n));
-  if (*any) {
+  if (*any && excess) {
+    PetscCall(VecGetLocalSize(excess, &n));
     PetscCall(VecGetArrayRead(b->places.x, &x));
     PetscCall(VecGetArrayRead(u0, &a0));
     PetscCall(VecGetArrayRead(u1, &a1));

@@ -84,17 +84,14 @@ static PetscErrorCode ContactUpdateContinue(const StepProblem *p, Vec u, PetscBo
 {
   Simulation   sim    = p->sim;
   const Bodies bodies = SimulationBodies(sim);
-  PetscBool    rubs, rolls = PETSC_FALSE;
-  Vec          excess;
+  PetscBool    rubs, rolls;
 
   PetscFunctionBegin;
   PetscCall(ContactUpdateMayContinue(p, &rubs, continued));
   if (!*continued) PetscFunctionReturn(0);
   PetscCall(PathContinue(sim, p->time, u));
   if (!rubs) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(u, &excess));
-  PetscCall(ArcsGetExcess(&bodies, sim->path->u, u, excess, &rolls));
-  PetscCall(VecDestroy(&excess));
+  PetscCall(ArcsGetExcess(&bodies, sim->path->u, u, NULL, &rolls));
   if (rolls) PetscCall(VecCopy(sim->path->u, u));
   *continued = (PetscBool)!rolls;
   PetscFunctionReturn(0);
