@@ -66,7 +66,7 @@ static PetscBool RelaxRounding(const TAO_IPFILTER *ip)
    with the one that balances the gradient of the objective. Third, the multiplier of a bound is that large, and cancels
    the multiplier of an equality constraint.
    At infeasible points these signs occur temporarily; such points are excluded. Without scales only the first sign can
-   be used.
+   be used. Where the objective is constant none can be used: no multiplier is too large beside a gradient of zero.
 */
 static PetscErrorCode RelaxVanished(Tao tao, PetscBool *vanished)
 {
@@ -75,11 +75,13 @@ static PetscErrorCode RelaxVanished(Tao tao, PetscBool *vanished)
   PetscReal       gradient, times;
 
   PetscFunctionBegin;
+  *vanished = PETSC_FALSE;
+  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
+  if (ip->first->gradient == 0.0 && gradient == 0.0) PetscFunctionReturn(0);
   *vanished = RelaxRounding(ip);
   if (*vanished || ip->opt->scaling == IP_SCALING_NONE || ip->kkt->primal > met) PetscFunctionReturn(0);
   if (ip->mi) *vanished = (PetscBool)(ip->mu > IP_RELAX_LARGE * ip->relax->least_slack * RelaxBalance(ip));
   if (*vanished || !ip->me) PetscFunctionReturn(0);
-  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
   if (!(ip->mu > IP_RELAX_LARGE * ip->relax->least_bound * gradient)) PetscFunctionReturn(0);
   PetscCall(IPCancellation(tao, &times));
   *vanished = (PetscBool)(times > IP_RELAX_LARGE);

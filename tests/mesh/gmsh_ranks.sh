@@ -1,5 +1,5 @@
-# Meshes of Gmsh files, dealt out cell by cell before any rank makes a DMPlex of them: the answer is that of one rank,
-# as it is of a mesh that PETSc distributes
+# Gmsh meshes are partitioned before the DMPlex is built. The answer is that of one rank, and that of a mesh that PETSc
+# distributes.
 "$PYTHON" "$AMGF_DIR/tests/mesh/gmsh_rings.py" write
 sed "s|\.\./gmsh|$AMGF_DIR/share/gmsh|" "$AMGF_DIR/share/scenes/gmsh_blocks.yaml" > blocks.yaml
 cat >> blocks.yaml << 'END'

@@ -10,6 +10,6 @@ run() {
 
 run linear beam_sphere_linear -output linear
 run neo_hookean beam_sphere_neo_hookean -output neo_hookean \
-  -contact_updates 1 # until the gap is true: four times as long
+  -contact_updates 1 # with all contact updates it takes four times as long
 run tangent beam_sphere_neo_hookean -model quadratic -contact_updates 1 -displacement_bounds 4
 "$PYTHON" "$AMGF_DIR/tests/step/beam_sphere.py"

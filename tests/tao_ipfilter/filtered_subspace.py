@@ -1,7 +1,6 @@
-"""Judges the runs of filtered_subspace.sh: the same energies and forces as the interior point method's, whatever the
-ranks, for little more than CG takes without contact;
-with MUMPS in place of AMG, for one factorization a run and a solve with it where Newton's method takes a
-factorization."""
+"""Checks the runs of filtered_subspace.sh. Energies and forces are those of the interior point method, on any number of
+ranks. The method needs few more iterations than CG without contact. With MUMPS instead of AMG it factors once a run;
+each of its steps is one solve, where Newton's method needs a factorization."""
 import json
 import os
 import re

@@ -36,6 +36,8 @@ static const Case cases[] = {
      "0 0 0 0", -0.2837654916053, NLP_SOLVED, NULL},
     ""},
   {{"circle and hyperbola, from afar", "0", "", "x1^2+x2^2-1e4; x1*x2-3e3", "", "1e4 1e-2", 0.0, NLP_SOLVED, NULL}, ""},
+  {{"disc and half-plane, from afar", "0", "0.01-x1^2-x2^2; x1+x2-0.1", "", "", "1e4 -2e4", 0.0, NLP_SOLVED, NULL}, ""},
+  {{"larger disc and half-plane", "0", "10-x1^2-x2^2; x1+x2-3.16228", "", "", "1e5 -2e5", 0.0, NLP_SOLVED, NULL}, ""},
   {{"cubic equation, from afar", "0", "", "x1+x2^3*1e-3-48; x1-x2", "", "1e6 -1e6", 0.0, NLP_SOLVED, NULL}, ""},
   {{"steep between bounds", "-x1^4", "", "", "0:1e6", "1", -1e24, NLP_SOLVED, NULL}, ""},
   {{"objective as an unknown, badly scaled", "x3", "x3-((x1-1e6)^2+(x2-2e-6)^2+(x1*x2-2)^2)", "", "",

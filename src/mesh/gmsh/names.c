@@ -111,20 +111,23 @@ PetscErrorCode GmshGetVolumeTag(MPI_Comm comm, const SceneBody *body, PetscInt *
 {
   char      choices[512], **volumes;
   PetscInt  n, *tags;
-  PetscBool known = PETSC_FALSE;
+  PetscBool any, known = PETSC_FALSE;
 
   PetscFunctionBegin;
   SceneCheck(body->gmsh.volume, comm, PETSC_ERR_ARG_NULL, body, "Body \"%s\" names no volume of its mesh file",
     body->name);
   PetscCall(GmshGetPhysicalNames(comm, body, 3, &n, &volumes, &tags));
   PetscCall(NamesJoin(n, volumes, sizeof(choices), choices));
+  any = (PetscBool)(n > 0);
   for (PetscInt v = 0; v < n && !known; ++v) {
     PetscCall(PetscStrcmp(volumes[v], body->gmsh.volume, &known));
     if (known) *tag = tags[v];
   }
   PetscCall(NamesDestroy(&n, &volumes));
   PetscCall(PetscFree(tags));
-  SceneCheck(known, comm, PETSC_ERR_USER_INPUT, body, "Body \"%s\": %s has no physical volume \"%s\"; it has: %s",
+  SceneCheck(any, comm, PETSC_ERR_USER_INPUT, body, "Body \"%s\": %s has no physical volumes; define \"%s\" in Gmsh",
+    body->name, body->gmsh.file, body->gmsh.volume);
+  SceneCheck(known, comm, PETSC_ERR_USER_INPUT, body, "Body \"%s\": %s has no physical volume \"%s\"; it has %s",
     body->name, body->gmsh.file, body->gmsh.volume, choices);
   PetscFunctionReturn(0);
 }
