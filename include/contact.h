@@ -29,6 +29,8 @@ typedef struct {
   PetscReal *tangent; /* [6 nlocal] the two unit tangents of each row */
   PetscReal *covered; /* [nlocal] int phi_A over the covered part [length^2]; 0 for pairs without friction. NULL if
                          no pair has friction */
+  PetscReal *area;    /* [nlocal] lumped area of the nonmortar face around each row's vertex, with which the row was
+                         computed [length^2]. NULL if no nonmortar body has a law of finite strain */
   PetscReal *mortar_sum; /* [6 nlocal] sums over the mortar face's nodes of the vectors of J, and of those of
                             `cover`, in the directions at the row's vertex; NULL if no body is a sector of cyclic
                             symmetry */
@@ -52,6 +54,9 @@ PETSC_EXTERN PetscErrorCode ContactSetDual(Contact, PetscBool);
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
 PETSC_EXTERN PetscErrorCode ContactLinearizeForces(Contact, Vec u, ContactLinearization *);
 PETSC_EXTERN PetscErrorCode ContactGetGaps(Contact, Vec u, ContactLinearization *);
+/* Collective. Computes by how much the nonmortar faces have grown at u since a linearization, around each row's vertex.
+   Call this function only if lin->area is not NULL. */
+PETSC_EXTERN PetscErrorCode ContactGetStretch(Contact, Vec u, ContactLinearization lin, PetscReal stretch[]);
 /* Finds whether a body of a pair ends inside the other one, through faces that are not the pair's */
 PETSC_EXTERN PetscErrorCode ContactGetEntered(Contact, PetscInt pair, Vec u, PetscReal margin, PetscBool *entered,
   PetscReal place[3]);

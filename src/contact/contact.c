@@ -297,6 +297,8 @@ PetscErrorCode ContactSetBodies(Contact contact, const SceneBody bodies[])
       "Contact pair \"%s\": the nonmortar side %s is a rigid surface, which has no nodes for the contact constraints: "
       "make it the mortar side",
       pair->name, pair->nonmortar.name);
+    pair->stretches    = MaterialIsFinite(&bodies[pair->nonmortar.body].material);
+    contact->stretches = (PetscBool)(contact->stretches || pair->stretches);
     if (!SceneBodyIsSurface(&bodies[pair->mortar.body])) continue;
     pair->formula = &bodies[pair->mortar.body];
     pair->smooth  = PETSC_FALSE;

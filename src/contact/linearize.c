@@ -74,6 +74,10 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, ContactParts parts,
   }
   PetscCall(PetscLogEventBegin(CONTACT_Integrate, NULL, NULL, NULL, NULL));
   PetscCall(ContactAssemblyFinish(contact, &assembly, lin));
+  if (contact->stretches) {
+    PetscCall(PetscMalloc1((*lin)->nlocal + 1, &(*lin)->area));
+    PetscCall(ContactRowAreas(contact, PETSC_TRUE, *lin, (*lin)->area));
+  }
   PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
   PetscCall(ContactAssemblyDestroy(&assembly));
   PetscCall(PetscLogEventEnd(CONTACT_Linearize, NULL, NULL, NULL, NULL));
@@ -197,6 +201,38 @@ PetscErrorCode ContactGetGaps(Contact contact, Vec u, ContactLinearization *lin)
 }
 
 /*@
+  ContactGetStretch - Computes by how much the nonmortar faces grow around the vertices of the rows
+
+  Collective
+
+  Input Parameters:
++ contact - the contact
+. u       - global displacement vector, 3 components per vertex [length]
+- lin     - a linearized gap
+
+  Output Parameter:
+. stretch - for each row of lin, the lumped area of the nonmortar face at u, divided by that with which the row was
+            computed. It is 1 if the nonmortar body has a law of small strain.
+
+  Level: developer
+
+  Note:
+  The force of a row divided by the area at u is the pressure (Cauchy stress). Gaps at vertices are computed with
+  undeformed areas, other gaps with those at the displacement of the linearization, which may be that of the last load
+  step.
+
+.seealso: `ContactLinearize()`
+@*/
+PetscErrorCode ContactGetStretch(Contact contact, Vec u, ContactLinearization lin, PetscReal stretch[])
+{
+  PetscFunctionBegin;
+  PetscCall(ContactDeform(contact, u));
+  PetscCall(ContactRowAreas(contact, PETSC_FALSE, lin, stretch));
+  for (PetscInt r = 0; r < lin->nlocal; ++r) stretch[r] = lin->area[r] > 0.0 ? stretch[r] / lin->area[r] : 1.0;
+  PetscFunctionReturn(0);
+}
+
+/*@
   ContactLinearizationDestroy - Destroys a linearized gap
 
   Collective
@@ -224,6 +260,7 @@ PetscErrorCode ContactLinearizationDestroy(ContactLinearization *lin)
   PetscCall(PetscFree((*lin)->normal));
   PetscCall(PetscFree((*lin)->tangent));
   PetscCall(PetscFree((*lin)->covered));
+  PetscCall(PetscFree((*lin)->area));
   PetscCall(PetscFree((*lin)->mortar_sum));
   PetscCall(PetscFree((*lin)->vertex));
   PetscCall(PetscFree((*lin)->pair));

@@ -6,8 +6,8 @@
 
 /*
    Values at the mesh's vertices that belong to the pair, three per vertex. carried: covered area, force, gap x area;
-   sides: 1 on the mortar side or -1 on the nonmortar side, area with pressure, unused; closing: closed area, facet
-   length x area, force of slipping rows; force: components of the contact force.
+   sides: 1 on the mortar side or -1 on the nonmortar side, area with pressure, area after stretch; closing: closed
+   area, facet length x area, force of slipping rows; force: components of the contact force.
 */
 typedef struct {
   Vec carried, sides, closing, force;
@@ -67,8 +67,10 @@ static PetscErrorCode PairVerticesAddFriction(Simulation sim, PetscInt pair, con
   PetscFunctionReturn(0);
 }
 
-/* Computes the values of both sides of a pair before agglomeration (nodal_pressure.c) */
-static PetscErrorCode PairVerticesCreate(Simulation sim, PetscInt pair, PairRows *rows, PairVertices *vertices)
+/* Computes the values of both sides of a pair before agglomeration (nodal_pressure.c). stretch: of each row, by
+   ContactGetStretch(); NULL: 1 */
+static PetscErrorCode PairVerticesCreate(Simulation sim, PetscInt pair, PairRows *rows, const PetscReal stretch[],
+  PairVertices *vertices)
 {
   PetscFunctionBegin;
   vertices->shear = vertices->slid = NULL;
@@ -84,6 +86,7 @@ static PetscErrorCode PairVerticesCreate(Simulation sim, PetscInt pair, PairRows
   PetscCall(PairSpread(sim, rows, rows->pressure, vertices->sides, 1, vertices->carried));
   PetscCall(PairSpread(sim, rows, rows->gap, vertices->sides, 2, vertices->carried));
   PetscCall(PairSpread(sim, rows, rows->presses, vertices->sides, 1, vertices->sides));
+  if (stretch) PetscCall(PairSpread(sim, rows, stretch, vertices->sides, 2, vertices->sides));
   PetscCall(PairSpread(sim, rows, rows->closed, vertices->sides, 0, vertices->closing));
   PetscCall(PairSpread(sim, rows, rows->length, vertices->sides, 1, vertices->closing));
   PetscCall(PairPlaceForces(sim, rows, vertices->force));
@@ -237,6 +240,39 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
 }
 
 /*
+   Multiplies the areas of the pair's points by the stretch of their faces since the linearization, and divides their
+   stresses by it. first: the pair's first point; alone: values before agglomeration.
+*/
+static PetscErrorCode PairStretchPoints(Simulation sim, PetscInt first, const PairVertices *vertices, Vec alone)
+{
+  PetscSection       global;
+  const PetscScalar *area, *side;
+  PetscInt           rstart;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(VecGetOwnershipRange(alone, &rstart, NULL));
+  PetscCall(VecGetArrayRead(alone, &area));
+  PetscCall(VecGetArrayRead(vertices->sides, &side));
+  for (PetscInt k = first; k < sim->solved->npoints; ++k) {
+    ContactPoint *point = &sim->solved->points[k];
+    PetscReal     stretch;
+    PetscInt      i;
+
+    PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
+    i -= rstart;
+    stretch = PetscRealPart(side[i + 2] / area[i]);
+    if (!(stretch > 0.0)) continue;
+    point->area *= stretch;
+    point->pressure /= stretch;
+    for (PetscInt c = 0; c < 3; ++c) point->shear[c] /= stretch;
+  }
+  PetscCall(VecRestoreArrayRead(vertices->sides, &side));
+  PetscCall(VecRestoreArrayRead(alone, &area));
+  PetscFunctionReturn(0);
+}
+
+/*
    Computes the areas of the nonmortar side's points, the normal force and the largest pressure for the report. first:
    the pair's first point.
 */
@@ -277,9 +313,16 @@ static PetscErrorCode PairReportPoints(Simulation sim, const PairRows *rows, Vec
 /* Computes the contact points and reports of all pairs at the last state. Collective. */
 PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
 {
+  const ContactLinearization lin     = sim->solved->linearization;
+  PetscReal                 *stretch = NULL;
+
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
   sim->solved->npoints = 0;
+  if (lin && lin->area) {
+    PetscCall(PetscMalloc1(lin->nlocal + 1, &stretch)); /* not NULL on ranks without rows */
+    PetscCall(ContactGetStretch(sim->contact, sim->path->u, lin, stretch));
+  }
   PetscCall(PetscFree(sim->solved->points));
   for (PetscInt p = 0; sim->solved->linearization && p < report->npairs; ++p) {
     const PetscInt first = sim->solved->npoints;
@@ -288,18 +331,20 @@ PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
     Vec            alone;
 
     PetscCall(PairRowsCreate(sim, p, &rows));
-    PetscCall(PairVerticesCreate(sim, p, &rows, &vertices));
+    PetscCall(PairVerticesCreate(sim, p, &rows, stretch, &vertices));
     PetscCall(VecDuplicate(vertices.carried, &alone));
     PetscCall(VecCopy(vertices.carried, alone));
     PetscCall(NodalPressureEvenOut(sim, &sim->scene->pairs[p], vertices.carried));
     PetscCall(PairAppendPoints(sim, p, &rows, &vertices, alone));
     if (rows.frictional) PetscCall(PairAddFrictionPoints(sim, p, first, &vertices, alone));
+    if (stretch) PetscCall(PairStretchPoints(sim, first, &vertices, alone));
     PetscCall(PairReportPoints(sim, &rows, vertices.sides, first, &report->pairs[p]));
     PetscCall(PairMeshMeasure(sim, p, &rows, first, &report->pairs[p]));
     PetscCall(VecDestroy(&alone));
     PetscCall(PairVerticesDestroy(&vertices));
     PetscCall(PairRowsDestroy(&rows));
   }
+  PetscCall(PetscFree(stretch));
   PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

@@ -15,6 +15,7 @@ typedef struct {
   PetscBool      sticks;        /* whether friction allows no slip (scene key `stick: true`) */
   PetscInt       nfrictionless; /* number of rows, on all ranks, on which no friction acts although the faces slide;
                                    set when the slip rows are created */
+  PetscBool      stretches;     /* whether the nonmortar body has a law of finite strain */
   PetscBool      smooth;        /* whether the gap is measured between smooth surfaces */
   PetscReal      bulge; /* largest distance between the smooth surface and the facets, in the undeformed state, summed
                        over both faces [length] */
@@ -90,6 +91,7 @@ struct _n_Contact {
   ContactPairData *pairs;
   PetscBool        frictional; /* whether any pair has friction */
   PetscBool        self;       /* whether any pair is a face in contact with itself */
+  PetscBool        stretches;  /* whether the nonmortar body of any pair has a law of finite strain */
   ContactRows      rows;
   ContactNormals   normals;
   ContactCyclic    cyclic; /* cuts of sectors; NULL: none */
@@ -115,6 +117,9 @@ struct _n_Contact {
 PETSC_INTERN PetscErrorCode ContactRowsCreate(Contact);
 PETSC_INTERN PetscErrorCode ContactRowsDestroy(Contact);
 PETSC_INTERN PetscErrorCode ContactGatherEntries(Vec, IS from, Vec *gathered);
+
+/* areas.c: areas of nonmortar faces that are strained by large amounts */
+PETSC_INTERN PetscErrorCode ContactRowAreas(Contact, PetscBool weights, ContactLinearization, PetscReal area[]);
 
 /* hanging_rows.c: distributes the sums of hanging vertices' rows to the rows of other vertices */
 PETSC_INTERN PetscErrorCode ContactHangingRowsCreate(Contact);
