@@ -21,10 +21,17 @@ displacements:
 contact:
   - foot: {{mortar: low.zmax, nonmortar: block.zmin, {law}, interference: true}}
   - head: {{mortar: top.zmin, nonmortar: block.zmax, {law}, interference: true}}
-load: {{factors: [1, 1, 1]}}
+load: {{factors: {load}}}
 ramps:
-  - turn: {{factors: [0, 0.5, 1]}}
+  - turn: {{factors: {turn}}}
 """
+
+
+def grip(law, turns=2):
+    """The quarter turn in this many load steps, after one that closes the grip"""
+    return GRIP.format(law=law, load=[1] * (turns + 1), turn=[k / turns for k in range(turns + 1)])
+
+
 PIN = """problem: pin
 bodies:
   - hub: {shape: tube_arc, axis: z, radii: [10, 20], angles: [0, 90], extent: [0, 10], cells: [3, 10, 5], young: 200000,
@@ -129,9 +136,9 @@ PUSHES = {
     "limited": dict(height=0.25, law="friction: 5, shear_limit: 0.3")
 }
 SCENES = {
-    "sticks": GRIP.format(law="stick: true"), "rubs": GRIP.format(law="friction: 1"),
-    "slides": GRIP.format(law="friction: 0.5"), "eases": GRIP.format(law="friction: 0.3"), "pin": PIN, "seam": SEAM,
-    "swapped": SWAPPED, "teeth": TEETH, "apart": APART, "ring": RING
+    "sticks": grip("stick: true"), "rubs": grip("friction: 1"), "slides": grip("friction: 0.5"),
+    "eases": grip("friction: 0.3"), "sticks_7": grip("stick: true", 7), "slides_7": grip("friction: 0.5", 7),
+    "pin": PIN, "seam": SEAM, "swapped": SWAPPED, "teeth": TEETH, "apart": APART, "ring": RING
 }
 for push, values in PUSHES.items():
     SCENES[push + "_once"] = PUSH.format(load=[1, 1, 1], along=[0, 1, 0], **values)
@@ -173,6 +180,15 @@ else:
                 title + "no energy is lost",
                 within(step["energy"], first, 1e-4) and abs(step["dissipated"] - slid) < 1e-4 * first
                 and abs(step["work"]) < 1e-3 * first, (step["energy"], first, step["work"]))
+    for name in "sticks_7", "slides_7":
+        steps = load(name)["steps"]
+        first, last = steps[0]["pairs"][0], [step["pairs"][0] for step in steps[1:]]
+        say(f"{name}: normal and shear forces as before the turn in each of seven load steps, to 1e-3",
+            len(last) == 7 and all(
+                within(pair[key], first[key], 1e-3) for pair in last for key in ("normal_force", "shear_force")),
+            [(pair["normal_force"], pair["shear_force"]) for pair in (first, *last)])
+        say(f"{name}: no energy is lost", all(within(step["energy"], steps[0]["energy"], 1e-4) for step in steps),
+            [step["energy"] for step in steps])
     for name in "pin", "seam", "swapped":
         run = load(name)
         say(f"{name}: converged", run["converged"] and not run["warnings"], (run["reason"], run["warnings"]))

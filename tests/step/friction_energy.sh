@@ -6,7 +6,8 @@ contact=$AMGF_DIR/bin/contact
 # forces
 for scene in sticks rubs slides eases; do
   timeout 1200 "$contact" $scene.yaml -quiet -contact_update_tol 1e-8 -summary $scene.json; done
-for scene in pin seam swapped teeth apart ring low_once low_slowly high_once high_slowly limited_once limited_slowly; do
+for scene in sticks_7 slides_7 pin seam swapped teeth apart ring low_once low_slowly high_once high_slowly \
+  limited_once limited_slowly; do
   timeout 1200 "$contact" $scene.yaml -quiet -summary $scene.json
 done
 timeout 1200 mpiexec --oversubscribe -n 3 "$contact" pin.yaml -quiet -summary pin_3.json
