@@ -28,6 +28,23 @@ for scene in facets cylinder weak turned; do
   done
 done
 "$contact" weak.yaml -error_estimate 0 | grep 'can turn'
+# A pin that joins two plates, and can turn. Its linearized facets let it turn far, unless a proximal term resists.
+cat > lap.yaml <<'END'
+bodies:
+  - plate1: {shape: holed_box, axis: z, lower: [-20, -10, 0], upper: [15, 10, 4], radius: 5.05, cells: [6, 4, 2], young: 2.1e5, poisson: 0.3}
+  - plate2: {shape: holed_box, axis: z, lower: [-15, -10, 4], upper: [20, 10, 8], radius: 5.05, cells: [6, 4, 2], young: 2.1e5, poisson: 0.3}
+  - pin: {shape: cylinder, axis: z, radius: 5, extent: [0, 8], cells: [5, 3, 4], young: 2.1e5, poisson: 0.3}
+displacements:
+  - hold: {face: plate1.xmin, value: [0, 0, 0]}
+  - pull: {face: plate2.xmax, value: [0.3, 0, 0]}
+contact: auto
+weak_springs: true
+END
+for level in 0 1; do # seconds of the processor: far more than it takes
+  (ulimit -t 60 && "$contact" lap.yaml -refine $level -quiet -error_estimate 0 -summary lap_$level.json 2>&1) |
+    grep -v 'penetrates'
+  echo "lap joint, refinement $level: exit code ${PIPESTATUS[0]}"
+done
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'CHECK'
 from summaries import load, say, within
 
@@ -39,4 +56,10 @@ for scene in ("facets", "cylinder", "weak"):
         say(f"{scene}, {n} ranks: the contact carries the weight, and the weak springs nothing",
             within(pair["force"][0], -run["reaction"][0] if pair["force"][0] < 0 else run["reaction"][0], 1e-4) and
             run["weak_spring_force"] < 1e-4 * pair["normal_force"], (pair, run["reaction"], run["weak_spring_force"]))
+coarse, fine = (load(f"lap_{level}")["steps"][-1] for level in (0, 1))
+for level, run in enumerate((coarse, fine)):
+    say(f"lap joint, refinement {level}: the interior point method is not needed", run["amg_applications"] < 150,
+        run["amg_applications"])
+say("lap joint: the force changes little with the mesh", within(coarse["reaction"][0], fine["reaction"][0], 0.1),
+    (coarse["reaction"], fine["reaction"]))
 CHECK

@@ -8,7 +8,7 @@
 
      Bodies on weak springs get a stiffer term if contact updates moved them far. A linearized gap does not resist
      rotations that the true gap resists, such as that of a pin in a hole. At finite strain and between curved faces
-     these bodies get the term from the start. The centre is the displacement at which the gap is linearized, so that
+     these bodies get the term from the start, and in a quadratic problem if a body can turn about its axis. The centre is the displacement at which the gap is linearized, so that
      the term vanishes as the contact updates converge.
 */
 #include "problemimpl.h"
@@ -153,7 +153,19 @@ PetscBool ProximalMayHoldWeak(const StepProblem *p)
                      EnergyIsFinite(p->energy) && !SimulationIsDynamic(sim));
 }
 
-/* Finds whether bodies on weak springs need the proximal term from the first contact update on. */
+/* Returns whether a body on weak springs can turn about its axis without resistance of contact. */
+static PetscBool ProximalBodyTurns(Simulation sim)
+{
+  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
+    if (sim->springs.rotations[b].free) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+/*
+   Finds whether bodies on weak springs need the proximal term from the first contact update on. If a body can turn
+   about its axis, linearized facets let it turn far, since this opens a gap between them.
+*/
 static PetscErrorCode ProximalHoldsAtOnce(const StepProblem *p, PetscBool *holds)
 {
   const Simulation sim = p->sim;
@@ -162,7 +174,7 @@ static PetscErrorCode ProximalHoldsAtOnce(const StepProblem *p, PetscBool *holds
   *holds = PETSC_FALSE;
   if (!sim->contact || !sim->springs.weak || p->centre || SimulationIsDynamic(sim)) PetscFunctionReturn(0);
   *holds = (PetscBool)(sim->control->weak_stiffness > 0.0);
-  if (sim->quadratic || *holds) PetscFunctionReturn(0);
+  if (*holds || (sim->quadratic && !ProximalBodyTurns(sim))) PetscFunctionReturn(0);
   for (PetscInt k = 0; k < sim->scene->npairs; ++k) {
     PetscBool curved;
 
