@@ -101,6 +101,7 @@ PETSC_EXTERN PetscErrorCode PCAMGFGetCounts(PC, PCAMGFCounts *);
 PETSC_EXTERN PetscErrorCode PCAMGFSetFactor(PC, PCAMGFFactorUse);
 PETSC_EXTERN PetscErrorCode PCAMGFExpect(PC, PetscReal applications, PetscReal solves);
 PETSC_EXTERN PetscErrorCode PCAMGFGetFactored(PC, PetscBool *factored, const char *why[]);
+PETSC_EXTERN PetscErrorCode PCAMGFApplyProduct(PC, Vec r, Vec z, Vec product);
 
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetSlackMass(Tao, Vec);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetPrimalMass(Tao, Vec);

@@ -186,6 +186,7 @@ PETSC_INTERN PetscErrorCode PCSetUp_AMGF(PC);
 /* cycle.c */
 PETSC_INTERN PetscErrorCode PCApply_AMGF(PC, Vec, Vec);
 PETSC_INTERN PetscErrorCode PCApplyTranspose_AMGF(PC, Vec, Vec);
+PETSC_INTERN PetscErrorCode PCAMGFApplyProduct_AMGF(PC, Vec r, Vec z, Vec product);
 /* api.c, in addition to the public functions */
 PETSC_INTERN PetscErrorCode PCAMGFComposeFunctions_Private(PC, PetscBool attach);
 /* opts.c */

@@ -133,6 +133,7 @@ static const AMGFFunction functions[] = {
   AMGF_FUNCTION(PCAMGFSetFactor, AMGF),
   AMGF_FUNCTION(PCAMGFExpect, AMGF),
   AMGF_FUNCTION(PCAMGFGetFactored, AMGF),
+  AMGF_FUNCTION(PCAMGFApplyProduct, AMGF),
 };
 
 /* Composes the implementations of the public functions with the PC, or removes them if `attach` is false */

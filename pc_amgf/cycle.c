@@ -222,3 +222,67 @@ PetscErrorCode PCApplyTranspose_AMGF(PC pc, Vec r, Vec z)
   if (PetscDefined(USE_COMPLEX)) PetscCall(VecDestroy(&conjugate));
   PetscFunctionReturn(0);
 }
+
+/* Finds the function by which the AMG computes B r and A B r at once; NULL if it has none, or belongs to another A */
+static PetscErrorCode CycleFindProduct(PC pc, PetscErrorCode (**apply)(PC, Vec, Vec, Vec))
+{
+  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+
+  PetscFunctionBegin;
+  *apply = NULL;
+  if (amgf->factor.on || !amgf->lag.built || amgf->lag.age || (amgf->active && amgf->sub.n)) PetscFunctionReturn(0);
+  PetscCall(PetscObjectQueryFunction((PetscObject)amgf->amg, "PCBlockAMGApplyProduct_C", apply));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCAMGFApplyProduct_AMGF(PC pc, Vec r, Vec z, Vec product)
+{
+  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+  PetscErrorCode (*apply)(PC, Vec, Vec, Vec);
+
+  PetscFunctionBegin;
+  PetscCall(CycleFindProduct(pc, &apply));
+  if (!apply) {
+    PetscCall(PCApply(pc, r, z));
+    PetscCall(MatMult(pc->mat, z, product));
+    PetscFunctionReturn(0);
+  }
+  amgf->counts.amg_applies++;
+  PetscCall(PetscLogEventBegin(PC_AMGF_AMGApply, pc, r, z, 0));
+  PetscCall((*apply)(amgf->amg, r, z, product));
+  PetscCall(PetscLogEventEnd(PC_AMGF_AMGApply, pc, r, z, 0));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  PCAMGFApplyProduct - Applies the preconditioner, and multiplies the result by the operator
+
+  Collective
+
+  Input Parameters:
++ pc - the preconditioner, of type `PCAMGF`, which is set up
+- r  - the vector to which it is applied
+
+  Output Parameters:
++ z       - the result
+- product - the operator times z
+
+  Level: advanced
+
+  Note:
+  `PCBLOCKAMG` without a subspace computes the product from its own entries of the operator, which have 16 bits. This
+  takes a fraction of the time of `MatMult()`. The difference r - product is accurate to 2 to 4 digits. This suffices
+  for a few steps of a Krylov method, but not for a residual that decides on convergence.
+
+.seealso: `PCAMGF`, `PCBLOCKAMG`, `PCApply()`
+@*/
+PetscErrorCode PCAMGFApplyProduct(PC pc, Vec r, Vec z, Vec product)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscValidHeaderSpecific(r, VEC_CLASSID, 2);
+  PetscValidHeaderSpecific(z, VEC_CLASSID, 3);
+  PetscValidHeaderSpecific(product, VEC_CLASSID, 4);
+  PetscUseMethod(pc, "PCAMGFApplyProduct_C", (PC, Vec, Vec, Vec), (pc, r, z, product));
+  PetscFunctionReturn(0);
+}

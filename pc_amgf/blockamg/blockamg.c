@@ -15,6 +15,7 @@ static PetscErrorCode PCReset_BlockAMG(PC pc)
 static PetscErrorCode PCDestroy_BlockAMG(PC pc)
 {
   PetscFunctionBegin;
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCBlockAMGApplyProduct_C", NULL));
   PetscCall(PCReset_BlockAMG(pc));
   PetscCall(PetscFree(pc->data));
   PetscFunctionReturn(0);
@@ -72,5 +73,6 @@ PetscErrorCode PCCreate_BlockAMG(PC pc)
   pc->ops->view           = PCView_BlockAMG;
   pc->ops->reset          = PCReset_BlockAMG;
   pc->ops->destroy        = PCDestroy_BlockAMG;
+  PetscCall(PetscObjectComposeFunction((PetscObject)pc, "PCBlockAMGApplyProduct_C", PCBlockAMGApplyProduct_BlockAMG));
   PetscFunctionReturn(0);
 }

@@ -112,6 +112,7 @@ typedef struct {
   BlockLevel *levels;
   BlockLevel  bottom; /* block vectors of the dense level, and positions of its unknowns */
   BlockDense  dense;  /* N = 0: there is no dense level, and the coarsest level is only smoothed */
+  float      *before; /* iterate of the finest level before the last sweep; NULL: never needed */
   double      scale;  /* power of 2 by which all matrices are divided, so that floats can represent their diagonals */
 } BlockHierarchy;
 
@@ -157,6 +158,7 @@ PETSC_INTERN PetscErrorCode BlockInterpolationDestroy_Private(BlockInterpolation
 /* sweep.c */
 PETSC_INTERN void BlockSweepDown_Private(const BlockLevel *);
 PETSC_INTERN void BlockSweepUp_Private(const BlockLevel *);
+PETSC_INTERN void BlockMultiplyLower_Private(const BlockLevel *, const float v[], float y[]);
 PETSC_INTERN void BlockRestrict_Private(const BlockLevel *, float coarse[]);
 PETSC_INTERN void BlockInterpolateAdd_Private(const BlockLevel *, const float coarse[]);
 PETSC_INTERN void BlockDenseMultiply_Private(int N, const float W[], const float b[], int first, int n, float x[]);
@@ -173,6 +175,7 @@ PETSC_INTERN PetscErrorCode BlockHierarchyIsFinite_Private(const BlockHierarchy 
 PETSC_INTERN PetscErrorCode BlockHierarchyDestroy_Private(BlockHierarchy **);
 /* cycle.c */
 PETSC_INTERN PetscErrorCode PCApply_BlockAMG(PC, Vec, Vec);
+PETSC_INTERN PetscErrorCode PCBlockAMGApplyProduct_BlockAMG(PC, Vec r, Vec z, Vec product);
 /* setup.c */
 PETSC_INTERN PetscErrorCode PCSetUp_BlockAMG(PC);
 /* view.c */

@@ -177,6 +177,7 @@ PetscErrorCode BlockHierarchyDestroy_Private(BlockHierarchy **h)
   if (!*h) PetscFunctionReturn(0);
   for (int i = 0; i < (*h)->nlevels; i++) PetscCall(BlockLevelDestroy_Private(&(*h)->levels[i]));
   PetscCall(PetscFree((*h)->levels));
+  PetscCall(PetscFree((*h)->before));
   PetscCall(BlockLevelDestroy_Private(&(*h)->bottom));
   PetscCall(BlockDenseDestroy_Private(&(*h)->dense));
   PetscCall(PetscFree(*h));

@@ -6,21 +6,17 @@
 #include "vec4.h"
 
 /*
-   Processes block row i of a sweep: x_i = W^T W (f - sum_j L_ij x_j), and then t_j += L_ij^T x_i. f: right-hand side of
-   the row. A row of L is a row of integers times its unit. step: 1 for a forward, -1 for a backward sweep. Blocks are
-   read in this direction, since processors prefetch memory that is read in one direction. For B = 3 the fourth entry of
-   x_i is zero and the fourth entry of t_j is unused.
+   Returns sum_j L_ij x_j for block row i. A row of L is a row of integers times its unit. step: 1 to read the blocks
+   upwards, -1 downwards
 */
-VEC4_INLINE void SweepRow(const BlockLevel *l, int i, Vec4 f, const int B, const int step)
+VEC4_INLINE Vec4 RowMultiply(const BlockLevel *l, int i, const float x[], const int B, const int step)
 {
   const int            k0 = l->ptr[i], k1 = l->ptr[i + 1], first = step > 0 ? k0 : k1 - 1, end = step > 0 ? k1 : k0 - 1;
-  const float *const   W   = l->W + 4 * B * (size_t)i;
-  const int16_t *const L   = l->L;
-  const int *const     col = l->col;
-  float *const x = l->x, *const t = l->t;
-  const Vec4 zero = Vec4Same(0.0f), unit = Vec4Load(l->unit + 4 * (size_t)i);
-  Vec4       a[4] = {zero, zero, zero, zero}, y = zero, xi;
-  Vec8       a02 = Vec8Join(zero, zero), a13 = a02, x02, x13;
+  const int16_t *const L    = l->L;
+  const int *const     col  = l->col;
+  const Vec4           zero = Vec4Same(0.0f);
+  Vec4                 a[4] = {zero, zero, zero, zero};
+  Vec8                 a02 = Vec8Join(zero, zero), a13 = a02;
 
   for (int k = first; k != end; k += step) {
     const Vec4 xj = Vec4Load(x + col[k]);
@@ -37,13 +33,32 @@ VEC4_INLINE void SweepRow(const BlockLevel *l, int i, Vec4 f, const int B, const
     a[1] = Vec8Low(a13);
     a[3] = Vec8High(a13);
   }
-  f = Vec4Subtract(f, Vec4Multiply(unit, Vec4Sums(a)));
+  return Vec4Multiply(Vec4Load(l->unit + 4 * (size_t)i), Vec4Sums(a));
+}
+
+/*
+   Processes block row i of a sweep: x_i = W^T W (f - sum_j L_ij x_j), and then t_j += L_ij^T x_i. f: right-hand side of
+   the row. step: 1 for a forward, -1 for a backward sweep. Blocks are read in this direction, since processors prefetch
+   memory that is read in one direction. For B = 3 the fourth entry of x_i is zero and the fourth entry of t_j is
+   unused.
+*/
+VEC4_INLINE void SweepRow(const BlockLevel *l, int i, Vec4 f, const int B, const int step)
+{
+  const int            k0 = l->ptr[i], k1 = l->ptr[i + 1];
+  const float *const   W   = l->W + 4 * B * (size_t)i;
+  const int16_t *const L   = l->L;
+  const int *const     col = l->col;
+  float *const x = l->x, *const t = l->t;
+  const Vec4 zero = Vec4Same(0.0f);
+  Vec4       a[4] = {zero, zero, zero, zero}, y = zero, xi;
+  Vec8       x02, x13;
+
+  f = Vec4Subtract(f, RowMultiply(l, i, x, B, step));
   for (int c = 0; c < B; c++) y = Vec4MultiplyAdd(y, Vec4Load(W + 4 * c), Vec4Same(Vec4Get(f, c)));
   for (int c = 0; c < B; c++) a[c] = Vec4Multiply(Vec4Load(W + 4 * c), y);
-  if (B == 3) a[3] = zero;
   xi = Vec4Sums(a);
   Vec4Store(x + 4 * (size_t)i, xi);
-  xi  = Vec4Multiply(unit, xi);
+  xi  = Vec4Multiply(Vec4Load(l->unit + 4 * (size_t)i), xi);
   x02 = Vec8Join(Vec4Same(Vec4Get(xi, 0)), Vec4Same(Vec4Get(xi, 2)));
   x13 = Vec8Join(Vec4Same(Vec4Get(xi, 1)), Vec4Same(Vec4Get(xi, 3)));
   for (int k = k0; k < k1; k++) { /* the second pass reads the row from the cache */
@@ -94,6 +109,25 @@ void BlockSweepUp_Private(const BlockLevel *l)
   if (l->nb) memset(l->t, 0, 4 * sizeof(float) * (size_t)l->nb);
   if (l->B == 3) SweepUp3(l);
   else SweepUp4(l);
+}
+
+AMGF_CLONES static void MultiplyLower3(const BlockLevel *l, const float v[], float y[])
+{
+  for (int i = 0; i < l->nb; i++)
+    Vec4Store(y + 4 * (size_t)i, Vec4Add(Vec4Load(y + 4 * (size_t)i), RowMultiply(l, i, v, 3, 1)));
+}
+
+AMGF_CLONES static void MultiplyLower4(const BlockLevel *l, const float v[], float y[])
+{
+  for (int i = 0; i < l->nb; i++)
+    Vec4Store(y + 4 * (size_t)i, Vec4Add(Vec4Load(y + 4 * (size_t)i), RowMultiply(l, i, v, 4, 1)));
+}
+
+/* BlockMultiplyLower_Private - computes y += L v */
+void BlockMultiplyLower_Private(const BlockLevel *l, const float v[], float y[])
+{
+  if (l->B == 3) MultiplyLower3(l, v, y);
+  else MultiplyLower4(l, v, y);
 }
 
 /* BlockRestrict_Private - subtracts P^T t from coarse, including the ghosts of coarse */

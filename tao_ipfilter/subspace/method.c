@@ -337,10 +337,10 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
 }
 
 /*
-   Estimates, every eight applications of the preconditioner, how many more are needed, and lets
+   Estimates, after at least eight more applications of the preconditioner, how many more are needed, and lets
    IPRecycleReconsider() choose between AMG and a factorization. The estimate divides the decimal digits of the
    KKT error that are still to be gained by the digits gained per application. These are counted since the beginning, or
-   in the last eight applications if that was faster: convergence is slow until the active set settles. Before the first
+   since the last estimate if that was faster: convergence is slow until the active set settles. Before the first
    digit is gained these rates are meaningless; the estimate is then twice the number of applications so far.
 */
 static PetscErrorCode FilteredReconsider(Tao tao, IPRecycle *recycle, PetscBool *possible)
@@ -353,12 +353,16 @@ static PetscErrorCode FilteredReconsider(Tao tao, IPRecycle *recycle, PetscBool 
 
   PetscFunctionBegin;
   *possible = PETSC_TRUE;
-  if (n == 0) f->begin = f->considered = error;
-  if (n == 0 || n % every) PetscFunctionReturn(0);
-  gained        = PetscLog10Real(f->begin / error);
-  rate          = PetscMax(gained / n, PetscLog10Real(f->considered / error) / every);
-  left          = gained < least ? 2.0 * n : PetscLog10Real(PetscMax(error / ip->tol, 1.0)) / rate;
-  f->considered = error;
+  if (n == 0) {
+    f->begin = f->considered = error;
+    f->nconsidered           = 0;
+  }
+  if (n - f->nconsidered < every) PetscFunctionReturn(0);
+  gained         = PetscLog10Real(f->begin / error);
+  rate           = PetscMax(gained / n, PetscLog10Real(f->considered / error) / (n - f->nconsidered));
+  left           = gained < least ? 2.0 * n : PetscLog10Real(PetscMax(error / ip->tol, 1.0)) / rate;
+  f->considered  = error;
+  f->nconsidered = n;
   PetscCall(IPRecycleReconsider(tao, recycle, left, possible));
   PetscFunctionReturn(0);
 }

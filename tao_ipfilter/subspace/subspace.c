@@ -156,26 +156,6 @@ PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* Computes d = B r for a residual r that is zero on W. *definite: false if r^T B r is not positive. */
-static PetscErrorCode FilteredApplyPC(Tao tao, PC pc, Vec r, Vec d, PetscBool *definite)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscScalar   rd;
-
-  PetscFunctionBegin;
-  PetscCall(PetscLogEventBegin(TAO_IPFilterApply, tao, r, d, NULL));
-  PetscCall(PCApply(pc, r, d));
-  PetscCall(PetscLogEventEnd(TAO_IPFilterApply, tao, r, d, NULL));
-  PetscCall(IPFixedZero(tao, d));
-  PetscCall(VecDot(r, d, &rd));
-  *definite = (PetscBool)(PetscRealPart(rd) > 0.0 && !PetscIsInfOrNanReal(PetscRealPart(rd)));
-  ip->rec->napplications++;
-  ip->rec->ksp_iterations[ip->rec->nksp - 1]++;
-  tao->ksp_its++;
-  tao->ksp_tot_its++;
-  PetscFunctionReturn(0);
-}
-
 /*
    Reduces the number of directions. The newest remain. The others are replaced by those combinations that are coupled
    to W most, since these are most useful for other constraints and gaps. The reduced problem must then be centred at
@@ -195,52 +175,6 @@ PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
   PetscCall(PetscLogEventEnd(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
   PetscCall(PetscFree(E));
   PetscCall(IPReducedForget(f->reduced, basis));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Finds whether K is singular up to rounding, or negative, along a preconditioned residual d. Together with the
-   constraints K may still be positive, for example for bodies under pressure that are held by contact only. Newton's
-   method without norm terms shifts a negative K instead; *singular is then false.
-*/
-static PetscErrorCode FilteredIsSingular(Tao tao, Vec d, PetscBool *singular, PetscBool *negative)
-{
-  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscReal rounding = 1e-11;
-  PetscScalar     energy, size;
-  Vec             Kd;
-
-  PetscFunctionBegin;
-  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Kd));
-  PetscCall(MatMult(ip->hess->H, d, Kd));
-  PetscCall(VecDot(d, Kd, &energy));
-  PetscCall(VecPointwiseMult(Kd, d, ip->stiff->hdiag));
-  PetscCall(VecDot(d, Kd, &size));
-  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Kd));
-  *singular = (PetscBool) !(PetscRealPart(energy) > rounding * PetscRealPart(size));
-  *negative = (PetscBool)(PetscRealPart(energy) < -rounding * PetscRealPart(size));
-  if (*negative && IPFilteredOf(tao)->newton && !ip->terms->n) *singular = PETSC_FALSE;
-  PetscFunctionReturn(0);
-}
-
-/*
-   Computes d = B r. If K alone is singular along d, B is set up again with the constraints. This is checked once per
-   solve, and whenever B fails.
-*/
-static PetscErrorCode FilteredPrecondition(Tao tao, IPRecycle *recycle, Vec r, Vec d, PetscBool *definite)
-{
-  TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
-  PetscBool     singular = PETSC_FALSE, negative = PETSC_FALSE;
-
-  PetscFunctionBegin;
-  PetscCall(FilteredApplyPC(tao, recycle->pc, r, d, definite));
-  recycle->ncurrent++;
-  if (recycle->held || (*definite && ip->rec->napplications > 1)) PetscFunctionReturn(0);
-  PetscCall(FilteredIsSingular(tao, d, &singular, &negative));
-  if (!singular) PetscFunctionReturn(0);
-  PetscCall(IPRecycleHold(tao, recycle, definite));
-  recycle->negative = negative;
-  if (*definite) PetscCall(FilteredApplyPC(tao, recycle->pc, r, d, definite));
   PetscFunctionReturn(0);
 }
 
@@ -276,7 +210,7 @@ PetscErrorCode IPFilteredExtend(Tao tao, IPRecycle *recycle, Vec r, PetscBool *e
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &d));
-  PetscCall(FilteredPrecondition(tao, recycle, r, d, extended));
+  PetscCall(IPFilteredPrecondition(tao, recycle, r, d, extended));
   PetscCall(VecISSet(d, f->W, 0.0));
   if (*extended) {
     PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, d, NULL, NULL));

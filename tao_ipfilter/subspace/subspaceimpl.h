@@ -189,6 +189,7 @@ typedef struct {
   PetscReal      halved;              /* KKT error when it was last halved */
   PetscReal      begin, considered;   /* KKT error after the first reduced problem, and when the preconditioner was
                                          last reconsidered */
+  PetscInt       nconsidered;         /* number of applications of the preconditioner when it was last reconsidered */
   PetscReal      residual, promised;  /* Newton's method: residual before the last step, 0: none; and of its model */
 } IPFiltered;
 
@@ -272,6 +273,9 @@ PETSC_INTERN PetscErrorCode IPRecycleCondense(Tao, Vec D, Vec Dt, Mat *A);
 PETSC_INTERN PetscErrorCode IPRecycleHold(Tao, IPRecycle *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPRecycleReconsider(Tao, IPRecycle *, PetscReal left, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPRecycleUpdate(Tao, IPRecycle *, PetscBool *possible);
+
+/* precondition.c */
+PETSC_INTERN PetscErrorCode IPFilteredPrecondition(Tao, IPRecycle *, Vec r, Vec d, PetscBool *definite);
 
 /* subspace.c */
 PETSC_INTERN PetscErrorCode IPFilteredTakeAll(Tao, IS *W);

@@ -123,6 +123,37 @@ static PetscErrorCode CheckSymmetry(KSP ksp, Mat A)
   PetscFunctionReturn(0);
 }
 
+/* The product that comes with B r: the same B r, and A B r to a hundredth of the residual r - A B r */
+static PetscErrorCode CheckProduct(KSP ksp, Mat A)
+{
+  PC        pc;
+  Vec       r, z, product, Az;
+  PetscReal difference, left;
+
+  PetscFunctionBeginUser;
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(MatCreateVecs(A, &r, &z));
+  PetscCall(MatCreateVecs(A, &product, &Az));
+  PetscCall(FillVector(r, 0.9));
+  PetscUseMethod(pc, "PCBlockAMGApplyProduct_C", (PC, Vec, Vec, Vec), (pc, r, z, product));
+  PetscCall(PCApply(pc, r, Az));
+  PetscCall(RelativeDifference(Az, z, &difference));
+  if (difference != 0.0) PetscCall(PetscPrintf(PetscObjectComm((PetscObject)A), "    another B r with a product\n"));
+  PetscCall(MatMult(A, z, Az));
+  PetscCall(VecAXPY(product, -1.0, Az));
+  PetscCall(VecAXPY(r, -1.0, Az));
+  PetscCall(VecNorm(product, NORM_2, &difference));
+  PetscCall(VecNorm(r, NORM_2, &left));
+  if (!(difference <= 1e-2 * left))
+    PetscCall(PetscPrintf(PetscObjectComm((PetscObject)A), "    product wrong by %g of the residual\n",
+      (double)(difference / left)));
+  PetscCall(VecDestroy(&r));
+  PetscCall(VecDestroy(&z));
+  PetscCall(VecDestroy(&product));
+  PetscCall(VecDestroy(&Az));
+  PetscFunctionReturn(0);
+}
+
 /* Iterations within a tenth, and two more, of hypre's; in parallel within a third */
 static PetscErrorCode CheckCounts(MPI_Comm comm, const char what[], PetscInt ours, PetscInt theirs)
 {
@@ -155,6 +186,7 @@ static PetscErrorCode CheckMatrix(MatType type, PetscInt n, PetscInt bs)
       PetscPrintf(comm, "    the set-up marks the matrix as changed, so that every application sets up again\n"));
   PetscCall(Solve(A, PCHYPRE, 1.0, &hypre, &its[1]));
   PetscCall(CheckCounts(comm, "counts", its[0], its[1]));
+  PetscCall(CheckProduct(ksp, A));
   PetscCall(CheckSymmetry(ksp, A));
   /* new values, in other units: set up again */
   for (PetscReal unit = 1e-14; unit < 1e15; unit *= 1e28) {
