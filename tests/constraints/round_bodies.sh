@@ -31,8 +31,12 @@ done
 # A pin that joins two plates, and can turn. Its linearized facets let it turn far, unless a proximal term resists.
 cat > lap.yaml <<'END'
 bodies:
-  - plate1: {shape: holed_box, axis: z, lower: [-20, -10, 0], upper: [15, 10, 4], radius: 5.05, cells: [6, 4, 2], young: 2.1e5, poisson: 0.3}
-  - plate2: {shape: holed_box, axis: z, lower: [-15, -10, 4], upper: [20, 10, 8], radius: 5.05, cells: [6, 4, 2], young: 2.1e5, poisson: 0.3}
+  - plate1:
+      {shape: holed_box, axis: z, lower: [-20, -10, 0], upper: [15, 10, 4], radius: 5.05, cells: [6, 4, 2], young: 2.1e5,
+       poisson: 0.3}
+  - plate2:
+      {shape: holed_box, axis: z, lower: [-15, -10, 4], upper: [20, 10, 8], radius: 5.05, cells: [6, 4, 2],
+       young: 2.1e5, poisson: 0.3}
   - pin: {shape: cylinder, axis: z, radius: 5, extent: [0, 8], cells: [5, 3, 4], young: 2.1e5, poisson: 0.3}
 displacements:
   - hold: {face: plate1.xmin, value: [0, 0, 0]}

@@ -8,8 +8,8 @@
 
      Bodies on weak springs get a stiffer term if contact updates moved them far. A linearized gap does not resist
      rotations that the true gap resists, such as that of a pin in a hole. At finite strain and between curved faces
-     these bodies get the term from the start, and in a quadratic problem if a body can turn about its axis. The centre is the displacement at which the gap is linearized, so that
-     the term vanishes as the contact updates converge.
+     these bodies get the term from the start, and in a quadratic problem if a body can turn about its axis. The centre
+     is the displacement at which the gap is linearized, so that the term vanishes as the contact updates converge.
 */
 #include "problemimpl.h"
 #include <vector3.h>
