@@ -423,7 +423,7 @@ static PetscErrorCode EquilibriumReport(const FreeMotions *m, const ContactCone 
   PetscCall(VecDuplicate(m->x, &w));
   PetscCall(FreeMotionsDisplace(m, ConeDot(m->n, motion, motion) > 1e-6 * whole ? motion : left, w));
   if (frictional) PetscCall(ReportReason(report, PETSC_FALSE, "friction does not hold the bodies"));
-  PetscCall(RigidMotionReport(m->sim, w, "nothing stops it", report));
+  PetscCall(RigidMotionReport(m->sim, w, "nothing stops it", NULL, report));
   PetscCall(VecDestroy(&w));
   PetscCall(PetscFree(motion));
   PetscFunctionReturn(0);

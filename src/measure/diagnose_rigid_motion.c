@@ -115,20 +115,23 @@ static PetscReal RigidFitRound(PetscReal x, PetscReal unit)
    translates, and only the distance if it deforms by more than a tenth of its motion. distance: largest displacement
    [length]
 */
-static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, char text[], size_t length)
+static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, char text[], size_t length,
+  PetscBool *turns)
 {
   const PetscReal part = 0.1; /* smallest relative part of a motion that is mentioned */
   PetscReal       axis[3], arm, radius, size;
   RigidFit        fit;
 
   PetscFunctionBegin;
+  *turns = PETSC_FALSE;
   RigidFitFit(sums, &fit);
   if (PetscIsInfOrNanReal(fit.residual) || fit.residual > part) {
     PetscCall(PetscSNPrintf(text, length, "moves the farthest, by %g", (double)distance));
     PetscFunctionReturn(0);
   }
-  size = VectorNorm(fit.w);
-  if (fit.turned > part * VectorNorm(fit.t)) {
+  size   = VectorNorm(fit.w);
+  *turns = (PetscBool)(fit.turned > part * VectorNorm(fit.t));
+  if (*turns) {
     radius = fit.turned / size;
     VectorCross(fit.w, fit.t, axis);
     for (PetscInt i = 0; i < 3; ++i) {
@@ -149,21 +152,22 @@ static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, c
 
 /*
    Appends a description of the body with the largest displacement, and the text `known`, to the reason of a failed
-   step. Collective.
+   step; and the text `turning`, if it is not NULL and the body turns over. Collective.
 */
-PetscErrorCode RigidMotionReport(Simulation sim, Vec u, const char known[], StepReport *report)
+PetscErrorCode RigidMotionReport(Simulation sim, Vec u, const char known[], const char turning[], StepReport *report)
 {
   RigidFitSums sums;
   PetscReal    distance = 0.0;
   PetscInt     body     = 0;
-  char         motion[256], reason[512];
+  char         motion[256], reason[640];
+  PetscBool    turns;
 
   PetscFunctionBegin;
   PetscCall(RigidFitFindFarthest(sim, u, &body, &distance));
   PetscCall(RigidFitSum(sim, u, body, &sums));
-  PetscCall(RigidFitDescribe(&sums, distance, motion, sizeof(motion)));
-  PetscCall(PetscSNPrintf(reason, sizeof(reason), "%s; body \"%s\" %s: %s", report->reason,
-    sim->scene->bodies[body].name, motion, known));
+  PetscCall(RigidFitDescribe(&sums, distance, motion, sizeof(motion), &turns));
+  PetscCall(PetscSNPrintf(reason, sizeof(reason), "%s; body \"%s\" %s: %s%s", report->reason,
+    sim->scene->bodies[body].name, motion, known, turns && turning ? turning : ""));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }

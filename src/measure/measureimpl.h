@@ -18,7 +18,8 @@ PETSC_INTERN PetscErrorCode FrictionSettle(Simulation, PetscReal time, Vec u, co
 PETSC_INTERN PetscErrorCode FrictionRecall(Simulation);
 
 /* diagnose_rigid_motion.c */
-PETSC_INTERN PetscErrorCode RigidMotionReport(Simulation, Vec u, const char known[], StepReport *);
+PETSC_INTERN PetscErrorCode RigidMotionReport(Simulation, Vec u, const char known[], const char turning[],
+  StepReport *);
 
 /* free_motions.c: rigid motions of all bodies that no prescribed displacement, spring or tie resists */
 typedef struct {

@@ -45,6 +45,11 @@ else:
         run = load(f"mortar_6_{push}")
         say(f"mortar, 6 cells, {push / 1000}: nobody says that a block tips that stands", run["converged"]
             or "nothing stops it" not in run["reason"], run["reason"])
+    say(
+        "mortar, 6 cells, 0.495: the advice",
+        load("mortar_6_495")["reason"].endswith(
+            "it does not come to rest; if it should stand near the edge of a face, use gap: dual"),
+        load("mortar_6_495")["reason"])
     say("mortar, 6 cells, 0.505: the sentence", "nothing stops it" in load("mortar_6_505")["reason"],
         load("mortar_6_505")["reason"])
     truth, dual = (load(name)["steps"][-1] for name in ("cylinder", "cylinder_dual"))

@@ -183,9 +183,10 @@ else:
     for name in "sticks_7", "slides_7":
         steps = load(name)["steps"]
         first, last = steps[0]["pairs"][0], [step["pairs"][0] for step in steps[1:]]
-        say(f"{name}: normal and shear forces as before the turn in each of seven load steps, to 1e-3",
-            len(last) == 7 and all(
-                within(pair[key], first[key], 1e-3) for pair in last for key in ("normal_force", "shear_force")),
+        say(
+            f"{name}: normal and shear forces as before the turn in each of seven load steps, to 1e-3",
+            len(last) == 7
+            and all(within(pair[key], first[key], 1e-3) for pair in last for key in ("normal_force", "shear_force")),
             [(pair["normal_force"], pair["shear_force"]) for pair in (first, *last)])
         say(f"{name}: no energy is lost", all(within(step["energy"], steps[0]["energy"], 1e-4) for step in steps),
             [step["energy"] for step in steps])

@@ -444,13 +444,17 @@ PetscErrorCode ProximalMeasure(StepProblem *p, Vec u, PetscReal *fraction)
 */
 static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepReport *report)
 {
-  Vec increment;
+  const Scene scene  = p->sim->scene;
+  PetscBool   mortar = PETSC_FALSE;
+  Vec         increment;
 
   PetscFunctionBegin;
+  for (PetscInt k = 0; k < scene->npairs; ++k) mortar = (PetscBool)(mortar || scene->pairs[k].gap == GAP_MORTAR);
   PetscCall(VecDuplicate(u, &increment));
   PetscCall(VecWAXPY(increment, -1.0, p->centre, u));
   PetscCall(ReportReason(report, PETSC_FALSE, "no equilibrium was found in which friction holds the bodies"));
-  PetscCall(RigidMotionReport(p->sim, increment, "it does not come to rest", report));
+  PetscCall(RigidMotionReport(p->sim, increment, "it does not come to rest",
+    mortar ? "; if it should stand near the edge of a face, use gap: dual" : NULL, report));
   PetscCall(VecDestroy(&increment));
   p->moves_on = PETSC_TRUE;
   PetscFunctionReturn(0);
