@@ -7,6 +7,7 @@
    if the preconditioner is good. Only a direction that almost depends on the others is made K-orthogonal to them.
 */
 #include "subspaceimpl.h"
+#include <math.h>
 #include <petscblaslapack.h>
 
 /* Creates an empty basis with room for max directions. like: a vector of the unknowns */
@@ -343,6 +344,35 @@ static PetscErrorCode BasisRotation(const IPBasis *b, PetscInt n, PetscReal E[],
 }
 
 /*
+   Scales the stored entries of the first k directions so that the largest is between 1/2 and 1. Combinations are scaled
+   by a bound of their entries, which may be far too large: after many combinations entries would be too small for
+   single precision. Factors are powers of 2, so that nothing is rounded.
+*/
+static PetscErrorCode BasisNormalize(IPBasis *b, PetscInt k)
+{
+  PetscReal *largest;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(k, &largest));
+  for (PetscInt c = 0; c < k; c++) {
+    for (PetscInt i = 0; i < b->nlocal; i++) largest[c] = PetscMax(largest[c], PetscAbsReal(b->p[c][i]));
+  }
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, largest, (PetscMPIInt)k, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)b->d)));
+  for (PetscInt c = 0; c < k; c++) {
+    int   exponent;
+    float factor;
+
+    frexp(largest[c], &exponent);
+    factor = (float)ldexp(1.0, -exponent);
+    for (PetscInt i = 0; i < b->nlocal; i++) b->p[c][i] *= factor;
+    b->size[c] /= factor;
+  }
+  PetscCall(PetscFree(largest));
+  PetscFunctionReturn(0);
+}
+
+/*
    Replaces the first k of n directions by their combinations with the columns of T (length n). The vectors are
    processed in blocks of entries to save memory.
 */
@@ -371,6 +401,7 @@ static PetscErrorCode BasisCombine(IPBasis *b, PetscInt n, PetscInt k, const Pet
   }
   PetscCall(PetscArraycpy(b->size, size, k));
   PetscCall(PetscFree4(size, factor, row, part));
+  PetscCall(BasisNormalize(b, k));
   PetscFunctionReturn(0);
 }
 
