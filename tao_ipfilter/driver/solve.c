@@ -159,10 +159,15 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   PetscFunctionReturn(0);
 }
 
-/* Returns whether constraints are violated by more than the last iterations of a solve leave */
+/*
+   Returns whether constraints are violated by more than the last iterations of a solve leave, relative to all
+   constraints or to the terms of one
+*/
 static PetscBool StillViolated(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(ip->kkt->primal > PetscMax(100.0 * ip->tol, 1e-6));
+  const PetscReal limit = PetscMax(100.0 * ip->tol, 1e-6);
+
+  return (PetscBool)(ip->kkt->primal > limit || ip->kkt->own > limit);
 }
 
 /*
@@ -178,7 +183,7 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
   PetscBool       ok = PETSC_FALSE, infeasible = PETSC_FALSE, relaxed;
 
   PetscFunctionBegin;
-  if (IPAcceptable(ip) && IPConstraintsMet(tao)) {
+  if (IPAcceptable(ip) && IPConstraintsMet(tao) && !(solved && ip->bar->free)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: no step reduces the KKT error %g further; the tolerance is %g", (double)IPBothErrors(ip),
       (double)ip->tol));

@@ -11,6 +11,7 @@
 #include "tao_ipfilter/solver/barrier.h"
 #include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/factors.h"
+#include "tao_ipfilter/solver/kkt.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/relaxation.h"
@@ -480,8 +481,8 @@ PetscErrorCode IPRestore(Tao tao, PetscBool *ok, PetscBool *infeasible)
                                                  values. */
   PetscCall(RestoreIterate(tao, theta0, &psi, ok, &stuck, &least));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &ip->restore->D));
-  *infeasible =
-    (PetscBool)(!*ok && stuck && least <= IP_RESTORE_SMALL && PetscSqrtReal(2.0 * psi) > 1e-6 * ip->search->theta_ref);
+  *infeasible = (PetscBool)(!*ok && stuck && least <= IP_RESTORE_SMALL &&
+                            (PetscSqrtReal(2.0 * psi) > 1e-6 * ip->search->theta_ref || ip->kkt->own > 1e-6));
   PetscCall(IPBoundsCenter(tao));
   if (*ok) PetscCall(RestoreLeave(tao));
   PetscFunctionReturn(0);

@@ -57,6 +57,9 @@ static const Case cases[] = {
   {{"start of 1e6, rows out of reach", "(x1-1)^4+(x2-2)^2", "1e8+x1; 1e10-x2", "", "", "1e6 -1e6", 0.0, NLP_SOLVED,
      NULL},
     ""},
+  {{"curved valley beside rows out of reach", "(2.23-x1)^2+100*(x2-x1^2)^2+(x3+1.74)^4",
+     "5-x1-x2-x3; x1+1e10; 1e8-x2; x3+1e9", "", "", "922.96 78.447 355.66", 0.003769500270967, NLP_SOLVED, NULL},
+    ""},
   {{"rows in mixed units, slacks", "x1^2+x2^2+2*x3^2+x4^2-5*x1-5*x2-21*x3+7*x4", "",
      "1e6*(8-x1^2-x2^2-x3^2-x4^2-x1+x2-x3+x4)-x5; 10-x1^2-2*x2^2-x3^2-2*x4^2+x1+x4-x6; "
      "1e-6*(5-2*x1^2-x2^2-x3^2-2*x1+x2+x4)-x7",
@@ -174,6 +177,29 @@ static PetscErrorCode TestUnscaled(void)
   PetscFunctionReturn(0);
 }
 
+/* From a start far away the violation of an infeasible constraint is small beside the first one */
+static PetscErrorCode TestInfeasible(void)
+{
+  const char *rows[] = {"-0.1-x1^2-1.689*x2^2", "-10-x1^2-1.779*x2^2", "-0.01-x1^2-1.111*x2^2"};
+
+  PetscFunctionBeginUser;
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(rows); k++) {
+    const NLP          far = {"", "0", rows[k], "", "", "1e4 1e4", 0.0, NLP_SOLVED, NULL};
+    const char        *sentence;
+    TaoConvergedReason reason;
+    FormulasProblem    problem;
+
+    PetscCall(FormulasCreate(PETSC_COMM_WORLD, &far, &problem));
+    PetscCall(TaoSolve(problem.tao));
+    PetscCall(TaoGetConvergedReason(problem.tao, &reason));
+    PetscCall(TaoIPFilterGetReason(problem.tao, &sentence));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "infeasible row %s, from afar: %s\n", rows[k],
+      reason < 0 && strstr(sentence, "infeasible") ? "said to be infeasible" : sentence));
+    PetscCall(FormulasDestroy(&problem));
+  }
+  PetscFunctionReturn(0);
+}
+
 /* A cold start begins with the barrier parameter of the option, with rows or without */
 static PetscErrorCode TestFirstBarrier(void)
 {
@@ -205,6 +231,7 @@ int main(int argc, char **argv)
   PetscCall(PetscAMGFInitializePackage());
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(cases); k++) PetscCall(RunCase(&cases[k]));
   PetscCall(TestRelaxedUnits());
+  PetscCall(TestInfeasible());
   PetscCall(TestUnscaled());
   PetscCall(TestFirstBarrier());
   PetscCall(PetscFinalize());
