@@ -31,13 +31,14 @@ PetscErrorCode FrictionGetCoefficient(Scene scene, PetscReal time, PetscInt whic
 /*
    Computes the present friction forces of one pair at the owned vertices of both sides (force), and the energy that
    they have dissipated since the last state (work). The latter is minus the work of the mean of the forces at the last
-   and the present state.
+   and the present state; in the impact scheme, minus that of the present forces, which act during the whole step.
 */
 static PetscErrorCode FrictionPairWork(Simulation sim, Vec increment[2], const ContactSolution *sol, PetscInt pair,
   Vec force, PetscReal work[])
 {
   const ContactHistory *m      = sim->history;
   const PetscReal      *before = &m->friction[3 * pair * m->nowned];
+  const PetscReal       part   = SchemeIsImpact(&sim->scene->dynamics) ? 1.0 : 0.5; /* as in WorkAdd() */
   const PetscScalar    *now, *a, *b;
 
   PetscFunctionBegin;
@@ -49,7 +50,7 @@ static PetscErrorCode FrictionPairWork(Simulation sim, Vec increment[2], const C
   for (PetscInt v = 0; v < m->nowned; ++v) {
     work[v] = 0.0;
     for (PetscInt i = 3 * v; i < 3 * v + 3; ++i)
-      work[v] -= 0.5 * (before[i] * PetscRealPart(a[i]) + PetscRealPart(now[i]) * PetscRealPart(b[i]));
+      work[v] -= (1.0 - part) * before[i] * PetscRealPart(a[i]) + part * PetscRealPart(now[i]) * PetscRealPart(b[i]);
   }
   PetscCall(VecRestoreArrayRead(increment[1], &b));
   PetscCall(VecRestoreArrayRead(increment[0], &a));

@@ -147,9 +147,9 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&increment[k]));
   report->work         = path->work;
   report->contact_work = path->contact_work;
-  if (!sim->history->frictional || SimulationIsDynamic(sim)) PetscFunctionReturn(0);
+  if (!sim->history->frictional) PetscFunctionReturn(0);
   report->normal_work = report->contact_work - report->dissipated;
-  if (!sim->scene->ntemperatures)
+  if (!sim->scene->ntemperatures && !SimulationIsDynamic(sim))
     PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken, relative * sim->stiffness * place * way,
       report));
   PetscFunctionReturn(0);
