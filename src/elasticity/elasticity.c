@@ -100,6 +100,28 @@ static PetscErrorCode ElasticitySetUpCells(Elasticity e)
   PetscFunctionReturn(0);
 }
 
+/*
+   Collective. Sets the stiffness of the rest of the dilatation (bbar.c) in hyperelastic bodies of order 2: the shear
+   modulus, so that cells do not lock, or the bulk modulus if that is smaller
+*/
+static PetscErrorCode ElasticitySetRest(Elasticity e)
+{
+  PetscInt *nnodes;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(e->nbodies, &nnodes));
+  PetscCall(MeshGetBodyNodes(e->dm, e->nbodies, nnodes));
+  for (PetscInt b = 0; b < e->nbodies; ++b) {
+    BodyMaterial *m = &e->bodies[b].material;
+
+    if (e->bodies[b].type != ELEMENT_BBAR || nnodes[b] <= 8 || !m->law->finite || MaterialYields(&e->bodies[b].given))
+      continue;
+    m->rest = PetscMin(m->moduli.bulk, m->moduli.mu);
+  }
+  PetscCall(PetscFree(nnodes));
+  PetscFunctionReturn(0);
+}
+
 /*@
   ElasticityCreate - Creates the elasticity of the bodies of a mesh, made of hexahedra and tetrahedra of order 1 and 2
 
@@ -161,6 +183,7 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
       "not the change of volume",
       b);
   }
+  PetscCall(ElasticitySetRest(e));
   PetscCall(ElasticityReadOptions(e));
   PetscCall(ElasticitySetUpCells(e));
   PetscCall(ElasticitySetUpKept(e));

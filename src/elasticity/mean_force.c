@@ -31,10 +31,13 @@ static PetscBool MeanEvaluate(const BodyMaterial *m, PetscInt q, const PetscReal
   MaterialModuli        own;
   const MaterialModuli *moduli = CellModuli(&m->isochoric, q, &own);
 
+  PetscReal theta;
+
   *energy = m->law->energy(moduli, H) + 0.5 * m->moduli.bulk * H[9] * H[9];
   if (!m->law->stress(moduli, H, P)) return PETSC_FALSE;
-  (void)m->law->dilatation(H, C);
-  for (int i = 0; i < 9; ++i) P[i] += m->moduli.bulk * H[9] * C[i];
+  theta = m->law->dilatation(H, C);
+  *energy += 0.5 * m->rest * (theta * theta - H[9] * H[9]);
+  for (int i = 0; i < 9; ++i) P[i] += (m->moduli.bulk * H[9] + m->rest * (theta - H[9])) * C[i];
   return PETSC_TRUE;
 }
 

@@ -5,6 +5,9 @@
    Theta = sum_k Theta_k p_k with polynomials p_k that are orthogonal on the cell, Theta_k = int p_k theta / int p_k^2,
    and g_k = int p_k dtheta/du. For small strain this is B-bar. For laws with theta = J - 1 it is F-bar: W is evaluated
    at F (1 + Theta)^(1/3)/J^(1/3). Force and stiffness are derivatives of E, so that the stiffness is symmetric.
+   In hyperelastic cells of order 2 the rest theta - Theta has the energy m->rest/2 int (theta - Theta)^2, which is
+   m->rest/2 (int theta^2 - int Theta^2). Without it a local change of volume has no stiffness, and cells that are
+   compressed by some tens of per cent deform into patterns.
    References: Nagtegaal, Parks and Rice, On numerically accurate finite element solutions in the fully plastic range,
    1974. Hughes, Generalization of selective integration procedures to anisotropic and nonlinear media, 1980. Simo,
    Taylor and Pister, Variational and projection methods for the volume constraint in finite deformation
@@ -90,6 +93,16 @@ static PetscReal DilatationAt(const Dilatation *d, PetscInt q)
   return theta;
 }
 
+/* Returns the moduli of W_iso at a point, with m->rest as bulk modulus */
+static const MaterialModuli *BbarModuli(const BodyMaterial *m, PetscInt q, MaterialModuli *own)
+{
+  if (!(m->rest > 0)) return CellModuli(&m->isochoric, q, own);
+  *own        = m->isochoric;
+  own->bulk   = m->rest;
+  own->lambda = m->isochoric.lambda + m->rest;
+  return own;
+}
+
 static PetscReal ElementEnergy_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES])
 {
@@ -98,9 +111,10 @@ static PetscReal ElementEnergy_Bbar(const CellBasis *basis, const BodyMaterial *
   MaterialModuli own;
 
   ElementDilatation(basis, m, X, U, &d);
-  for (int k = 0; k < d.npolynomials; ++k) sum += 0.5 * m->moduli.bulk * d.square[k] * d.mean[k] * d.mean[k];
+  for (int k = 0; k < d.npolynomials; ++k)
+    sum += 0.5 * (m->moduli.bulk - m->rest) * d.square[k] * d.mean[k] * d.mean[k];
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    const PetscReal density = m->law->energy(CellModuli(&m->isochoric, q, &own), d.H[q]);
+    const PetscReal density = m->law->energy(BbarModuli(m, q, &own), d.H[q]);
 
     if (density >= PETSC_INFINITY) return PETSC_INFINITY;
     sum += d.w[q] * density;
@@ -117,11 +131,11 @@ static inline PetscBool BbarForce(const int n, const CellBasis *basis, const Bod
   for (int i = 0; i < 3; ++i) {
     for (int a = 0; a < n; ++a) F[i][a] = 0;
     for (int k = 0; k < d->npolynomials; ++k) {
-      for (int a = 0; a < n; ++a) F[i][a] += m->moduli.bulk * d->mean[k] * d->g[k][i][a];
+      for (int a = 0; a < n; ++a) F[i][a] += (m->moduli.bulk - m->rest) * d->mean[k] * d->g[k][i][a];
     }
   }
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    if (!m->law->stress(CellModuli(&m->isochoric, q, &own), d->H[q], P)) return PETSC_FALSE;
+    if (!m->law->stress(BbarModuli(m, q, &own), d->H[q], P)) return PETSC_FALSE;
     CellForceAdd(n, d->w[q], d->G[q], P, F);
   }
   return PETSC_TRUE;
@@ -153,8 +167,8 @@ static PetscBool ElementStiffnessPoints_Bbar(const CellBasis *basis, const BodyM
 
   CellSumsClear(basis->nnodes, &S);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    if (!m->law->tangent(CellModuli(&m->isochoric, q, &own), d->H[q], A)) return PETSC_FALSE;
-    if (m->law->curvature) m->law->curvature(m->moduli.bulk * DilatationAt(d, q), d->H[q], A);
+    if (!m->law->tangent(BbarModuli(m, q, &own), d->H[q], A)) return PETSC_FALSE;
+    if (m->law->curvature) m->law->curvature((m->moduli.bulk - m->rest) * DilatationAt(d, q), d->H[q], A);
     CellStiffnessAdd(basis, d->w[q], d->G[q], A, &S);
   }
   CellStiffnessFinish(basis, &S, K);
@@ -179,7 +193,8 @@ static PetscBool ElementStiffness_Bbar(const CellBasis *basis, const BodyMateria
     if (!ElementStiffnessPoints_Bbar(basis, m, &d, K)) return PETSC_FALSE;
   }
   for (int k = 0; k < d.npolynomials; ++k) {
-    for (PetscInt r = 0; r < width; ++r) rank1[r] = PetscSqrtReal(m->moduli.bulk / d.square[k]) * d.g[k][r % 3][r / 3];
+    for (PetscInt r = 0; r < width; ++r)
+      rank1[r] = PetscSqrtReal((m->moduli.bulk - m->rest) / d.square[k]) * d.g[k][r % 3][r / 3];
     for (PetscInt r = 0; r < width; ++r) {
       for (PetscInt s = 0; s < width; ++s) K[width * r + s] += rank1[r] * rank1[s];
     }

@@ -112,6 +112,7 @@ typedef struct {
   const MaterialLaw *law;
   MaterialModuli     moduli, isochoric; /* moduli of the law; moduli of the law without its bulk modulus. If the law
                                            has a history, they refer to that of the cell's points. */
+  PetscReal          rest; /* bulk modulus of the part of the dilatation that bbar projects away [force/length^2] */
 } BodyMaterial;
 
 /*
