@@ -126,6 +126,7 @@ PETSC_EXTERN PetscErrorCode TaoIPFilterSolveActive(PetscContainer, Vec, Vec, Pet
   PetscBool *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetSolvesToCome(Tao, PetscInt);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetRounding(Tao, PetscReal);
+PETSC_EXTERN PetscErrorCode TaoIPFilterSetModes(Tao, Mat);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetInterrupt(Tao, PetscErrorCode (*)(void *, PetscBool *), void *);
 
 #endif

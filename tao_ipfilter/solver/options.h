@@ -35,6 +35,7 @@ struct _n_IPOptions {
 
 /* Data that the caller sets by TaoIPFilterSet...(); NULL: not set */
 struct _n_IPGiven {
+  Mat       modes;                   /* motions that the Hessian hardly resists; NULL: none */
   Vec       slack_mass, primal_mass; /* weights M_s of the slacks and M_u of the unknowns; NULL: all weights are 1 */
   Vec       warm_s, warm_z;          /* initial slacks and their multipliers */
   Vec       warm_y;                  /* initial multipliers of the equality constraints */

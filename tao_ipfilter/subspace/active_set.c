@@ -112,7 +112,7 @@ static PetscErrorCode ActiveSetFactorColumns(IPActiveSet *set, const IPReducedSy
 */
 static PetscErrorCode ActiveSetFactorAllDirections(IPActiveSet *set, const IPReducedSystem *s, PetscBool *factored)
 {
-  const PetscReal first = 1e-14, last = 1e-8, one = 1.0;
+  const PetscReal first = PetscMax(1e-14, set->least), last = PetscMax(1e-8, set->least), one = 1.0;
   PetscBLASInt    n, k, ld, info = 1;
 
   PetscFunctionBegin;
@@ -265,19 +265,20 @@ static void ActiveSetExchange(IPActiveSet *set, const IPReducedSystem *s, PetscB
 }
 
 /*
-   Solves the contact problem for lambda, gap and y, starting from the last active set. *steps: number of systems
-   solved. *solved: false if the active set keeps changing.
+   Exchanges rows until none is in the wrong set, starting from the last active set. *steps: increased by the number of
+   systems solved. *solved: false if the active set keeps changing.
 */
-PetscErrorCode IPActiveSetSolve(IPActiveSet *set, IPCompliance *c, const IPReducedSystem *s, PetscInt *steps,
+static PetscErrorCode ActiveSetExchangeAll(IPActiveSet *set, IPCompliance *c, const IPReducedSystem *s, PetscInt *steps,
   PetscBool *solved)
 {
   const PetscInt patience = 5, limit = 200;
   PetscInt       least = PETSC_MAX_INT, left = patience;
 
   PetscFunctionBegin;
-  for (*steps = 1; *steps <= limit; (*steps)++) {
+  for (PetscInt k = 0; k < limit; k++) {
     PetscInt misplaced = 0;
 
+    ++*steps;
     PetscCall(IPActiveSetSolveRows(set, c, s, solved));
     if (!*solved) PetscFunctionReturn(0);
     for (PetscInt i = 0; i < set->m; i++) misplaced += ActiveSetMisplaced(set, s, i);
@@ -287,5 +288,50 @@ PetscErrorCode IPActiveSetSolve(IPActiveSet *set, IPCompliance *c, const IPReduc
     ActiveSetExchange(set, s, (PetscBool)(left >= 0));
   }
   *solved = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/*
+   Solves with additional stiffness, which decreases to zero. Each problem starts from the last active set. Bodies that
+   almost nothing but constraints holds would otherwise move far if too few rows are active, which exchanges many rows.
+*/
+static PetscErrorCode ActiveSetSoften(IPActiveSet *set, IPCompliance *c, const IPReducedSystem *s, PetscInt *steps,
+  PetscBool *solved)
+{
+  const PetscReal first = 0.1, last = 1e-9;
+
+  PetscFunctionBegin;
+  *solved = PETSC_TRUE;
+  for (PetscReal least = first; *solved && least > last; least *= 0.1) {
+    set->least     = least;
+    set->nfactored = 0;
+    PetscCall(ActiveSetExchangeAll(set, c, s, steps, solved));
+  }
+  set->least     = 0.0;
+  set->nfactored = 0;
+  if (*solved) PetscCall(ActiveSetExchangeAll(set, c, s, steps, solved));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Solves the contact problem for lambda, gap and y, starting from the last active set. *steps: number of systems
+   solved. *solved: false if the active set keeps changing.
+*/
+PetscErrorCode IPActiveSetSolve(IPActiveSet *set, IPCompliance *c, const IPReducedSystem *s, PetscInt *steps,
+  PetscBool *solved)
+{
+  PetscBool *first;
+
+  PetscFunctionBegin;
+  *steps = 0;
+  PetscCall(PetscMalloc1(set->m, &first));
+  PetscCall(PetscArraycpy(first, set->active, set->m));
+  PetscCall(ActiveSetExchangeAll(set, c, s, steps, solved));
+  if (!*solved && s->soft) {
+    PetscCall(PetscArraycpy(set->active, first, set->m));
+    set->factored = PETSC_FALSE;
+    PetscCall(ActiveSetSoften(set, c, s, steps, solved));
+  }
+  PetscCall(PetscFree(first));
   PetscFunctionReturn(0);
 }

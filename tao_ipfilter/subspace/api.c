@@ -49,6 +49,17 @@ static PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao tao, PetscInt n)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode TaoIPFilterSetModes_IPFilter(Tao tao, Mat modes)
+{
+  IPGiven *given = ((TAO_IPFILTER *)tao->data)->given;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectReference((PetscObject)modes));
+  PetscCall(MatDestroy(&given->modes));
+  given->modes = modes;
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode TaoIPFilterSetInterrupt_IPFilter(Tao tao, PetscErrorCode (*interrupt)(void *, PetscBool *),
   void                                                    *ctx)
 {
@@ -64,6 +75,7 @@ static const AMGFFunction functions[] = {
   AMGF_FUNCTION(TaoIPFilterGetSubspace, IPFilter),
   AMGF_FUNCTION(TaoIPFilterSetSubspace, IPFilter),
   AMGF_FUNCTION(TaoIPFilterSetSolvesToCome, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetModes, IPFilter),
   AMGF_FUNCTION(TaoIPFilterSetInterrupt, IPFilter),
 };
 
@@ -162,6 +174,34 @@ PetscErrorCode TaoIPFilterSetSolvesToCome(Tao tao, PetscInt n)
   PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscValidLogicalCollectiveInt(tao, n, 2);
   PetscTryMethod(tao, "TaoIPFilterSetSolvesToCome_C", (Tao, PetscInt), (tao, n));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterSetModes - Sets motions that the Hessian hardly resists, such as rigid body modes of bodies on weak springs
+
+  Collective
+
+  Input Parameters:
++ tao   - the `TAOIPFILTER`
+- modes - matrix with one motion per column; `NULL`: none; referenced, not copied
+
+  Level: advanced
+
+  Notes:
+  Multigrid converges slowly for such motions. The filtered subspace method adds them to its search space, unless its
+  preconditioner is a factorization or the objective is not quadratic. The other methods ignore them.
+
+  Each motion takes a product with the Hessian and as much memory as a direction.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterSetSubspace()`, `MatSetNearNullSpace()`
+@*/
+PetscErrorCode TaoIPFilterSetModes(Tao tao, Mat modes)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  if (modes) PetscValidHeaderSpecific(modes, MAT_CLASSID, 2);
+  PetscTryMethod(tao, "TaoIPFilterSetModes_C", (Tao, Mat), (tao, modes));
   PetscFunctionReturn(0);
 }
 

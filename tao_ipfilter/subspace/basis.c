@@ -14,8 +14,9 @@
 PetscErrorCode IPBasisCreate(PetscInt max, Vec like, IPBasis *b)
 {
   PetscFunctionBegin;
-  b->n   = 0;
-  b->max = max;
+  b->n         = 0;
+  b->max       = max;
+  b->has_modes = PETSC_FALSE;
   b->generation++;
   PetscCall(VecGetLocalSize(like, &b->nlocal));
   PetscCall(PetscCalloc5(max, &b->p, max, &b->size, max, &b->q, max * max, &b->gram, max * max, &b->factor));
@@ -317,6 +318,21 @@ static PetscErrorCode BasisFactor(IPBasis *b)
   PetscFunctionReturn(0);
 }
 
+/* Removes the n oldest directions */
+PetscErrorCode IPBasisDropOldest(IPBasis *b, PetscInt n)
+{
+  PetscBool *keep;
+
+  PetscFunctionBegin;
+  if (n <= 0) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(b->n, &keep));
+  for (PetscInt j = 0; j < b->n; j++) keep[j] = (PetscBool)(j >= n);
+  PetscCall(BasisSelect(b, keep));
+  PetscCall(PetscFree(keep));
+  PetscCall(BasisFactor(b));
+  PetscFunctionReturn(0);
+}
+
 /*
    Computes the n x n matrix T such that T^T E T is diagonal with decreasing entries and T^T P^T K P T = I, for the
    first n directions. E (columns of length max) is overwritten.
@@ -482,7 +498,7 @@ PetscErrorCode IPBasisCompress(IPBasis *b, PetscInt best, PetscInt last, PetscRe
 }
 
 /* Computes the rows of K P that belong to W, and the Gram matrix P^T K P */
-static PetscErrorCode BasisMultiplyAll(IPBasis *b, Mat K)
+PetscErrorCode IPBasisMultiply(IPBasis *b, Mat K)
 {
   PetscFunctionBegin;
   for (PetscInt j = 0; j < b->n; j++) {
@@ -560,6 +576,7 @@ PetscErrorCode IPBasisUpdate(IPBasis *b, Mat K, PetscBool new_K, IS fixed, IS W)
   if (valid) PetscCall(ISDestroy(&b->W));
   else PetscCall(BasisForgetW(b));
   b->W = W;
-  if (!valid && b->n) PetscCall(BasisMultiplyAll(b, K));
+  if (new_K || !same) b->has_modes = PETSC_FALSE;
+  if (!valid && b->n) PetscCall(IPBasisMultiply(b, K));
   PetscFunctionReturn(0);
 }

@@ -313,11 +313,11 @@ static PetscErrorCode FilteredAddDirection(Tao tao, IPRecycle *recycle, Vec r, P
 
 /*
    Computes r = -ip->rx, set to zero on W. *exact: false if the reduced problem was not solved exactly, that is, r was
-   not small on W or the constraints are violated. The cause is rounding, or a problem that is not quadratic. Violations
-   that remain after the problem was centred again are ignored: a body that rests on a rigid one does not move before
-   there are directions, so that its violations have no scale.
+   not small on W, works on a given motion, or the constraints are violated. The cause is rounding, or a problem that is
+   not quadratic. Violations that remain after the problem was centred again are ignored: a body that rests on a rigid
+   one does not move before there are directions, so that its violations have no scale.
 */
-static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
+static PetscErrorCode FilteredResidual(Tao tao, const IPBasis *basis, Vec r, PetscBool *exact)
 {
   TAO_IPFILTER     *ip       = (TAO_IPFILTER *)tao->data;
   const IPFiltered *f        = IPFilteredOf(tao);
@@ -333,6 +333,7 @@ static PetscErrorCode FilteredResidual(Tao tao, Vec r, PetscBool *exact)
                        (!f->reduced->met || f->ncentred ||
                          PetscMax(ip->kkt->primal, ip->kkt->complementarity) <= PetscMax(ip->tol, ip->kkt->dual)));
   if (f->nfutile && f->nfutile % for_long == 0) *exact = PETSC_FALSE;
+  if (*exact && !f->ncentred) PetscCall(IPModesAreBalanced(tao, basis, r, exact));
   PetscFunctionReturn(0);
 }
 
@@ -388,7 +389,7 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
   *done = (PetscBool)(IPFilteredProgresses(f, IPBothErrors(ip), patience) && *done);
   PetscCall(IPRecycleGet(tao, &recycle));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
-  PetscCall(FilteredResidual(tao, r, &exact));
+  PetscCall(FilteredResidual(tao, &recycle->basis, r, &exact));
   if (*done && exact) PetscCall(FilteredReconsider(tao, recycle, done));
   if (*done && exact) PetscCall(FilteredAddDirection(tao, recycle, r, ip->terms->n ? &exact : done));
   f->ncentred = exact || (recycle->whole && !f->nfutile) ? 0 : f->ncentred + 1;

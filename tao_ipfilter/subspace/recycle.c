@@ -295,15 +295,19 @@ PetscErrorCode IPRecycleHold(Tao tao, IPRecycle *recycle, PetscBool *possible)
 }
 
 /*
-   Returns the largest number of directions to keep. More directions save applications of the preconditioner, but each
-   application then takes longer. Newton's method keeps fewer, since each direction needs a product with every new K.
+   Computes the largest number of directions to keep, with room for the given motions. More directions save
+   applications of the preconditioner, but each application then takes longer. Newton's method keeps fewer, since each
+   direction needs a product with every new K.
 */
-static PetscInt RecycleRoom(Tao tao)
+static PetscErrorCode RecycleGetRoom(Tao tao, PetscInt *room)
 {
   const PetscInt usual = 80, newton = 48, given = ((TAO_IPFILTER *)tao->data)->opt->subspace_max;
+  PetscInt       nmodes;
 
-  if (given) return given;
-  return IPFilteredOf(tao)->newton ? newton : usual;
+  PetscFunctionBegin;
+  PetscCall(IPModesGetNumber(tao, &nmodes));
+  *room = nmodes + (given ? given : IPFilteredOf(tao)->newton ? newton : usual);
+  PetscFunctionReturn(0);
 }
 
 /*
@@ -316,13 +320,14 @@ PetscErrorCode IPRecycleUpdate(Tao tao, IPRecycle *recycle, PetscBool *possible)
   Mat              K  = ip->hess->H;
   PC               pc;
   PetscObjectState state;
-  const PetscInt   max   = RecycleRoom(tao);
+  PetscInt         max   = 0;
   PetscBool        new_K = PETSC_FALSE;
 
   PetscFunctionBegin;
   *possible = PETSC_TRUE;
   PetscCall(PetscObjectStateGet((PetscObject)K, &state));
   PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(RecycleGetRoom(tao, &max));
   if (recycle->K_id != ((PetscObject)K)->id || recycle->pc != pc || recycle->basis.max != max) {
     PetscCall(IPRecycleReset(recycle));
     PetscCall(PetscObjectReference((PetscObject)pc));
@@ -341,6 +346,7 @@ PetscErrorCode IPRecycleUpdate(Tao tao, IPRecycle *recycle, PetscBool *possible)
   recycle->K_state = state;
   PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
   PetscCall(IPBasisUpdate(&recycle->basis, K, new_K, ip->fixed, IPFilteredOf(tao)->W));
+  PetscCall(IPModesAppend(tao, recycle));
   PetscCall(PetscLogEventEnd(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

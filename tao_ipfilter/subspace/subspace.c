@@ -118,6 +118,7 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   PetscCall(VecSet(v, 0.0));
   PetscCall(FilteredCanWiden(tao, &f->reduced->simply));
   f->reduced->system.rounding      = ip->first->jacobian * ip->given->rounding;
+  f->reduced->system.soft          = basis->has_modes;
   f->reduced->system.interrupt     = ip->given->interrupt;
   f->reduced->system.interrupt_ctx = ip->given->interrupt_ctx;
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
@@ -158,20 +159,24 @@ PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
 
 /*
    Reduces the number of directions. The newest remain. The others are replaced by those combinations that are coupled
-   to W most, since these are most useful for other constraints and gaps. The reduced problem must then be centred at
-   its solution to remain exact.
+   to W most, since these are most useful for other constraints and gaps. They contain the given motions. The rounding
+   errors of combinations exceed the stiffness of these motions, so that the products with K are then computed again.
+   The reduced problem must afterwards be centred at its solution to remain exact.
 */
 PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
 {
-  IPFiltered    *f    = IPFilteredOf(tao);
-  const PetscInt last = basis->max / 8, best = basis->max / 2;
-  PetscReal     *E;
+  IPFiltered *f = IPFilteredOf(tao);
+  PetscInt    nmodes, room;
+  PetscReal  *E;
 
   PetscFunctionBegin;
+  PetscCall(IPModesGetNumber(tao, &nmodes));
+  room = basis->max - nmodes;
   PetscCall(PetscMalloc1(basis->max * basis->max, &E));
   PetscCall(IPReducedCoupling(f->reduced, basis, E));
   PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
-  PetscCall(IPBasisCompress(basis, best, last, E));
+  PetscCall(IPBasisCompress(basis, nmodes + room / 2, room / 8, E));
+  if (basis->has_modes) PetscCall(IPBasisMultiply(basis, ((TAO_IPFILTER *)tao->data)->hess->H));
   PetscCall(PetscLogEventEnd(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
   PetscCall(PetscFree(E));
   PetscCall(IPReducedForget(f->reduced, basis));

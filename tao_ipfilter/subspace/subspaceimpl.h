@@ -22,6 +22,7 @@ typedef struct {
   Vec           d, Kd;         /* work vectors: a direction, and K d */
   PetscReal    *gram, *factor; /* P^T K P, in columns of length max; the lower triangle of its Cholesky factor */
   PetscInt      generation;    /* number that increases when directions change, but not when one is appended */
+  PetscBool     has_modes;     /* whether the given motions are in the span of W and P */
 } IPBasis;
 
 /* Compliance C = J_W K_WW^-1 J_W^T of the constraints, on the first rank */
@@ -65,6 +66,7 @@ typedef struct {
                                   only would move far; zero without norm terms */
   PetscReal  length;   /* size of the terms of a gap, for tolerances */
   PetscReal  rounding; /* size of the rounding errors of a gap */
+  PetscBool  soft;     /* some motions have almost no stiffness without constraints */
   PetscBool  guessed;  /* the initial forces of the constraints are a guess, not those of a state of equilibrium */
   PetscErrorCode (*interrupt)(void *, PetscBool *); /* whether the user wants to end the solve; may be NULL */
   void      *interrupt_ctx;
@@ -97,6 +99,7 @@ typedef struct {
   PetscBool *active, factored;
   PetscInt  *rows;
   PetscReal *L, *V, *H, *r;
+  PetscReal  least; /* smallest permitted `shift` */
   PetscReal  shift; /* addition to the diagonal of H, relative to the directions' energies */
 } IPActiveSet;
 
@@ -205,6 +208,8 @@ PETSC_INTERN PetscErrorCode IPBasisCreate(PetscInt max, Vec like, IPBasis *);
 PETSC_INTERN PetscErrorCode IPBasisDestroy(IPBasis *);
 PETSC_INTERN PetscErrorCode IPBasisAppend(IPBasis *, Mat K, Vec, PetscBool *appended);
 PETSC_INTERN PetscErrorCode IPBasisCompress(IPBasis *, PetscInt best, PetscInt last, PetscReal E[]);
+PETSC_INTERN PetscErrorCode IPBasisDropOldest(IPBasis *, PetscInt n);
+PETSC_INTERN PetscErrorCode IPBasisMultiply(IPBasis *, Mat K);
 PETSC_INTERN PetscErrorCode IPBasisUpdate(IPBasis *, Mat K, PetscBool new_K, IS fixed, IS W);
 PETSC_INTERN PetscErrorCode IPBasisDots(const IPBasis *, PetscInt first, PetscInt k, Vec, PetscReal[]);
 PETSC_INTERN PetscErrorCode IPBasisAdd(const IPBasis *, const PetscReal[], Vec);
@@ -226,6 +231,11 @@ PETSC_INTERN PetscErrorCode IPComplianceExpand(const IPCompliance *, const Petsc
 PETSC_INTERN PetscErrorCode IPCompanionsAreNeeded(Mat K, IPCompliance *, PetscBool *needed);
 PETSC_INTERN PetscErrorCode IPCompanionsTake(Mat K, IPCompanions *);
 PETSC_INTERN PetscErrorCode IPCompanionsDestroy(IPCompanions *);
+
+/* modes.c */
+PETSC_INTERN PetscErrorCode IPModesGetNumber(Tao, PetscInt *);
+PETSC_INTERN PetscErrorCode IPModesAppend(Tao, IPRecycle *);
+PETSC_INTERN PetscErrorCode IPModesAreBalanced(Tao, const IPBasis *, Vec r, PetscBool *balanced);
 
 /* active_set.c */
 PETSC_INTERN PetscErrorCode IPActiveSetCreate(PetscInt m, IPActiveSet *);
