@@ -87,7 +87,7 @@ wait $pid
 echo "SIGTERM: exit $?, $(ls term.h5*)"
 "$contact" press.yaml -load_steps 4000 -restart term.h5 -checkpoint term.h5 > again.log 2>&1 &
 pid=$!
-begun $pid grep -qs 'Load step' again.log
+begun $pid grep -qsz 'Load step.*Load step' again.log # the first load step is complete
 kill -TERM $pid
 wait $pid
 echo "and again: exit $?, $(grep -c '^Continuing from term.h5 at time \([2-9]\|[1-9][0-9][0-9]*\)' again.log) $(grep -c '^Checkpoint term.h5: time' again.log)"
