@@ -108,15 +108,18 @@ static PetscErrorCode PreconditionImprove(Tao tao, IPRecycle *recycle, PetscReal
   PetscFunctionReturn(0);
 }
 
-/* Finds whether steps of CG improve d = B r: not if B is exact, or belongs to another matrix than K */
-static PetscErrorCode PreconditionMayImprove(const IPRecycle *recycle, PetscBool *may)
+/*
+   Finds whether steps of CG improve d = B r: not if B is exact, or belongs to another matrix than K. Nor in Newton's
+   method, whose models are solved to a large tolerance: steps of CG then go beyond what a model needs.
+*/
+static PetscErrorCode PreconditionMayImprove(Tao tao, const IPRecycle *recycle, PetscBool *may)
 {
   PetscBool amgf, factored = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)recycle->pc, PCAMGF, &amgf));
   if (amgf) PetscCall(PCAMGFGetFactored(recycle->pc, &factored, NULL));
-  *may = (PetscBool)(!factored && !recycle->held);
+  *may = (PetscBool)(!factored && !recycle->held && !IPFilteredOf(tao)->newton);
   PetscFunctionReturn(0);
 }
 
@@ -133,7 +136,7 @@ PetscErrorCode IPFilteredPrecondition(Tao tao, IPRecycle *recycle, Vec r, Vec d,
   Vec            q;
 
   PetscFunctionBegin;
-  PetscCall(PreconditionMayImprove(recycle, &improve));
+  PetscCall(PreconditionMayImprove(tao, recycle, &improve));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &q));
   PetscCall(PreconditionApply(tao, recycle, r, d, improve ? q : NULL, &product));
   *definite = (PetscBool)(product > 0.0 && !PetscIsInfOrNanReal(product));
