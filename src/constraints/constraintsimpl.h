@@ -39,6 +39,7 @@ typedef struct {
                       else 0 */
   PetscInt  ramp;   /* number of the ramp; 0 for rigid motions */
   PetscInt  motion; /* leader of the rigid motion; PETSC_DECIDE if the row belongs to none */
+  PetscInt  entry;  /* number of the displacement in the scene */
 } PrescribedValue;
 
 typedef struct {

@@ -8,14 +8,15 @@ static PrescribedValue PrescribedGetValue(Scene scene, PetscInt d, PetscInt comp
   PetscReal                drives = 0.0;
 
   if (!entry->moves)
-    return (PrescribedValue){entry->value[component], entry->value[component] != 0.0 ? entry->ramp : 0, PETSC_DECIDE};
+    return (
+      PrescribedValue){entry->value[component], entry->value[component] != 0.0 ? entry->ramp : 0, PETSC_DECIDE, d};
   for (PetscInt e = d; e < scene->ndisplacements; ++e) {
     const SceneDisplacement *other = &scene->displacements[e];
 
     if (MotionFindLeader(scene, e) != d) continue;
     for (PetscInt i = 0; i < 3; ++i) drives = other->value[i] != 0.0 || other->rotation[i] != 0.0 ? 1.0 : drives;
   }
-  return (PrescribedValue){drives, 0, d};
+  return (PrescribedValue){drives, 0, d, d};
 }
 
 /* Lists the prescribed rows of this rank and their values, with repetitions. If rows is NULL, only counts them. */
@@ -70,9 +71,18 @@ static PetscErrorCode PrescribedEvaluate(const Prescribed *p, const PetscReal fa
   PetscFunctionReturn(0);
 }
 
+/* Returns one number for the displacements of the scene that prescribe the values j and k */
+static PetscInt PrescribedEntries(const Prescribed *p, PetscInt j, PetscInt k)
+{
+  const PetscInt a = p->values[j].entry, b = p->values[k].entry;
+
+  return PetscMin(a, b) * p->scene->ndisplacements + PetscMax(a, b);
+}
+
 /* Increases *worst to the largest difference between two values that are prescribed for one row, if all ramps have the
-   factor `all` [length]. Values of rigid motions may differ by rounding. */
-static PetscErrorCode PrescribedDiffer(const Prescribed *p, PetscReal all, PetscReal *worst)
+   factor `all` [length]. entries: the two displacements of this row, see PrescribedEntries(). Values of rigid motions
+   may differ by rounding. */
+static PetscErrorCode PrescribedDiffer(const Prescribed *p, PetscReal all, PetscReal *worst, PetscInt *entries)
 {
   PetscReal *u, *factor, size = 0.0;
 
@@ -85,9 +95,38 @@ static PetscErrorCode PrescribedDiffer(const Prescribed *p, PetscReal all, Petsc
     const PetscReal difference = PetscAbsReal(u[k] - u[k - 1]);
     const PetscReal rounding   = p->values[k].motion < 0 && p->values[k - 1].motion < 0 ? 0.0 : 1e-12 * size;
 
-    if (p->rows[k] == p->rows[k - 1] && difference > rounding) *worst = PetscMax(*worst, difference);
+    if (p->rows[k] != p->rows[k - 1] || !(difference > rounding) || !(difference > *worst)) continue;
+    *worst   = difference;
+    *entries = PrescribedEntries(p, k - 1, k);
   }
   PetscCall(PetscFree2(u, factor));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. It is an error if a row has two different values. worst, entries: see PrescribedMerge() */
+static PetscErrorCode PrescribedCheck(MPI_Comm comm, Scene scene, const PetscReal worst[2], PetscInt entries[2])
+{
+  const SceneDisplacement *d[2][2] = {{NULL, NULL}, {NULL, NULL}};
+  PetscReal                all[2];
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(worst, all, 2, MPIU_REAL, MPIU_MAX, comm));
+  if (all[0] == 0.0 && all[1] == 0.0) PetscFunctionReturn(0);
+  for (int i = 0; i < 2; ++i) entries[i] = worst[i] > 0.0 && worst[i] >= all[i] ? entries[i] : 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, entries, 2, MPIU_INT, MPI_MAX, comm));
+  for (int i = 0; i < 2; ++i) {
+    d[i][0] = &scene->displacements[entries[i] / scene->ndisplacements];
+    d[i][1] = &scene->displacements[entries[i] % scene->ndisplacements];
+  }
+  SceneCheck(all[0] == 0.0, comm, PETSC_ERR_USER_INPUT, d[0][1],
+    "the faces %s and %s have prescribed displacements that differ by %g on the vertices they share: prescribe the "
+    "same "
+    "values there, or different components",
+    d[0][0]->face, d[0][1]->face, (double)all[0]);
+  SceneCheck(all[1] == 0.0, comm, PETSC_ERR_USER_INPUT, d[1][1],
+    "the faces %s and %s have the same prescribed displacement by different ramps on the vertices they share: use one "
+    "ramp for both",
+    d[1][0]->face, d[1][1]->face);
   PetscFunctionReturn(0);
 }
 
@@ -95,32 +134,30 @@ static PetscErrorCode PrescribedDiffer(const Prescribed *p, PetscReal all, Petsc
    values. */
 static PetscErrorCode PrescribedMerge(MPI_Comm comm, Prescribed *p)
 {
-  PetscInt        unique   = 0;
+  Scene           scene  = p->scene;
+  PetscInt        unique = 0, entries[2] = {0, 0};
   PetscReal       worst[2] = {0.0, 0.0}; /* the largest difference of two values of a row [length]; 1 if two values
-                                            of a row are equal but have different ramps */
+                                            of a row are equal but have different ramps. entries: their
+                                            displacements */
   PrescribedValue work;
 
   PetscFunctionBegin;
   PetscCall(PetscSortIntWithDataArray(p->n, p->rows, p->values, sizeof(PrescribedValue), &work));
-  PetscCall(PrescribedDiffer(p, 1.0, &worst[0]));
-  PetscCall(PrescribedDiffer(p, 0.37, &worst[0])); /* A second factor detects motions that end where they started. */
+  PetscCall(PrescribedDiffer(p, 1.0, &worst[0], &entries[0]));
+  PetscCall(PrescribedDiffer(p, 0.37, &worst[0],
+    &entries[0])); /* A second factor detects motions that end where they started. */
   for (PetscInt k = 0; k < p->n; ++k) {
     if (unique && p->rows[unique - 1] == p->rows[k]) {
-      if (p->values[unique - 1].ramp != p->values[k].ramp) worst[1] = 1.0;
+      if (p->values[unique - 1].ramp == p->values[k].ramp) continue;
+      worst[1]   = 1.0;
+      entries[1] = PrescribedEntries(p, unique - 1, k);
       continue;
     }
     p->rows[unique]     = p->rows[k];
     p->values[unique++] = p->values[k];
   }
   p->n = unique;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, worst, 2, MPIU_REAL, MPIU_MAX, comm));
-  PetscCheck(worst[0] == 0.0, comm, PETSC_ERR_USER_INPUT,
-    "displacements: two faces prescribe values that differ by %g on the vertices they share: prescribe the same values "
-    "there, or different components",
-    (double)worst[0]);
-  PetscCheck(worst[1] == 0.0, comm, PETSC_ERR_USER_INPUT,
-    "displacements: two faces prescribe the same value by different ramps on the vertices they share: use one ramp for "
-    "both");
+  PetscCall(PrescribedCheck(comm, scene, worst, entries));
   PetscFunctionReturn(0);
 }
 
