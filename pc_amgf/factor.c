@@ -350,7 +350,9 @@ PetscErrorCode PCAMGFExpect_AMGF(PC pc, PetscReal applications, PetscReal solves
   const PetscBool on = f->on;
 
   PetscFunctionBegin;
-  if (pc->pmat) PetscCall(PCAMGFConfigureInner_Private(pc)); /* The costs depend on which AMG would be used. */
+  PetscCheck(pc->pmat, PetscObjectComm((PetscObject)pc), PETSC_ERR_ORDER,
+    "Call PCSetOperators() or KSPSetOperators() before PCAMGFExpect(), which estimates the time of a factorization");
+  PetscCall(PCAMGFConfigureInner_Private(pc)); /* The costs depend on which AMG would be used. */
   PetscCall(FactorExpect(pc, applications, solves));
   if (f->on != on) pc->setupcalled = 0;
   PetscFunctionReturn(0);

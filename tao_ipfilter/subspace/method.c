@@ -138,6 +138,19 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt
 }
 
 /*
+   Decides whether W contains all unknowns from the beginning of a solve. A quadratic objective keeps the factors, so
+   that W remains as it is. For other objectives each Newton step needs new factors, and directions are cheaper: they
+   are tried again unless they failed in the last solves, too.
+*/
+static void FilteredBeginWhole(Tao tao, IPRecycle *recycle)
+{
+  const PetscInt most = 2;
+
+  if (!recycle->whole) recycle->nwidened = 0;
+  if (IPFilteredOf(tao)->newton && recycle->nwidened < most) recycle->whole = PETSC_FALSE;
+}
+
+/*
    Sets W. *few: whether there are constraints, and they involve few unknowns. What is few is decided only with
    -tao_ipfilter_subspace auto and without norm terms.
 */
@@ -154,6 +167,7 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
   PetscCall(ISGetSize(ip->cond->filter, &touched));
   *few = (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n || touched <= fraction * n));
   PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
+  FilteredBeginWhole(tao, recycle);
   if (*few && ip->terms->n && recycle->whole) PetscCall(IPFilteredTakeAll(tao, &IPFilteredOf(tao)->W));
   else if (*few) PetscCall(FilteredChooseW(tao, &recycle->reduced, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);

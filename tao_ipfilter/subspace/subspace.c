@@ -350,6 +350,7 @@ PetscErrorCode IPFilteredWiden(Tao tao, IPRecycle *recycle, PetscBool *possible)
   PetscCall(
     PetscInfo(tao, "No solution with friction was found in the subspace: the subspace is extended to all unknowns\n"));
   recycle->whole = PETSC_TRUE;
+  recycle->nwidened++;
   PetscCall(ISDestroy(&f->W));
   PetscCall(IPFilteredTakeAll(tao, &f->W));
   PetscCall(IPRecycleUpdate(tao, recycle, possible));

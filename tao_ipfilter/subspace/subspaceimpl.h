@@ -167,6 +167,7 @@ typedef struct {
   PetscBool        negative;      /* K was negative along a direction, so that `held` ends when K changes */
   PetscBool        changing;      /* K has changed since the first solve with it */
   PetscBool        whole;         /* W contains all unknowns, since norm terms needed that */
+  PetscInt         nwidened;      /* number of consecutive solves in which W was extended to all unknowns */
   PetscInt         napplications; /* number of applications of the preconditioner in the last solve */
   PetscInt         ncurrent;      /* number of applications of the preconditioner of the present K */
   PetscReal        expected;      /* number of applications of the AMG that another K is expected to need; 0: not

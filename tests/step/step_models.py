@@ -24,7 +24,7 @@ for step, w in zip(bar, (0, W)):
     say("bar, step %d: stored energy is half the work of dead loads" % step["step"],
         within(step["potential"], -step["energy"], 1e-8), step["potential"])
 
-runs = {name: load(name) for name in ("energy", "quadratic", "updated_2", "updated_5", "untrue", "squash", "gentle")}
+runs = {name: load(name) for name in ("energy", "quadratic", "updated_2", "updated_5", "untrue", "press", "squash", "gentle")}
 last = {name: run["steps"][-1] for name, run in runs.items()}
 say("energy: equilibrium to 1e-8", last["energy"]["equilibrium"] <= 1e-8, last["energy"]["equilibrium"])
 say("quadratic: no equilibrium, by more than 1e-4", last["quadratic"]["equilibrium"] > 1e-4,
@@ -47,6 +47,7 @@ say(
     "one linearization that is asked for converges, and says how far its gap is off", runs["energy"]["converged"]
     and last["energy"]["gap_unconverged"] and "contact gap error up to" in runs["energy"]["reason"],
     runs["energy"]["reason"])
+say("a large step that inverts no element was not cut", not last["press"]["cuts"], last["press"]["cuts"])
 say("the step that was too large was cut", last["squash"]["cuts"] > 0 and last["squash"]["substeps"] > 1,
     (last["squash"]["cuts"], last["squash"]["substeps"]))
 say("cut or not, the same energy to 1e-8", within(last["squash"]["energy"], last["gentle"]["energy"], 1e-8),

@@ -60,9 +60,11 @@ bodies:
            poisson: 0.3}
 displacements:
   - bottom: {face: cube.zmin, value: [0, 0, 0]}
-  - top: {face: cube.zmax, value: [0, 0, -0.7]}
+  - top: {face: cube.zmax, value: [0, 0, -0.7], rotation: [0, 0, 90], center: [0.5, 0.5, 1]}
 YAML
 cp squash.yaml gentle.yaml
+sed 's/, rotation.*/}/' squash.yaml > press.yaml # large, but carried into the body no element is inverted
+run press
 run squash
 run gentle -load_steps 10
 "$contact" squash.yaml -quiet -load_max_cuts 0 2>&1 |

@@ -113,57 +113,6 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscFunctionReturn(0);
 }
 
-/*
-   Passes the pressures of the last solve, times `scale`, and its slacks to the optimizer as a start. *any: true if any
-   row had a pressure.
-*/
-static PetscErrorCode OptimizerRecallContact(StepProblem *p, PetscReal scale, Tao tao, PetscBool *any)
-{
-  Vec slack, pressure;
-
-  PetscFunctionBegin;
-  PetscCall(VecDuplicate(p->g, &slack));
-  PetscCall(VecDuplicate(p->g, &pressure));
-  PetscCall(ContactHistoryRecall(p->sim->history, p->sim->solved->linearization, scale / StepProblemShare(p), slack,
-    pressure, any));
-  if (*any) PetscCall(TaoIPFilterSetWarmStart(tao, slack, pressure));
-  PetscCall(VecDestroy(&slack));
-  PetscCall(VecDestroy(&pressure));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Sets the starting point u. If `resume`, u is unchanged. A new load step starts from the extrapolated path if the last
-   load step had contact pressures, otherwise from p->base. The extrapolated path is not used if its energy is infinite.
-   *valid: false if an element is inverted at p->base.
-*/
-static PetscErrorCode OptimizerStart(StepProblem *p, PetscBool resume, Tao tao, Vec u, PetscBool *valid)
-{
-  Simulation sim = p->sim;
-  PetscReal  f = 0.0, scale = 0.0;
-  PetscBool  moved = (PetscBool)(resume || SimulationIsDynamic(sim));
-
-  PetscFunctionBegin;
-  *valid = PETSC_TRUE;
-  if (p->J && (resume || sim->control->warm)) {
-    if (resume) scale = 1.0;
-    else PetscCall(PathPressureScale(sim, p->time, &scale));
-    PetscCall(OptimizerRecallContact(p, scale, tao, &moved));
-  }
-  if (p->J) PetscCall(FrictionGive(p, tao, moved ? scale : 0.0));
-  if (resume) PetscFunctionReturn(0);
-  if (!p->J) moved = sim->control->warm;
-  if (moved) {
-    PetscCall(PathContinue(sim, p->time, u));
-    if (!sim->quadratic) PetscCall(ElasticityEnergy(sim->elasticity, u, &f));
-    if (EnergyIsFinite(f)) PetscFunctionReturn(0);
-  }
-  PetscCall(VecCopy(p->base, u));
-  if (!sim->quadratic) PetscCall(ElasticityEnergy(sim->elasticity, u, &f));
-  *valid = EnergyIsFinite(f);
-  PetscFunctionReturn(0);
-}
-
 /* Adds to the report the counts that only TAOIPFILTER provides. With another -tao_type these counts remain zero. */
 static PetscErrorCode OptimizerReportOurs(Tao tao, const PCAMGFCounts *before, StepReport *report)
 {
@@ -320,7 +269,7 @@ PetscErrorCode OptimizerSolve(StepProblem *p, PetscBool resume, Vec u, StepRepor
   if (p->friction.T && !resume) PetscCall(OptimizerForesee(p, report));
   if (p->unsupported) PetscFunctionReturn(0);
   PetscCall(OptimizerCreate(p, &tao, &ours));
-  PetscCall(OptimizerStart(p, resume, tao, u, &valid));
+  PetscCall(StepProblemStart(p, resume, tao, u, &valid));
   if (valid) {
     PetscCall(TaoSetSolution(tao, u));
     PetscCall(OptimizerGetCounts(tao, &before));

@@ -177,6 +177,9 @@ PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, PetscBool resume, Vec u, 
 PETSC_INTERN PetscErrorCode OptimizerSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 
+/* start.c: the starting point of a solve */
+PETSC_INTERN PetscErrorCode StepProblemStart(StepProblem *, PetscBool resume, Tao, Vec u, PetscBool *valid);
+
 /* linear.c: solves the systems of contact updates */
 PETSC_INTERN PetscErrorCode MatrixFreeSolve(Vec b, Vec x, void *context, PetscErrorCode (*multiply)(Mat, Vec, Vec),
   PetscReal rtol, PetscInt most, PetscBool *found);
