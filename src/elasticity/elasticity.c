@@ -183,9 +183,9 @@ PetscErrorCode ElasticityCreate(DM dm, PetscInt nbodies, const Material material
       "not the change of volume",
       b);
   }
-  PetscCall(ElasticitySetRest(e));
   PetscCall(ElasticityReadOptions(e));
-  PetscCall(ElasticitySetUpCells(e));
+  PetscCall(ElasticitySetUpCells(e)); /* refuses cells that are not known, on all ranks */
+  PetscCall(ElasticitySetRest(e));
   PetscCall(ElasticitySetUpKept(e));
   PetscCall(ElasticitySetUpHistory(e));
   *elasticity = e;
