@@ -313,7 +313,21 @@ static PetscErrorCode FilteredSolveReduced(Tao tao, IPRecycle *recycle, PetscBoo
   PetscFunctionReturn(0);
 }
 
-/* Adds a direction computed from the residual r. If the basis is full, it is compressed first. */
+/* Removes all directions but keeps the present point, so that new ones are not limited by their rounding errors */
+static PetscErrorCode FilteredRenew(Tao tao, IPRecycle *recycle)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscInfo(tao, "Directions were removed, since the residual depends on them up to rounding\n"));
+  PetscCall(IPBasisDropOldest(&recycle->basis, recycle->basis.n));
+  PetscCall(IPReducedForget(&recycle->reduced, &recycle->basis));
+  PetscCall(FilteredCentreHere(tao, &recycle->basis));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Adds a direction computed from the residual r. If the basis is full, it is compressed first. If the direction depends
+   on the present ones, these are removed, at most once in a solve.
+*/
 static PetscErrorCode FilteredAddDirection(Tao tao, IPRecycle *recycle, Vec r, PetscBool *added)
 {
   PetscFunctionBegin;
@@ -321,6 +335,10 @@ static PetscErrorCode FilteredAddDirection(Tao tao, IPRecycle *recycle, Vec r, P
     PetscCall(IPFilteredMakeRoom(tao, &recycle->basis));
     PetscCall(FilteredCentreHere(tao, &recycle->basis));
   }
+  PetscCall(IPFilteredExtend(tao, recycle, r, added));
+  if (*added || !recycle->basis.n || IPFilteredOf(tao)->renewed) PetscFunctionReturn(0);
+  IPFilteredOf(tao)->renewed = PETSC_TRUE;
+  PetscCall(FilteredRenew(tao, recycle));
   PetscCall(IPFilteredExtend(tao, recycle, r, added));
   PetscFunctionReturn(0);
 }
@@ -463,6 +481,7 @@ static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
   IPRecycle    *recycle;
 
   PetscFunctionBegin;
+  f->renewed = PETSC_FALSE;
   PetscCall(IPRecycleGet(tao, &recycle));
   PetscCall(FilteredTakeW(tao, recycle, begun));
   if (!*begun) {

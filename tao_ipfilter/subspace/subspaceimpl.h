@@ -187,6 +187,7 @@ typedef struct {
   Vec            centre, gradient, c; /* the point to which the reduced problem is relative; grad f and c_I there */
   PetscReal      f;                   /* f at that point */
   PetscReal     *pg, *y;              /* P^T grad f at that point; coefficients of the directions */
+  PetscBool      renewed;             /* whether all directions were removed in this solve */
   PetscBool      ready;               /* false if the Hessian was indefinite at the first point */
   PetscInt       ncentred;            /* number of consecutive steps without a new direction */
   PetscInt       nfutile;             /* number of steps since the KKT error was last halved */

@@ -149,6 +149,8 @@ def judge_bars(title, end):
         near(forces["upper"], [0, 0, 4], 4) and near(forces["lower"], [0, 0, -4], 4), forces)
     say(title + "soft stack: weak springs carry less than 1e-6 of the load",
         0 < step["soft"]["weak_spring_force"] < 4e-6, step["soft"]["weak_spring_force"])
+    say(title + "soft stack: the tight tolerance is reached in the subspace, in fewer than 1,000 applications",
+        step["soft"]["amg_applications"] < 1000, step["soft"]["amg_applications"])
 
 
 if sys.argv[1] == "write":
