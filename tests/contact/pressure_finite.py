@@ -1,6 +1,7 @@
 """pressure_finite.py scenes: writes the scenes of pressure_finite.sh; check: reads their summaries"""
 import sys
 
+from neo_hookean import compressed
 from summaries import load, say, within
 
 HEIGHT = 0.5  # of the compressed block, whose sides were 1
@@ -8,8 +9,7 @@ YOUNG, POISSON = 3.0, 0.45
 BODIES = {
     "planes": """  - low: {shape: rigid_plane, point: [0, 0, 0], normal: [0, 0, 1]}
   - up: {shape: rigid_plane, point: [0, 0, 1], normal: [0, 0, -1]}
-""",
-    "plates": """  - low: {lower: [-1, -1, -0.1], upper: [2, 2, 0], cells: [1, 1, 1], material: rigid}
+""", "plates": """  - low: {lower: [-1, -1, -0.1], upper: [2, 2, 0], cells: [1, 1, 1], material: rigid}
   - up: {lower: [-1, -1, 1], upper: [2, 2, 1.1], cells: [1, 1, 1], material: rigid}
 """
 }
@@ -30,24 +30,6 @@ probes:
 """
 
 
-def energy(height, width):
-    mu, kappa = YOUNG / 2 / (1 + POISSON), YOUNG / 3 / (1 - 2 * POISSON)
-    volume = height * width**2
-    return mu / 2 * (volume**(-2 / 3) * (height**2 + 2 * width**2) - 3) + kappa / 2 * (volume - 1)**2
-
-
-def exact():
-    """Width and force of the block. The width minimizes the energy."""
-    low, high, step = 0.5, 3.0, 1e-6
-    for _ in range(60):
-        width = (low + high) / 2
-        if energy(HEIGHT, width + step) > energy(HEIGHT, width - step):
-            high = width
-        else:
-            low = width
-    return width, (energy(HEIGHT - step, width) - energy(HEIGHT + step, width)) / (2 * step)
-
-
 def runs():
     yield "planes", "planes", ""
     for gap in "mortar", "node", "dual":
@@ -58,16 +40,12 @@ def scenes():
     for name, bodies, gap in runs():
         with open(name + ".yaml", "w") as file:
             file.write(
-                SCENE.format(young=YOUNG,
-                             poisson=POISSON,
-                             bodies=BODIES[bodies],
-                             faces=FACES[bodies],
-                             gap=gap,
+                SCENE.format(young=YOUNG, poisson=POISSON, bodies=BODIES[bodies], faces=FACES[bodies], gap=gap,
                              move=HEIGHT - 1))
 
 
 def check():
-    width, force = exact()
+    width, force = compressed(HEIGHT, YOUNG, POISSON)
     for name in [name for name, _, _ in runs()] + ["plates_mortar_2", "planes_5"]:
         step = load(name)["steps"][-1]
         for pair in step["pairs"]:
@@ -76,8 +54,8 @@ def check():
                 all(within(a, b, 1e-5) for a, b in zip(seen, (force, width**2, force / width**2))),
                 (seen, force, width**2, force / width**2))
         probe = step["probes"][0]
-        say(f"{name}: pressure at a point equals the stress", within(probe["contact_pressure"], -probe["stress_zz"], 1e-4),
-            probe)
+        say(f"{name}: pressure at a point equals the stress",
+            within(probe["contact_pressure"], -probe["stress_zz"], 1e-4), probe)
 
 
 if __name__ == "__main__":
