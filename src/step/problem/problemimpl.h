@@ -180,7 +180,8 @@ PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u,
 /* start.c: the starting point of a solve */
 PETSC_INTERN PetscErrorCode StepProblemStart(StepProblem *, PetscBool resume, Tao, Vec u, PetscBool *valid);
 
-/* linear.c: solves the systems of contact updates */
+/* linear.c: the solver for the bodies without contact; solves the systems of contact updates */
+PETSC_INTERN PetscErrorCode LinearCreateKSP(Simulation, Mat, PetscReal rtol, KSP *);
 PETSC_INTERN PetscErrorCode MatrixFreeSolve(Vec b, Vec x, void *context, PetscErrorCode (*multiply)(Mat, Vec, Vec),
   PetscReal rtol, PetscInt most, PetscBool *found);
 

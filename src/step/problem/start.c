@@ -60,17 +60,9 @@ static PetscErrorCode StartSolve(StepProblem *p, Vec b, Vec w)
   PC              pc;
 
   PetscFunctionBegin;
-  PetscCall(KSPCreate(p->sim->comm, &ksp));
-  PetscCall(KSPSetOptionsPrefix(ksp, "elasticity_"));
-  PetscCall(KSPSetType(ksp, KSPCG));
+  PetscCall(LinearCreateKSP(p->sim, p->K, rtol, &ksp));
+  PetscCall(KSPSetTolerances(ksp, rtol, PETSC_DEFAULT, PETSC_DEFAULT, most)); /* an option of the user does not count */
   PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCSetType(pc, PCAMGF));
-  PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
-  PetscCall(PCAMGFSetFactor(pc, PC_AMGF_FACTOR_AUTO));
-  PetscCall(KSPSetFromOptions(ksp));
-  PetscCall(KSPSetTolerances(ksp, rtol, PETSC_DEFAULT, PETSC_DEFAULT, most));
-  PetscCall(StiffnessSetModes(p->sim, ksp, p->K));
-  PetscCall(KSPSetOperators(ksp, p->K, p->K));
   PetscCall(PCAMGFExpect(pc, applications, solves));
   PetscCall(KSPSolve(ksp, b, w));
   PetscCall(VecScale(w, -1.0));
@@ -115,9 +107,9 @@ static PetscErrorCode StartCarry(StepProblem *p, Tao tao, Vec u, PetscReal *f)
 */
 static PetscErrorCode StartNonlinear(StepProblem *p, PetscBool moved, Tao tao, Vec u, PetscBool *valid)
 {
-  Simulation sim = p->sim;
-  PetscReal  f   = PETSC_INFINITY, carried;
-  PetscBool  smooth;
+  Simulation sim    = p->sim;
+  PetscReal  f      = PETSC_INFINITY, carried;
+  PetscBool  smooth = SimulationIsDynamic(sim); /* a time step always continues the path */
   Vec        other;
 
   PetscFunctionBegin;
@@ -129,8 +121,8 @@ static PetscErrorCode StartNonlinear(StepProblem *p, PetscBool moved, Tao tao, V
     PetscCall(VecCopy(p->base, u));
     PetscCall(EnergyObjective(tao, u, &f, p));
   }
-  PetscCall(PathIsSmooth(sim, p->time, &smooth));
-  if (!SimulationIsDynamic(sim) && !smooth) {
+  if (!smooth) PetscCall(PathIsSmooth(sim, p->time, &smooth));
+  if (!smooth) {
     PetscCall(VecDuplicate(u, &other));
     PetscCall(StartCarry(p, tao, other, &carried));
     if (carried < f) PetscCall(VecCopy(other, u));
