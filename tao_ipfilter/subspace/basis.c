@@ -318,7 +318,7 @@ static PetscErrorCode BasisFactor(IPBasis *b)
   PetscFunctionReturn(0);
 }
 
-/* Removes the n oldest directions */
+/* Removes the n oldest directions, which may contain the given motions */
 PetscErrorCode IPBasisDropOldest(IPBasis *b, PetscInt n)
 {
   PetscBool *keep;
@@ -330,6 +330,7 @@ PetscErrorCode IPBasisDropOldest(IPBasis *b, PetscInt n)
   PetscCall(BasisSelect(b, keep));
   PetscCall(PetscFree(keep));
   PetscCall(BasisFactor(b));
+  b->has_modes = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 

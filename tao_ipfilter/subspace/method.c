@@ -313,12 +313,14 @@ static PetscErrorCode FilteredSolveReduced(Tao tao, IPRecycle *recycle, PetscBoo
   PetscFunctionReturn(0);
 }
 
-/* Removes all directions but keeps the present point, so that new ones are not limited by their rounding errors */
+/* Removes all directions except the given motions, and keeps the present point. New directions are then not limited by
+   rounding errors of the others. */
 static PetscErrorCode FilteredRenew(Tao tao, IPRecycle *recycle)
 {
   PetscFunctionBegin;
   PetscCall(PetscInfo(tao, "Directions were removed, since the residual depends on them up to rounding\n"));
   PetscCall(IPBasisDropOldest(&recycle->basis, recycle->basis.n));
+  PetscCall(IPModesAppend(tao, recycle));
   PetscCall(IPReducedForget(&recycle->reduced, &recycle->basis));
   PetscCall(FilteredCentreHere(tao, &recycle->basis));
   PetscFunctionReturn(0);
