@@ -5,7 +5,7 @@
    with such entries, see LevelShiftDiagonal(). The sweeps are
      down, from zero: x = (L + D + S)^-1 b, which leaves the residual b - A x = S x - L^T x - E x
      up:              x = (D + S + L^T)^-1 (b - L x + S x - E x)
-   If z is the result of the sweep up on the finest level, and x the iterate before it, then
+   Let x be the iterate before the sweep up on the finest level, and z the iterate after it. Then
      A z = b + (L - S + E) (z - x),
    which costs half a sweep. These terms are small, so that A z has few rounding errors.
 */
@@ -171,18 +171,19 @@ static PetscErrorCode ApplyCycle(BlockHierarchy *h, Vec r, Vec z, Vec product)
   float            *before = product ? h->before : NULL;
   const unsigned    mode   = CycleFlushTiny();
   PetscScalar      *to;
-  double            scale = 1.0;
+  double            scale = 1.0, unit;
 
   PetscFunctionBegin;
   PetscCall(ApplyLoad(h, fine, r, &scale));
   PetscCall(BlockCycle(h, before));
   if (product) PetscCall(CycleMultiply(fine, before));
   CycleRestoreTiny(mode);
+  unit = scale / h->scale;
   PetscCall(VecGetArrayWrite(z, &to));
   for (int u = 0; u < fine->n; u++) {
     const int p = fine->position[u];
 
-    to[u] = scale / h->scale * fine->scale[p] * fine->x[p];
+    to[u] = unit * fine->scale[p] * fine->x[p];
   }
   PetscCall(VecRestoreArrayWrite(z, &to));
   if (!product) PetscFunctionReturn(0);
