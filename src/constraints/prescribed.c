@@ -120,8 +120,7 @@ static PetscErrorCode PrescribedCheck(MPI_Comm comm, Scene scene, const PetscRea
   }
   SceneCheck(all[0] == 0.0, comm, PETSC_ERR_USER_INPUT, d[0][1],
     "the faces %s and %s have prescribed displacements that differ by %g on the vertices they share: prescribe the "
-    "same "
-    "values there, or different components",
+    "same values there, or different components",
     d[0][0]->face, d[0][1]->face, (double)all[0]);
   SceneCheck(all[1] == 0.0, comm, PETSC_ERR_USER_INPUT, d[1][1],
     "the faces %s and %s have the same prescribed displacement by different ramps on the vertices they share: use one "

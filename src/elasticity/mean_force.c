@@ -30,8 +30,7 @@ static PetscBool MeanEvaluate(const BodyMaterial *m, PetscInt q, const PetscReal
   PetscReal             C[9];
   MaterialModuli        own;
   const MaterialModuli *moduli = CellModuli(&m->isochoric, q, &own);
-
-  PetscReal theta;
+  PetscReal             theta;
 
   *energy = m->law->energy(moduli, H) + 0.5 * m->moduli.bulk * H[9] * H[9];
   if (!m->law->stress(moduli, H, P)) return PETSC_FALSE;

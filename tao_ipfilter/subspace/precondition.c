@@ -1,5 +1,5 @@
 /*
-   The direction d that a residual r gives: an approximate solution of K d = r. If B is a factorization of K, it is B r.
+   The direction d for a residual r: an approximate solution of K d = r. If B is a factorization of K, it is B r.
    Otherwise a few steps of CG, preconditioned by B, compute it, because a step of CG costs less than a direction: it
    needs no reduced problem and no products with the other directions.
 */
@@ -124,7 +124,7 @@ static PetscErrorCode PreconditionMayImprove(Tao tao, const IPRecycle *recycle, 
 }
 
 /*
-   Computes the direction d that the residual r gives; r is zero on W. If K alone is singular along B r, B is set up
+   Computes the direction d for the residual r, which is zero on W. If K alone is singular along B r, B is set up
    again with the constraints. This is checked once per solve, and whenever B fails. *definite: false if r^T B r is not
    positive.
 */

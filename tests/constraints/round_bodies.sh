@@ -28,7 +28,8 @@ for scene in facets cylinder weak turned; do
   done
 done
 "$contact" weak.yaml -error_estimate 0 | grep 'can turn'
-# A pin that joins two plates, and can turn. Its linearized facets let it turn far, unless a proximal term resists.
+# A pin joins two plates and can turn about its axis. The linearized gap does not resist this rotation; a proximal term
+# limits it.
 cat > lap.yaml <<'END'
 bodies:
   - plate1:

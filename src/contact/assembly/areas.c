@@ -1,4 +1,4 @@
-/* Areas of nonmortar faces that are strained by large amounts */
+/* Lumped areas of nonmortar faces whose bodies have a law of finite strain */
 #include "assemblyimpl.h"
 
 /* Adds the lumped areas of the nonmortar facets of pair p to `sum`, which has an entry for each possible row.

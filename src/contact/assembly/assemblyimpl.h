@@ -118,7 +118,7 @@ PETSC_INTERN PetscErrorCode ContactRowsCreate(Contact);
 PETSC_INTERN PetscErrorCode ContactRowsDestroy(Contact);
 PETSC_INTERN PetscErrorCode ContactGatherEntries(Vec, IS from, Vec *gathered);
 
-/* areas.c: areas of nonmortar faces that are strained by large amounts */
+/* areas.c: lumped areas of nonmortar faces whose bodies have a law of finite strain */
 PETSC_INTERN PetscErrorCode ContactRowAreas(Contact, PetscBool weights, ContactLinearization, PetscReal area[]);
 
 /* hanging_rows.c: distributes the sums of hanging vertices' rows to the rows of other vertices */
