@@ -449,6 +449,7 @@ static PetscErrorCode EndSolve(Tao tao)
   PetscCall(EndMethod(tao));
   PetscCall(RestoreBest(tao));
   PetscCall(IPConvergeRefined(tao));
+  PetscCall(IPTermsSetUnmoved(tao));
   if (ip->relax->unknowns > 0.0) {
     PetscCall(IPBoundsReturn(tao));
     PetscCall(TaoComputeObjective(tao, tao->solution, &ip->at.f));

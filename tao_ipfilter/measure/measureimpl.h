@@ -40,6 +40,7 @@ PETSC_INTERN PetscReal      IPTermBound(PetscReal limit, PetscReal coefficient, 
 PETSC_INTERN PetscReal      IPTermViolation(const PetscScalar tau[2], const PetscScalar v[2], PetscReal rho,
        PetscReal bound);
 PETSC_INTERN PetscErrorCode IPTermsViolation(Tao, PetscReal *largest);
+PETSC_INTERN PetscErrorCode IPTermsSetUnmoved(Tao);
 PETSC_INTERN PetscErrorCode TaoIPFilterSetNormTerms_IPFilter(Tao, Mat, Vec, Vec, Vec);
 PETSC_INTERN PetscErrorCode TaoIPFilterSetNormTermForces_IPFilter(Tao, Vec);
 PETSC_INTERN PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao, Vec *);

@@ -54,17 +54,18 @@ static void ResistanceFindRigidDirection(PetscReal first, PetscReal second, Pets
 }
 
 /*
-   Computes terms->rho, the stiffness that resists each term (0 if it has no compliance), and terms->rigid, a direction
-   with almost no compliance and almost no motion v, e.g. across a symmetry plane. In that direction v does not depend
-   on x and counts as zero.
+   Computes terms->rho, the stiffness that resists each term (0 if its compliance is zero or a rounding error), and
+   terms->rigid, a direction with almost no compliance and almost no motion v, e.g. across a symmetry plane. In that
+   direction v does not depend on x and counts as zero.
 */
 PetscErrorCode IPTermsResistance(Tao tao)
 {
-  IPTerms           *terms   = ((TAO_IPFILTER *)tao->data)->terms;
-  const PetscReal    unmoved = 1e-6; /* largest motion along `rigid`, relative to the largest motion of all */
+  IPTerms        *terms   = ((TAO_IPFILTER *)tao->data)->terms;
+  const PetscReal unmoved = 1e-6,  /* largest motion along `rigid`, relative to the largest motion of all */
+    rounding              = 1e-14; /* compliance of rounding errors, relative to the largest one */
   const PetscScalar *c, *b, *v;
   PetscScalar       *rho, *rigid;
-  PetscReal          sizes[2];
+  PetscReal          sizes[2], largest;
   PetscInt           n;
   Vec                compliance, both, value;
   Mat                sums;
@@ -77,6 +78,7 @@ PetscErrorCode IPTermsResistance(Tao tao)
   PetscCall(ResistanceCreateSums(terms, &sums));
   PetscCall(IPCompliances(tao, terms->T, compliance));
   PetscCall(IPCompliances(tao, sums, both));
+  PetscCall(VecNorm(compliance, NORM_INFINITY, &largest));
   PetscCall(MatDestroy(&sums));
   PetscCall(IPTermsValue(tao, tao->solution, value));
   PetscCall(VecNorm(value, NORM_INFINITY, &sizes[0]));
@@ -91,7 +93,7 @@ PetscErrorCode IPTermsResistance(Tao tao)
     const PetscReal larger = PetscMax(PetscRealPart(c[2 * i]), PetscRealPart(c[2 * i + 1]));
     PetscScalar    *d      = &rigid[2 * i];
 
-    rho[i] = larger > 0.0 ? 1.0 / larger : 0.0;
+    rho[i] = larger > rounding * largest ? 1.0 / larger : 0.0;
     ResistanceFindRigidDirection(PetscRealPart(c[2 * i]), PetscRealPart(c[2 * i + 1]), PetscRealPart(b[i]), d);
     if (PetscAbsScalar(d[0] * v[2 * i] + d[1] * v[2 * i + 1]) > unmoved * PetscMax(sizes[0], sizes[1]))
       d[0] = d[1] = 0.0;

@@ -294,6 +294,54 @@ PetscErrorCode IPTermsViolation(Tao tao, PetscReal *largest)
   PetscFunctionReturn(0);
 }
 
+/*
+   Sets the forces of terms that no unknown moves, such as friction of a vertex that is driven over a rigid body:
+   tau = -b v / |v|, with their constant v. They are no forces on x, so that the method leaves them out.
+*/
+PetscErrorCode IPTermsSetUnmoved(Tao tao)
+{
+  TAO_IPFILTER      *ip      = (TAO_IPFILTER *)tao->data;
+  IPTerms           *terms   = ip->terms;
+  const PetscReal    unmoved = 1e-6; /* smallest motion that counts, relative to the largest motion of all */
+  const PetscScalar *v, *rho, *b;
+  PetscScalar       *tau;
+  PetscReal          sizes[2];
+  PetscInt           n;
+  Vec                value, force, bounds;
+
+  PetscFunctionBegin;
+  if (!terms->n) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(terms->t, &value));
+  PetscCall(VecDuplicate(terms->rho, &bounds));
+  PetscCall(IPTermsValue(tao, tao->solution, value));
+  PetscCall(VecNorm(value, NORM_INFINITY, &sizes[0]));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &sizes[1]));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(VecPointwiseMult(force, ip->at.lambda, ip->pair[IP_SLACK].w));
+  PetscCall(TermsGetBounds(tao, force, bounds));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(VecGetLocalSize(terms->rho, &n));
+  PetscCall(VecGetArrayRead(value, &v));
+  PetscCall(VecGetArrayRead(bounds, &b));
+  PetscCall(VecGetArrayRead(terms->rho, &rho));
+  PetscCall(VecGetArray(terms->force, &tau));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscScalar *at     = &v[2 * i];
+    const PetscReal    size   = PetscSqrtReal(PetscSqr(PetscAbsScalar(at[0])) + PetscSqr(PetscAbsScalar(at[1])));
+    const PetscBool    slides = (PetscBool)(size > unmoved * PetscMax(sizes[0], sizes[1]));
+
+    if (PetscRealPart(rho[i]) > 0.0 || PetscRealPart(b[i]) >= PETSC_INFINITY) continue;
+    for (PetscInt a = 0; a < 2; a++) tau[2 * i + a] = slides ? -b[i] * at[a] / size : 0.0;
+  }
+  PetscCall(VecRestoreArray(terms->force, &tau));
+  PetscCall(VecRestoreArrayRead(terms->rho, &rho));
+  PetscCall(VecRestoreArrayRead(bounds, &b));
+  PetscCall(VecRestoreArrayRead(value, &v));
+  PetscCall(VecDestroy(&bounds));
+  PetscCall(VecDestroy(&value));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode TermsReference(Vec given, Vec *own)
 {
   PetscFunctionBegin;
