@@ -155,7 +155,7 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
     c->pairs[p].given      = pairs[p].distance;
     c->pairs[p].smooth     = pairs[p].smooth;
     c->pairs[p].frictional = SceneContactPairHasFriction(&pairs[p]);
-    c->pairs[p].sticks     = (PetscBool)(pairs[p].friction >= PETSC_INFINITY);
+    c->pairs[p].sticks     = (PetscBool)(pairs[p].friction >= PETSC_INFINITY && pairs[p].shear_limit >= PETSC_INFINITY);
     c->frictional          = (PetscBool)(c->frictional || c->pairs[p].frictional);
     PetscCall(ContactSurfaceCreate(dm, pairs[p].mortar, thickness, &c->pairs[p].mortar));
     PetscCall(ContactSurfaceCreate(dm, pairs[p].nonmortar, thickness, &c->pairs[p].nonmortar));

@@ -1,6 +1,6 @@
 # A block is pulled over a rigid body by one of its faces, whose displacements along the body are prescribed: friction
 # acts on the nodes of this face, too, although it moves no unknown there. The pull must be the coefficient of friction
-# times the normal force, and the work that it puts in must be stored or dissipated
+# times the normal force, or the shear limit times the area, and the work that it puts in must be stored or dissipated
 scene() {
   cat <<YAML
 bodies:
@@ -10,7 +10,7 @@ displacements:
   - floor: {body: floor, value: [0, 0, 0]}
   - pull: {face: block.xmax, value: [0.4, $2, free], ramp: pull}
 pressures: [weight: {face: block.zmax, value: 4, ramp: press}]
-contact: [pair: {mortar: floor.$3, nonmortar: block.zmin, friction: 0.5}]
+contact: [pair: {mortar: floor.$3, nonmortar: block.zmin, ${4:-friction: 0.5}}]
 ramps: [press: {factors: [1, 1, 1]}, pull: {factors: [0, 0.5, 1]}]
 YAML
 }
@@ -19,7 +19,8 @@ scene "{shape: rigid_plane, point: [0, 0, 0], normal: [0, 0, 1]}" 0 surface > pl
 scene "{shape: rigid_plane, point: [0, 0, 0], normal: [0, 0, 1]}" 0.3 surface > oblique.yaml
 scene "{$mesh}" 0 "zmax, gap: node" > node.yaml
 scene "{$mesh}" 0 zmax > mortar.yaml
-for name in plane oblique node mortar; do
+scene "{shape: rigid_plane, point: [0, 0, 0], normal: [0, 0, 1]}" 0 surface "shear_limit: 2" > tresca.yaml
+for name in plane oblique node mortar tresca; do
   for ranks in 1 3; do
     mpiexec --oversubscribe -n $ranks "$AMGF_DIR/bin/contact" $name.yaml -quiet -summary ${name}_$ranks.json ||
       echo "exit $?"
@@ -30,7 +31,7 @@ from math import hypot
 
 from summaries import load, say, within
 
-for name in ("plane", "oblique", "node", "mortar"):
+for name in ("plane", "oblique", "node", "mortar", "tresca"):
     for ranks in (1, 3):
         step = load(f"{name}_{ranks}")["steps"][-1]
         path = 0.5 if name == "oblique" else 0.4
