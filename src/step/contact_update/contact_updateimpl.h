@@ -8,10 +8,13 @@
 #include "src/step/problem/problemimpl.h"
 
 /* error.c: error of a contact update */
-PETSC_INTERN PetscErrorCode ContactUpdateNamePlace(Simulation, const ContactSolution *, ContactLinearization at_u,
-  PetscBool slid, size_t length, char sentence[]);
 PETSC_INTERN PetscErrorCode ContactUpdateMeasureError(Simulation, Vec u, const ContactSolution *,
   ContactLinearization at_u, StepReport *);
+
+/* place.c: names vertices at which contact updates fail */
+PETSC_INTERN PetscErrorCode ContactUpdateNamePlace(Simulation, const ContactSolution *, ContactLinearization at_u,
+  PetscBool slid, size_t length, char sentence[]);
+PETSC_INTERN PetscErrorCode ContactUpdateReportDriven(const StepProblem *, StepReport *);
 
 /* newton.c: Newton's method for contact updates */
 PETSC_INTERN PetscErrorCode ContactUpdateNewton(StepProblem *, const ContactSolution *, ContactLinearization at_u,

@@ -81,6 +81,7 @@ static PetscErrorCode ContactUpdatesSolveLinearized(StepProblem *p, PetscBool re
     PetscCall(PetscLogEventEnd(CONTACT_Linearize, NULL, NULL, NULL, NULL));
     if (resume && !p->by_newton) PetscCall(ContactUpdateAnticipate(p, p->sim->solved->linearization));
     PetscCall(StepProblemSolve(p, (PetscBool)(resume && !missed), u, report, sol));
+    PetscCall(ContactUpdateReportDriven(p, report));
     PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
     if (report->converged) PetscCall(MissedFind(p, u_linearized, u, sol->gap, &reach, &missed));
     PetscCall(PetscLogEventEnd(CONTACT_Linearize, NULL, NULL, NULL, NULL));
