@@ -21,6 +21,7 @@ typedef struct _n_Checkpoint {
   PetscReal        largest_increment; /* largest increment of any displacement component in a load step so far
                                          [length] */
   PetscReal        work;              /* work of the external forces [force length] */
+  PetscReal        dual_gaps;         /* 1 if pairs with gap: auto use dual shape functions, else 0 */
   PetscReal        contact_work;      /* work taken up by contact pairs with friction [force length] */
   PetscReal        largest_speed;     /* largest norm of the velocity so far, with the mass; only in dynamics with
                                          controlled time steps */

@@ -49,7 +49,10 @@ PETSC_EXTERN PetscErrorCode ContactSetBodies(Contact, const SceneBody[]);
 PETSC_EXTERN PetscErrorCode ContactSetCyclic(Contact, PetscInt n, const SceneCyclic[]);
 PETSC_EXTERN PetscErrorCode ContactGetReach(Contact, PetscReal *distance, PetscReal *depth);
 PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscReal depth);
-PETSC_EXTERN PetscErrorCode ContactSetDual(Contact, PetscBool);
+/* The pairs with mortar gaps that use dual shape functions in addition to those of GAP_DUAL: none, those that the scene
+   leaves open (GAP_AUTO), or all */
+typedef enum { CONTACT_DUAL_NONE, CONTACT_DUAL_AUTO, CONTACT_DUAL_ALL } ContactDualPairs;
+PETSC_EXTERN PetscErrorCode ContactSetDual(Contact, ContactDualPairs, PetscBool *changed);
 /* Collective. Searches, clips and integrates at the global displacement u */
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
 PETSC_EXTERN PetscErrorCode ContactLinearizeForces(Contact, Vec u, ContactLinearization *);

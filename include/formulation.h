@@ -24,6 +24,7 @@ typedef enum { ELEMENT_TYPES(ELEMENT_TYPE) ELEMENT_AUTO } ElementType;
 PETSC_EXTERN const char *const ElementTypes[];
 
 typedef enum {
+  GAP_AUTO,   /* GAP_MORTAR, and GAP_DUAL from the first load step for which GAP_MORTAR finds no equilibrium */
   GAP_MORTAR, /* segment to segment: the gap is integrated over the overlap of the two faces */
   GAP_NODE,   /* node to segment: distance from a nonmortar vertex to the closest point of the mortar face */
   GAP_DUAL    /* mortar with dual shape functions: the contact force of a row acts at its own nonmortar vertex */

@@ -86,6 +86,7 @@ PetscErrorCode CheckpointCheck(MPI_Comm comm, Checkpoint checkpoint)
     {"largest_increment", checkpoint->largest_increment, 0},
     {"work", checkpoint->work, PETSC_NINFINITY},
     {"contact_work", checkpoint->contact_work, PETSC_NINFINITY},
+    {"dual_gaps", checkpoint->dual_gaps, 0},
     {"damping_work", checkpoint->damping_work, PETSC_NINFINITY},
     {"largest_speed", checkpoint->largest_speed, 0},
   };

@@ -12,6 +12,7 @@ const CheckpointNumberField CheckpointNumbers[] = {
   {"largest_increment", offsetof(struct _n_Checkpoint, largest_increment)},
   {"work", offsetof(struct _n_Checkpoint, work)},
   {"contact_work", offsetof(struct _n_Checkpoint, contact_work)},
+  {"dual_gaps", offsetof(struct _n_Checkpoint, dual_gaps)},
   {"damping_work", offsetof(struct _n_Checkpoint, damping_work)},
   {"largest_speed", offsetof(struct _n_Checkpoint, largest_speed)},
   {NULL, 0},

@@ -129,6 +129,7 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
   (*checkpoint)->largest_increment = path->largest_increment;
   (*checkpoint)->work              = path->work;
   (*checkpoint)->contact_work      = path->contact_work;
+  (*checkpoint)->dual_gaps         = sim->control->dual_gaps;
   PetscCall(PetscMalloc1(sim->bolts.n, &(*checkpoint)->shortening));
   PetscCall(PetscArraycpy((*checkpoint)->shortening, sim->bolts.shortening, sim->bolts.n));
   PetscCall(VecGetLocalSize(path->u, &n));
@@ -146,6 +147,16 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
   }
   PetscCall(CheckpointCopyContact(sim, *checkpoint, PETSC_FALSE));
   PetscCall(CheckpointAddPlastic(sim->scene, sim->elasticity, *checkpoint));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode CheckpointSetDualGaps(Simulation sim, PetscBool dual)
+{
+  PetscBool changed;
+
+  PetscFunctionBegin;
+  sim->control->dual_gaps = dual;
+  if (dual && sim->contact) PetscCall(ContactSetDual(sim->contact, CONTACT_DUAL_AUTO, &changed));
   PetscFunctionReturn(0);
 }
 
@@ -187,6 +198,7 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   path->largest_increment          = checkpoint->largest_increment;
   path->work                       = checkpoint->work;
   path->contact_work               = checkpoint->contact_work;
+  PetscCall(CheckpointSetDualGaps(sim, (PetscBool)(checkpoint->dual_gaps > 0.0)));
   PetscCall(CheckpointGetVec(checkpoint, "displacement", path->u));
   PetscCall(CheckpointGetVec(checkpoint, "previous_displacement", path->previous_u));
   PetscCall(PetscArraycpy(sim->bolts.shortening, checkpoint->shortening, sim->bolts.n));

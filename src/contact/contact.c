@@ -40,7 +40,7 @@ static PetscErrorCode ContactCheckPairs(DM dm, PetscInt npairs, const SceneConta
     PetscCall(DMHasLabel(dm, pairs[p].mortar, &has));
     SceneCheck(has, comm, PETSC_ERR_ARG_WRONG, &pairs[p],
       "Contact pair \"%s\" names mortar face \"%s\", but the mesh has no such face", name, pairs[p].mortar);
-    SceneCheck(pairs[p].gap >= GAP_MORTAR && pairs[p].gap <= GAP_DUAL, comm, PETSC_ERR_ARG_OUTOFRANGE, &pairs[p],
+    SceneCheck(pairs[p].gap >= GAP_AUTO && pairs[p].gap <= GAP_DUAL, comm, PETSC_ERR_ARG_OUTOFRANGE, &pairs[p],
       "Contact pair \"%s\" has the unknown gap formulation %d", name, (int)pairs[p].gap);
     SceneCheck(pairs[p].distance >= 0.0, comm, PETSC_ERR_ARG_OUTOFRANGE, &pairs[p],
       "Contact pair \"%s\" has search distance %g, but it must not be negative", name, (double)pairs[p].distance);
@@ -106,6 +106,12 @@ static PetscErrorCode ContactCreateTrace(Contact contact)
   PetscFunctionReturn(0);
 }
 
+static void PairSetGap(ContactPairData *pair, GapType gap)
+{
+  pair->may_be_dual = (PetscBool)(gap == GAP_AUTO);
+  pair->gap         = gap == GAP_AUTO ? GAP_MORTAR : gap;
+}
+
 /*@C
   ContactCreate - Creates the contact of pairs of faces of a mesh
 
@@ -150,8 +156,8 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
   PetscCall(ContactBoundaryDestroy(&boundary));
   for (PetscInt p = 0; p < npairs; ++p) {
     PetscCall(PetscStrallocpy(ContactPairName(&pairs[p]), &c->pairs[p].name));
-    c->pairs[p].place      = pairs[p].place;
-    c->pairs[p].gap        = pairs[p].gap;
+    c->pairs[p].place = pairs[p].place;
+    PairSetGap(&c->pairs[p], pairs[p].gap);
     c->pairs[p].given      = pairs[p].distance;
     c->pairs[p].smooth     = pairs[p].smooth;
     c->pairs[p].frictional = SceneContactPairHasFriction(&pairs[p]);
@@ -182,7 +188,8 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
 . contact - the contact
 
   Options Database Keys:
-+ -contact_gap <mortar,node,dual>    - how the gap of every pair is measured; overrides the setting of the pairs
++ -contact_gap <auto>                - how the gap of every pair is measured: auto, mortar, node or dual; overrides the
+                                       setting of the pairs
 . -contact_smooth <true,false>       - whether the gap of every pair is measured between smooth surfaces through the
                                        facets; overrides the setting of the pairs
 . -contact_normals <nodal,facet>     - direction of mortar gaps: the averaged normals of the vertices, or the normals
@@ -199,7 +206,7 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
 @*/
 PetscErrorCode ContactSetFromOptions(Contact contact)
 {
-  GapType   gap    = contact->npairs ? contact->pairs[0].gap : GAP_MORTAR;
+  GapType   gap    = GAP_AUTO;
   PetscInt  degree = contact->rule[0].degree;
   PetscBool smooth = contact->npairs ? contact->pairs[0].smooth : PETSC_FALSE;
   PetscBool set_gap, set_smooth, set_degree;
@@ -230,7 +237,7 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
     PetscCheck(!set_gap || gap != GAP_NODE || !contact->pairs[p].mortar.self, contact->comm, PETSC_ERR_SUP,
       "-contact_gap node is between two faces, but contact pair \"%s\" is the face %s in contact with itself",
       contact->pairs[p].name, contact->pairs[p].mortar.name);
-    if (set_gap) contact->pairs[p].gap = gap;
+    if (set_gap) PairSetGap(&contact->pairs[p], gap);
     if (set_smooth && !contact->pairs[p].formula) contact->pairs[p].smooth = smooth;
   }
   PetscCall(ContactSmoothReset(contact));
@@ -434,14 +441,21 @@ PetscErrorCode ContactSetReach(Contact contact, PetscReal distance, PetscReal de
 }
 
 /*
-   Logically Collective. Sets whether all mortar pairs use dual shape functions. If `dual` is false, only pairs with gap
-   GAP_DUAL do. With dual shape functions the resultant of the contact forces can act at the edges of faces. This is
-   used to test whether any contact forces balance a load.
+   Logically Collective. Sets which pairs with GAP_MORTAR use dual shape functions. With these the resultant of the
+   contact forces can act at the edges of faces. *changed: whether this changes a pair
 */
-PetscErrorCode ContactSetDual(Contact contact, PetscBool dual)
+PetscErrorCode ContactSetDual(Contact contact, ContactDualPairs which, PetscBool *changed)
 {
   PetscFunctionBegin;
-  for (PetscInt p = 0; p < contact->npairs; ++p) contact->pairs[p].dual = dual;
+  *changed = PETSC_FALSE;
+  for (PetscInt p = 0; p < contact->npairs; ++p) {
+    ContactPairData *pair = &contact->pairs[p];
+    const PetscBool  dual = (PetscBool)(which == CONTACT_DUAL_ALL || (which == CONTACT_DUAL_AUTO && pair->may_be_dual));
+
+    if (pair->gap != GAP_MORTAR || pair->formula || pair->dual == dual) continue;
+    pair->dual = dual;
+    *changed   = PETSC_TRUE;
+  }
   PetscFunctionReturn(0);
 }
 

@@ -1,7 +1,11 @@
 /* The gap of all pairs, linearized at a displacement */
 #include "contactimpl.h"
 
-static const ContactGapOps *const gap_ops[] = {&ContactGapMortar, &ContactGapNode, &ContactGapMortar}; /* by GapType */
+static const ContactGapOps *PairGetGapOps(const ContactPairData *pair)
+{
+  if (pair->formula) return &ContactGapRigidSurface;
+  return pair->gap == GAP_NODE ? &ContactGapNode : &ContactGapMortar;
+}
 
 /* Collective. Deforms the surfaces and normals of pair p. local: displacement of the vertices [length] */
 static PetscErrorCode ContactMovePair(Contact contact, PetscInt p, Vec local)
@@ -60,7 +64,7 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, ContactParts parts,
   PetscCall(ContactAssemblyCreate(contact, parts, &assembly));
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     ContactPairData     *pair = &contact->pairs[p];
-    const ContactGapOps *ops  = pair->formula ? &ContactGapRigidSurface : gap_ops[pair->gap];
+    const ContactGapOps *ops  = PairGetGapOps(pair);
     PetscReal box[6] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL};
     ContactCandidates candidates;
 

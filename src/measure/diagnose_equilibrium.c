@@ -9,6 +9,7 @@
    drive. There is then no equilibrium (Farkas' lemma).
 */
 #include "measureimpl.h"
+#include "src/state/control.h"
 #include "src/state/interrupt.h"
 #include "src/state/path.h"
 
@@ -394,18 +395,20 @@ static PetscErrorCode EquilibriumMeasureLoad(Vec load, PetscReal *size)
 */
 static PetscErrorCode EquilibriumLinearize(const FreeMotions *m, ContactLinearization lins[EQUILIBRIUM_ROWS])
 {
-  Simulation sim = m->sim;
-  PetscReal  extent;
+  Simulation             sim  = m->sim;
+  const ContactDualPairs used = sim->control->dual_gaps ? CONTACT_DUAL_AUTO : CONTACT_DUAL_NONE;
+  PetscReal              extent;
+  PetscBool              changed;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(m->x, NORM_INFINITY, &extent));
   PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &lins[0]));
-  PetscCall(ContactSetDual(sim->contact, PETSC_TRUE));
+  PetscCall(ContactSetDual(sim->contact, CONTACT_DUAL_ALL, &changed));
   PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &lins[1]));
   PetscCall(ContactSetReach(sim->contact, 2.0 * PetscSqrtReal(3.0) * extent, 0.0));
   PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &lins[2]));
   PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
-  PetscCall(ContactSetDual(sim->contact, PETSC_FALSE));
+  PetscCall(ContactSetDual(sim->contact, used, &changed));
   PetscFunctionReturn(0);
 }
 

@@ -3,7 +3,7 @@
 
 #define ELEMENT_NAME(name, element, text) text,
 const char *const ElementTypes[]    = {ELEMENT_TYPES(ELEMENT_NAME) "auto", "ElementType", "ELEMENT_", NULL};
-const char *const GapTypes[]        = {"mortar", "node", "dual", "GapType", "GAP_", NULL};
+const char *const GapTypes[]        = {"auto", "mortar", "node", "dual", "GapType", "GAP_", NULL};
 const char *const DynamicsSchemes[] = {"generalized_alpha", "impact", "DynamicsScheme", "SCHEME_", NULL};
 const char *const MassTypes[]       = {"redistributed", "lumped", "consistent", "MassType", "MASS_", NULL};
 const char *const StepModels[]      = {"energy", "quadratic", "StepModel", "MODEL_", NULL};

@@ -44,7 +44,7 @@ static const struct {
   const char *name, *words[5];
 } OptionsChoices[] = {
   {"accuracy_of", {"energy", "force", "pressure", "displacement", NULL}},
-  {"contact_gap", {"mortar", "node", "dual", NULL}},
+  {"contact_gap", {"auto", "mortar", "node", "dual", NULL}},
   {"contact_normals", {"nodal", "facet", NULL}},
   {"model", {"energy", "quadratic", NULL}},
   {"pc_amgf_cycle", {"bfb", "fbf", "additive", NULL}},

@@ -314,6 +314,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(PetscFree2(s->solved->pressure, s->solved->gap));
   PetscCall(PetscFree2(s->solved->shear, s->solved->slip));
   PetscCall(PetscFree(s->control->cause));
+  PetscCall(PetscFree(s->control->failure.reason));
   PetscCall(PetscFree(s->results->stress));
   PetscCall(PetscFree(s->solved->points));
   PetscCall(PetscFree(s->results->beyond));

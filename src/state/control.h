@@ -30,6 +30,13 @@ typedef struct {
   PetscReal shortest; /* length of the shortest accepted time step, as a fraction of the load step */
 } TimeStepControl;
 
+/* A failed attempt */
+typedef struct {
+  char     *reason; /* why it failed; NULL if no attempt has failed */
+  PetscBool gap_unconverged;
+  PetscInt  unsupported;
+} StepFailure;
+
 /* Settings for the solution of load steps, and the reasons for which load steps have failed. */
 struct _n_StepControl {
   StepTolerances  tolerances; /* updated with the options of the solvers as soon as these have been read */
@@ -52,6 +59,9 @@ struct _n_StepControl {
   char           *cause;          /* reason for which the first of these attempts failed; NULL if there was none */
   PetscReal       weak_stiffness; /* stiffness of the proximal term of bodies on weak springs, divided by the stiffness
                                  of the bodies; 0: no such term */
+  PetscBool       dual_gaps;      /* whether pairs with gap: auto use dual shape functions */
+  PetscInt        dual_tried;     /* number of the last load step that was tried with them, from 1; 0: none */
+  StepFailure     failure;        /* the failed attempt that is repeated with them */
   int             interrupted;    /* signal that was caught; 0: none */
 };
 

@@ -137,13 +137,14 @@ static PetscErrorCode SimulationAdvance(Simulation sim, PetscReal end, StepRepor
   PetscBool *again)
 {
   const PetscReal left = end - sim->path->time;
-  PetscBool       anew;
+  PetscBool       anew, repeated;
 
   PetscFunctionBegin;
   if (*increment > left * (1.0 - PETSC_SQRT_MACHINE_EPSILON)) *increment = left;
   PetscCall(SimulationAttempt(sim, *increment == left ? end : sim->path->time + *increment, report));
   if (report->converged) {
     ++report->substeps;
+    PetscCall(DualGapsAccept(sim, report));
     PetscCall(SlippedAwayWarn(sim, report));
     if (sim->control->observer.reach) PetscCall(sim->control->observer.reach(sim));
     *increment = SimulationLengthen(sim, *increment);
@@ -151,7 +152,10 @@ static PetscErrorCode SimulationAdvance(Simulation sim, PetscReal end, StepRepor
   if (sim->control->time_step.too_long) PetscCall(SimulationShorten(sim, report, increment));
   else {
     PetscCall(ForecastAssess(sim, report->converged, &anew));
-    if (!report->converged && !anew) PetscCall(SimulationCut(sim, report, increment, again));
+    if (!report->converged && !anew) {
+      PetscCall(DualGapsTry(sim, report, &repeated));
+      if (!repeated) PetscCall(SimulationCut(sim, report, increment, again));
+    }
   }
   sim->control->increment = *increment;
   PetscFunctionReturn(0);
@@ -208,7 +212,8 @@ static PetscErrorCode SimulationWarn(Simulation sim, StepReport *report)
    With linear bodies, or `model: quadratic` in the scene, the step is a quadratic program; otherwise the true energy is
    minimized. A quadratic step without contact pairs is one PCG solve (options prefix -elasticity_).
 
-   A step that fails is halved and repeated from the last converged state. After each success the step size is doubled.
+   A step that fails is attempted again with dual shape functions if contact pairs have gap: auto. If that fails too, it
+   is halved, and repeated from the last converged state. After each success the step size is doubled.
    With a tolerance in `dynamics` a step is divided into time steps whose error is below the tolerance.
 
    Errors: PETSC_ERR_ORDER before SimulationSetUp(), or for a step that is not the next one; PETSC_ERR_ARG_OUTOFRANGE

@@ -18,6 +18,10 @@ PETSC_INTERN PetscErrorCode ForecastAssess(Simulation, PetscBool converged, Pets
 #define STEP_SHORTEST (1.0 / 1024.0)
 PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepReport *);
 
+/* dual_gaps.c: repeats a failed attempt with dual shape functions */
+PETSC_INTERN PetscErrorCode DualGapsTry(Simulation, StepReport *, PetscBool *again);
+PETSC_INTERN PetscErrorCode DualGapsAccept(Simulation, const StepReport *);
+
 /* slipped_away.c: warns of bodies that leave the contact and move far away */
 PETSC_INTERN PetscErrorCode SlippedAwayWarn(Simulation, const StepReport *);
 

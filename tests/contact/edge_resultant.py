@@ -21,8 +21,9 @@ contact:
 """
 SCENES = {
     f"{gap}_{cells}_{push}": BLOCK.format(gap=gap, cells=cells, push=push / 1000)
-    for gap in ("dual", "node", "mortar") for cells in (1, 6) for push in (450, 495, 505)
+    for gap in ("dual", "node", "mortar", "auto") for cells in (1, 6) for push in (450, 495, 505)
 }
+SCENES["auto_three"] = SCENES["auto_6_495"] + "load: {factors: [1, 0.99, 0.98]}\n"
 
 if sys.argv[1:] == ["scenes"]:
     for name, text in SCENES.items():
@@ -41,6 +42,16 @@ else:
             pair = runs[1]["steps"][-1]["pairs"][0]
             middle = pair["moment"][1] / -pair["force"][2]
             say(f"{gap}, {cells} cells: where the resultant stands", abs(middle - 0.995) < 2e-3, middle)
+    runs = [load(f"auto_6_{push}") for push in (450, 495, 505)]
+    say("auto, 6 cells: stands at 0.45 and 0.495, tips at 0.505",
+        [run["converged"] for run in runs] == [True, True, False], [run["reason"] for run in runs])
+    say("auto, 6 cells: its warning", ["gap: dual from now on" in " ".join(map(str, run["warnings"]))
+                                       for run in runs] == [True, True, False], [run["warnings"] for run in runs])
+    say("auto, 6 cells: the sentence", "nothing stops it" in runs[2]["reason"], runs[2]["reason"])
+    rest, whole = load("auto_rest"), load("auto_three")
+    say("auto, continued from a checkpoint: dual functions from the start", rest["steps"][-1]["converged"]
+        and not rest["warnings"] and within(rest["steps"][-1]["energy"], whole["steps"][-1]["energy"], 1e-7),
+        (rest["warnings"], rest["steps"][-1]["energy"], whole["steps"][-1]["energy"]))
     for push in 450, 495:
         run = load(f"mortar_6_{push}")
         say(f"mortar, 6 cells, {push / 1000}: nobody says that a block tips that stands", run["converged"]

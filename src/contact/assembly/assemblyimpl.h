@@ -10,16 +10,17 @@ typedef struct {
   const char    *place;             /* place of the pair in the scene file, which the scene owns; NULL: none */
   ContactSurface mortar, nonmortar; /* the two faces, deformed to the displacement of the last contact update */
   ContactRing    mortar_ring, nonmortar_ring; /* the facets around the two faces, for the normals of smooth pairs */
-  GapType        gap;
-  PetscBool      frictional;    /* whether the pair has friction */
-  PetscBool      sticks;        /* whether friction allows no slip (scene key `stick: true`) */
+  GapType        gap;                         /* GAP_AUTO is replaced by GAP_MORTAR and may_be_dual */
+  PetscBool      may_be_dual;                 /* whether dual functions may replace those of GAP_MORTAR */
+  PetscBool      frictional;                  /* whether the pair has friction */
+  PetscBool      sticks;                      /* whether friction allows no slip (scene key `stick: true`) */
   PetscInt       nfrictionless; /* number of rows, on all ranks, on which no friction acts although the faces slide;
                                    set when the slip rows are created */
   PetscBool      stretches;     /* whether the nonmortar body has a law of finite strain */
   PetscBool      smooth;        /* whether the gap is measured between smooth surfaces */
   PetscReal      bulge; /* largest distance between the smooth surface and the facets, in the undeformed state, summed
                        over both faces [length] */
-  PetscBool      dual;  /* whether mortar gaps use dual functions even if the scene does not ask for them */
+  PetscBool      dual;  /* whether mortar gaps use dual functions although the scene does not ask for them */
   PetscReal      given; /* search distance that the scene sets [length]; 0: it is computed from the size of the faces */
   PetscInt      *row;   /* [4 nonmortar facets] global row of each vertex of the facets */
   PetscReal     *normal;   /* [12 nonmortar facets] averaged unit normals at the facets' vertices */

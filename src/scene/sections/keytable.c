@@ -208,7 +208,8 @@ static const SceneKey contact_rows[] = {
   TEXT("self", NULL, SceneContactPair, self, OPTIONAL, "none",
     "instead of `mortar` and `nonmortar`: name of a face, or of a body (its whole surface), that comes into contact "
     "with itself, see [Self contact](#self-contact). In `auto`: `true`, all bodies of finite strain"),
-  NAMED("gap", NULL, CHOICE, SceneContactPair, gap, SHOWN, GapTypes, "`mortar`",
+  NAMED("gap", NULL, CHOICE, SceneContactPair, gap, SHOWN, GapTypes, "`auto`",
+    "`auto`: `mortar`, and `dual` from the first load step on for which `mortar` finds no equilibrium; "
     "`mortar`: integrated over the overlap of the faces; `node`: from nonmortar vertex to the closest point of the "
     "mortar face; `dual`: as `mortar`, with dual shape functions, whose forces act at the nonmortar vertices, see "
     "[contact surfaces](#contact-surfaces-and-updates)"),

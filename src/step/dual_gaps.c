@@ -1,0 +1,81 @@
+/*
+   Dual shape functions for pairs with gap: auto. With mortar gaps the contact force of a row acts at the centre of its
+   shape function. No resultant then reaches the edge of a coarse face, and a vertex at the edge may penetrate while its
+   neighbours lift off. Dual functions have neither defect. If an attempt at a load step fails, it is therefore repeated
+   with them. If that succeeds, they are used until the end of the run.
+*/
+#include "stepimpl.h"
+#include "src/state/contact_state.h"
+#include "src/state/control.h"
+#include "src/state/path.h"
+
+/* Sets the functions. What the optimizer has kept of the other problem, such as directions, is destroyed */
+static PetscErrorCode DualGapsSet(Simulation sim, PetscBool dual, PetscBool *changed)
+{
+  PetscFunctionBegin;
+  PetscCall(ContactSetDual(sim->contact, dual ? CONTACT_DUAL_AUTO : CONTACT_DUAL_NONE, changed));
+  if (!*changed) PetscFunctionReturn(0);
+  sim->control->dual_gaps = dual;
+  PetscCall(ContactLinearizationDestroy(&sim->solved->upcoming));
+  PetscCall(PetscContainerDestroy(&sim->solved->subspace));
+  PetscFunctionReturn(0);
+}
+
+/* Goes back to the usual functions after an attempt with dual ones failed too, whose first reason is then reported */
+static PetscErrorCode DualGapsUndo(Simulation sim, StepReport *report)
+{
+  StepFailure *failure = &sim->control->failure;
+  PetscBool    changed;
+
+  PetscFunctionBegin;
+  PetscCall(DualGapsSet(sim, PETSC_FALSE, &changed));
+  sim->control->unsupported = failure->unsupported;
+  report->gap_unconverged   = failure->gap_unconverged;
+  if (!sim->control->interrupted) PetscCall(ReportReason(report, PETSC_FALSE, failure->reason));
+  PetscCall(PetscFree(failure->reason));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Collective. Decides, after an attempt has failed, whether the same time is attempted again with dual functions; this
+   is done once in a load step. It is not done if it is proved that no contact forces hold the loads.
+*/
+PetscErrorCode DualGapsTry(Simulation sim, StepReport *report, PetscBool *again)
+{
+  StepControl *control = sim->control;
+  StepFailure *failure = &control->failure;
+
+  PetscFunctionBegin;
+  *again = PETSC_FALSE;
+  if (failure->reason) {
+    PetscCall(DualGapsUndo(sim, report));
+    PetscFunctionReturn(0);
+  }
+  if (!sim->contact || control->interrupted || control->unsupported > 1 || control->dual_tried == report->step)
+    PetscFunctionReturn(0);
+  PetscCall(DualGapsSet(sim, PETSC_TRUE, again));
+  if (!*again) PetscFunctionReturn(0);
+  control->dual_tried      = report->step;
+  failure->unsupported     = control->unsupported;
+  failure->gap_unconverged = report->gap_unconverged;
+  PetscCall(PetscStrallocpy(report->reason, &failure->reason));
+  if (control->monitor)
+    PetscCall(PetscPrintf(sim->comm, "Load step %" PetscInt_FMT " attempted again with gap: dual: %s\n", report->step,
+      report->reason));
+  PetscFunctionReturn(0);
+}
+
+/* Warns if the attempt that succeeded is the first one with dual functions */
+PetscErrorCode DualGapsAccept(Simulation sim, const StepReport *report)
+{
+  StepFailure *failure = &sim->control->failure;
+
+  PetscFunctionBegin;
+  if (!failure->reason) PetscFunctionReturn(0);
+  PetscCall(PetscFree(failure->reason));
+  PetscCall(ReportWarn(sim->comm, &sim->report, NULL,
+    "load step %" PetscInt_FMT ": contact pairs have gap: dual from now on, because no equilibrium was found with "
+    "gap: mortar, whose pressures cannot act at the edge of a coarse face",
+    report->step));
+  PetscFunctionReturn(0);
+}
