@@ -2,8 +2,10 @@
 #
 # PETSc is found through PETSC_DIR (and PETSC_ARCH) if set, else through pkg-config alone.
 
-# petscamgf.h has the version; while it is 0.x, a plugin and the programs linked with it belong together up to its second number
-VERSION   := $(subst $(eval) ,.,$(shell sed -n 's/^#define PETSCAMGF_VERSION_[A-Z]* *\([0-9]*\)$$/\1/p' include/petscamgf.h))
+# petscamgf.h has the version; while it is 0.x, a plugin and the programs linked with it belong together up to its
+# second number
+VERSION   := $(subst $(eval) ,.,$(shell \
+  sed -n 's/^#define PETSCAMGF_VERSION_[A-Z]* *\([0-9]*\)$$/\1/p' include/petscamgf.h))
 SOVERSION := $(basename $(VERSION))
 
 include share/toolchain.mk
@@ -13,14 +15,18 @@ include share/configuration.mk
 
 PLUGIN  := lib/libpetscamgf.so
 LIBRARY := lib/libcontact.a
-plugin_objects  := $(patsubst %.c,build/%.o,$(wildcard pc_amgf/*.c src/plugin/*.c $(if $(PETSC_COMPLEX),,pc_amgf/blockamg/*.c pc_amgf/cholesky/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c)))
+# With complex scalars the plugin is PCAMGF alone
+only_real       := pc_amgf/blockamg/*.c pc_amgf/cholesky/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c
+plugin_sources  := $(wildcard pc_amgf/*.c src/plugin/*.c $(if $(PETSC_COMPLEX),,$(only_real)))
+plugin_objects  := $(patsubst %.c,build/%.o,$(plugin_sources))
 library_objects := $(filter-out build/src/plugin/%,$(patsubst %.c,build/%.o,$(wildcard src/*/*.c src/*/*/*.c)))
 program_objects := $(patsubst %.c,build/%.o,$(wildcard apps/*.c))
 programs        := $(if $(PETSC_COMPLEX),,bin/contact)
 # What is linked changes when a source file comes or goes, not only when one changes
 source_list := build/sources.list
 
-.PHONY: all complex demo demo-published check check-all stress scene-stress clean help dependencies print-contact-libs FORCE
+.PHONY: all complex demo demo-published check check-all stress scene-stress clean help dependencies \
+  print-contact-libs FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
@@ -42,14 +48,16 @@ build/src/output/page.o build/src/mesh/gmsh/convert.o: COMPILE_FLAGS += -DCONTAC
 
 $(source_list): FORCE
 	@mkdir -p $(@D)
-	@echo '$(plugin_objects) $(library_objects) $(program_objects)' | cmp -s - $@ || echo '$(plugin_objects) $(library_objects) $(program_objects)' > $@
+	@objects='$(plugin_objects) $(library_objects) $(program_objects)'; \
+	echo "$$objects" | cmp -s - $@ || echo "$$objects" > $@
 
 # PETSc closes what it opened; nodelete keeps the registered types callable until the process ends
 $(PLUGIN): $(plugin_objects) $(source_list) $(configuration) include/petscamgf.h
 	@mkdir -p $(@D)
 	$(call say,LD,$@)
 	$(Q)rm -f $@*
-	$(Q)$(CC) -shared -Wl,-soname,$(@F).$(SOVERSION) -Wl,-z,nodelete $(CFLAGS) $(LDFLAGS) $(plugin_objects) $(PETSC_LIBS) -lm -o $@.$(VERSION)
+	$(Q)$(CC) -shared -Wl,-soname,$(@F).$(SOVERSION) -Wl,-z,nodelete $(CFLAGS) $(LDFLAGS) $(plugin_objects) \
+	  $(PETSC_LIBS) -lm -o $@.$(VERSION)
 	$(Q)ln -sf $(@F).$(VERSION) $@.$(SOVERSION) && ln -sf $(@F).$(SOVERSION) $@
 
 $(LIBRARY): $(library_objects) $(source_list)
@@ -61,14 +69,16 @@ $(LIBRARY): $(library_objects) $(source_list)
 bin/contact: $(program_objects) $(LIBRARY) $(PLUGIN) $(configuration)
 	@mkdir -p $(@D)
 	$(call say,LD,$@)
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $(program_objects) $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' $(PETSC_LIBS) $(CONTACT_LIBS) -o $@
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $(program_objects) $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' \
+	  $(PETSC_LIBS) $(CONTACT_LIBS) -o $@
 
 bin/contact-mesh: share/python/contact-mesh.sh
 	@mkdir -p $(@D)
 	$(Q)install -m 755 $< $@
 
 .PRECIOUS: build/%.o
--include $(wildcard build/apps/*.d build/pc_amgf/*.d build/pc_amgf/*/*.d build/tao_ipfilter/*.d build/tao_ipfilter/*/*.d build/src/*/*.d build/src/*/*/*.d)
+-include $(wildcard $(addprefix build/,apps/*.d pc_amgf/*.d pc_amgf/*/*.d tao_ipfilter/*.d tao_ipfilter/*/*.d \
+  src/*/*.d src/*/*/*.d))
 
 dependencies:
 	@./share/install-deps.sh
@@ -94,12 +104,13 @@ TESTS_PARALLEL = $(if $(PARALLEL),-j$(shell expr $(CORES) + 1))
 check: dependencies
 	@$(MAKE) --no-print-directory -f tests/makefile $(TESTS_PARALLEL) check
 
-# Also tests that are long: those that have _long in their names, and programs on every number of ranks that they are for
+# Also tests that are long: those that have _long in their names, and programs on every number of ranks that they are
+# for
 check-all: dependencies
 	@$(MAKE) --no-print-directory -f tests/makefile $(TESTS_PARALLEL) check LONG=1
 
-# STRESS=nlp, STRESS=grid, STRESS=control: nonlinear programs, obstacle problems on a grid, distributed control, which need IPOPT; else parts and
-# options of tests/stress/run.py
+# STRESS=nlp, STRESS=grid, STRESS=control: nonlinear programs, obstacle problems on a grid, distributed control, which
+# need IPOPT; else parts and options of tests/stress/run.py
 stress: $(or $(filter nlp grid control,$(STRESS)),scene-stress)
 
 scene-stress: dependencies

@@ -93,11 +93,13 @@ apt() {
 echo "Installing: $(echo "$lacking" | paste -sd, | sed 's/,/, /g')"
 apt update || give_up "apt-get update failed"
 packages="pkg-config openmpi-bin libopenmpi-dev libhdf5-openmpi-dev libmetis-dev libyaml-dev libopenblas0-serial
-          python3 python3-numpy python3-matplotlib python3-pil python3-h5py python3-yaml python3-vtk9 xvfb python3-meshio python3-netcdf4"
+          python3 python3-numpy python3-matplotlib python3-pil python3-h5py python3-yaml python3-vtk9 xvfb
+          python3-meshio python3-netcdf4"
 if [ -z "${PETSC_DIR:-}" ]; then
   version=$(apt-cache depends libpetsc-real-dev | sed -n 's/.*Depends: libpetsc-real\([0-9.]*\)-dev.*/\1/p' | head -n 1)
   # the complex one is for a test, which is left out where it is missing; the real one stays the default
-  packages="$packages libpetsc-real-dev libpetsc-complex-dev libpetsc$version-dev-examples python3-petsc4py python3-petsc4py-real"
+  packages="$packages libpetsc-real-dev libpetsc-complex-dev libpetsc$version-dev-examples
+            python3-petsc4py python3-petsc4py-real"
 fi
 # shellcheck disable=SC2086
 apt install --no-install-recommends -y $packages || give_up "apt-get could not install the packages"

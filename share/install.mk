@@ -11,22 +11,34 @@ petsc_indices := $(if $(shell grep -hs 'define PETSC_USE_64BIT_INDICES' $(petsc_
 package_files := petscamgf.pc $(if $(PETSC_COMPLEX),,contact.pc)
 
 # What a pkg-config file says of this PREFIX and this PETSc
-fill_in = sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' -e 's|@PETSC_VERSION@|$(petsc_version)|' -e 's|@PETSC_PREFIX@|$(PETSC_PREFIX)|' \
-  -e 's|@PETSC_RELEASE@|$(word 1,$(petsc_release)).$(petsc_minor)|' -e 's|@PETSC_NEXT@|$(word 1,$(petsc_release)).$(shell expr 0$(petsc_minor) + 1)|' \
-  -e 's|@PETSC_SCALARS@|$(petsc_scalars)|' -e 's|@CONTACT_LIBS@|$(strip $(CONTACT_LIBS))|' -e 's|@PETSC_INDICES@|$(petsc_indices)|'
+fill_in = sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' \
+  -e 's|@PETSC_VERSION@|$(petsc_version)|' -e 's|@PETSC_PREFIX@|$(PETSC_PREFIX)|' \
+  -e 's|@PETSC_RELEASE@|$(word 1,$(petsc_release)).$(petsc_minor)|' \
+  -e 's|@PETSC_NEXT@|$(word 1,$(petsc_release)).$(shell expr 0$(petsc_minor) + 1)|' \
+  -e 's|@PETSC_SCALARS@|$(petsc_scalars)|' -e 's|@PETSC_INDICES@|$(petsc_indices)|' \
+  -e 's|@CONTACT_LIBS@|$(strip $(CONTACT_LIBS))|'
 
 # $(call put,MODE,FILES,FOLDER): lines of install.sh
 put = $(foreach file,$(2),'$(1) $(file) $(3)/$(notdir $(file))')
 
-installed = $(call put,755,$(programs) $(if $(programs),bin/contact-mesh),bin) $(call put,755,$(PLUGIN).$(VERSION),lib) \
-            'link $(notdir $(PLUGIN)).$(VERSION) $(PLUGIN).$(SOVERSION)' 'link $(notdir $(PLUGIN)).$(SOVERSION) $(PLUGIN)' \
-            $(foreach file,$(package_files),'644 @FOLDER@/$(file) lib/pkgconfig/$(file)') $(call put,644,include/petscamgf.h,include) \
-            $(if $(PETSC_COMPLEX),,$(call put,644,$(LIBRARY),lib) $(call put,644,$(filter-out include/petscamgf.h include/petsccompat.h,$(wildcard include/*.h)),include/contact)) \
-            $(foreach kind,scenes materials options gmsh examples,$(call put,644,$(wildcard share/$(kind)/*.* share/$(kind)/makefile),share/amgf/$(kind))) \
-            $(if $(PETSC_COMPLEX),,$(foreach kind,plot report,$(call put,644,$(wildcard share/$(kind)/*.py),share/amgf/$(kind)))) \
-            $(if $(PETSC_COMPLEX),,$(foreach folder,python python/contact python/contact/meshes,$(call put,644,$(wildcard share/$(folder)/*.py),share/amgf/$(folder)))) \
-            $(call put,644,$(wildcard share/doc/*.md),share/doc/amgf) \
-            $(foreach section,1 3,$(call put,644,$(sort $(wildcard build/doc/man/man$(section)/*)),share/man/man$(section)))
+contact_headers = $(filter-out include/petscamgf.h include/petsccompat.h,$(wildcard include/*.h))
+
+# The program contact, and what belongs to it
+installed_contact = $(call put,644,$(LIBRARY),lib) $(call put,644,$(contact_headers),include/contact) \
+  $(foreach folder,plot report python python/contact python/contact/meshes, \
+    $(call put,644,$(wildcard share/$(folder)/*.py),share/amgf/$(folder)))
+
+installed = $(call put,755,$(programs) $(if $(programs),bin/contact-mesh),bin) \
+  $(call put,755,$(PLUGIN).$(VERSION),lib) \
+  'link $(notdir $(PLUGIN)).$(VERSION) $(PLUGIN).$(SOVERSION)' \
+  'link $(notdir $(PLUGIN)).$(SOVERSION) $(PLUGIN)' \
+  $(foreach file,$(package_files),'644 @FOLDER@/$(file) lib/pkgconfig/$(file)') \
+  $(call put,644,include/petscamgf.h,include) \
+  $(if $(PETSC_COMPLEX),,$(installed_contact)) \
+  $(foreach folder,scenes materials options gmsh examples, \
+    $(call put,644,$(wildcard share/$(folder)/*.* share/$(folder)/makefile),share/amgf/$(folder))) \
+  $(call put,644,$(wildcard share/doc/*.md),share/doc/amgf) \
+  $(foreach section,1 3,$(call put,644,$(sort $(wildcard build/doc/man/man$(section)/*)),share/man/man$(section)))
 
 .PHONY: install install-files uninstall
 
@@ -36,7 +48,8 @@ install: all man
 
 install-files:
 	@folder=$$(mktemp -d) && $(foreach file,$(package_files),$(fill_in) share/$(file).in > $$folder/$(file) &&) \
-	  printf '%s\n' $(installed) | sed "s|@FOLDER@|$$folder|" | ./share/install.sh '$(DESTDIR)$(PREFIX)'; code=$$?; rm -rf "$$folder"; exit $$code
+	  printf '%s\n' $(installed) | sed "s|@FOLDER@|$$folder|" | ./share/install.sh '$(DESTDIR)$(PREFIX)'; \
+	  code=$$?; rm -rf "$$folder"; exit $$code
 
 uninstall:
 	./share/uninstall.sh '$(DESTDIR)$(PREFIX)'

@@ -21,7 +21,8 @@ done
 seconds() { awk '$1 == "time" {name = FILENAME; gsub(/.*\/(shell-|tests-)?|\.counts/, "", name); print $3, name}' \
   "$counts"/*.counts; }
 took=$(($(date +%s) - $(cat "$counts/../began")))
-seconds | awk -v took=$took '{s += $1} END {printf "# took %.1f minutes; processor time of the tests %.1f minutes, of the longest:", took / 60, s / 60}'
+seconds | awk -v took=$took '{s += $1}
+  END {printf "# took %.1f minutes; processor time of the tests %.1f minutes, of the longest:", took / 60, s / 60}'
 seconds | sort -rn | awk 'NR <= 10 && $1 > 1 {printf " %s %.0f s,", $2, $1}' | sed 's/,$//'
 echo
 [ $skipped -eq 0 ] || echo "# skipped: $skipped"

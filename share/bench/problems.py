@@ -127,10 +127,9 @@ def two_block_zones(levels, wide=1, width=0.15):
         for name, (a, b, c, d) in {
                 "left": (x0, x0, y0, y1), "right": (x1, x1, y0, y1), "front": (x0, x1, y0, y0), "back": (x0, x1, y1, y1)
         }.items():
-            zones.append(
-                f"  - {name}_{level}: "
-                f"{{lower: [{a - w:g}, {c - w:g}, {z - w:g}], upper: [{b + w:g}, {d + w:g}, {z + w:g}], levels: {level + wide}}}"
-            )
+            zones.append(f"  - {name}_{level}: "
+                         f"{{lower: [{a - w:g}, {c - w:g}, {z - w:g}], upper: [{b + w:g}, {d + w:g}, {z + w:g}], "
+                         f"levels: {level + wide}}}")
     return "refinements:\n" + "\n".join(zones) + "\n"
 
 

@@ -60,7 +60,7 @@ def main():
     print(f"{'':28}{'computed':>11}{'Hertz':>11}{'difference':>13}")
     for name, computed, exact in rows(base):
         print(f"  {name:26}{computed:11.4g}{exact:11.4g}{100 * (computed / exact - 1):+11.2f} %")
-    estimate = run["steps"][-1]["error_estimate"] ** 2
+    estimate = run["steps"][-1]["error_estimate"]**2
     print(f"The program itself estimates its error in energy at {100 * estimate:.2f} %.")
     if draw(base):
         print(f"Picture:  {base}.png")

@@ -32,8 +32,9 @@ try() {
   echo "$1:"
   for ranks in 1 2; do
     if timeout 600 mpiexec --oversubscribe -n $ranks ./program -dll_append "$2" > out 2>&1; then cat out; else
-      sed -n 's/.*ERROR: libpetscamgf was compiled with a PETSc whose \([A-Za-z]*\) has .* but runs in one whose .*/refused for its \1/p
-        s/.*ERROR: libpetscamgf was compiled with PETSc [0-9.]*, but runs in PETSc .*/refused for its release/p' out | sort -u
+      compiled='s/.*ERROR: libpetscamgf was compiled with'
+      sed -n -e "$compiled a PETSc whose \([A-Za-z]*\) has .* but runs in one whose .*/refused for its \1/p" \
+        -e "$compiled PETSc [0-9.]*, but runs in PETSc .*/refused for its release/p" out | sort -u
     fi
   done
 }

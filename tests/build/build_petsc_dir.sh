@@ -19,6 +19,7 @@ done
 
 # commands GOAL ASSIGNMENTS...: what make would run, with the assignments given to it or in the environment
 judge() {
+  sed -i -e ':join' -e '/\\$/ { N; s/\\\n[\t ]*//; b join' -e '}' commands
   grep -q -- "-I$work/another/include .*pc_amgf/amgf.c" commands && echo "  compiled with its headers"
   grep -q -- "-shared .*-lpetsc_of_the_user" commands && echo "  linked with its library"
   grep -E -- ' -c | -o (bin|lib)/' commands | grep -v -- "$work/another" | grep -v '^mkdir'
@@ -42,7 +43,13 @@ done
 cd "$work" || exit 1
 for name in makefile pc_amgf tao_ipfilter src include apps share; do ln -s "$AMGF_DIR/$name" .; done
 for name in cc1 cc2; do
-  printf '#!/bin/sh\ncase $1 in --version) echo %s ;; *) while [ "$1" != -o ]; do shift; done; touch "$2"; echo "$2" >> %s/made ;; esac\n' $name "$work" > $name
+  cat > $name <<COMPILER
+#!/bin/sh
+case \$1 in
+  --version) echo $name ;;
+  *) while [ "\$1" != -o ]; do shift; done; touch "\$2"; echo "\$2" >> $work/made ;;
+esac
+COMPILER
   chmod +x $name
 done
 objects=$(ls pc_amgf/*.c pc_amgf/*/*.c src/plugin/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c | wc -l)

@@ -19,7 +19,8 @@ compile() {
     -I. $headers $hdf5 "$@" 2>&1 | grep -E 'error|fatal'
 }
 
-all="$(ls pc_amgf/*.c pc_amgf/*/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c src/*/*.c src/*/*/*.c apps/*.c) $(ls tests/*/*.c | grep -vE '^tests/(stress|fuzz)/')"
+all="$(ls pc_amgf/*.c pc_amgf/*/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c src/*/*.c src/*/*/*.c apps/*.c)
+$(ls tests/*/*.c | grep -vE '^tests/(stress|fuzz)/')"
 compile "$ours" $all || echo "32-bit integers: compiles"
 wide="-I$PETSC64/include"
 [ -f "$PETSC64/include/petscconf.h" ] || wide=$ours

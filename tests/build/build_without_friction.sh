@@ -19,7 +19,10 @@ for folder in friction subspace; do
   mpicc -std=c11 -fPIC -w -Iinclude -I. $headers -c tao_ipfilter/register.c -o register.o
   objects=$(ls tao_ipfilter/*.c tao_ipfilter/*/*.c \
     | sed -e '/tao_ipfilter.register/d' -e "s|^\(.*\)c$|$AMGF_DIR/build/\1o|")
-  undefined=$(nm $objects register.o 2> /dev/null | awk '$1 == "U" { u[$2] } $2 ~ /^[TDBRCi]$/ { d[$3] } END { for (s in u) if (s ~ /^(IP|TaoIPFilter)/ && !(s in d)) print s }')
+  undefined=$(nm $objects register.o 2> /dev/null | awk '
+    $1 == "U" { used[$2] }
+    $2 ~ /^[TDBRCi]$/ { defined[$3] }
+    END { for (name in used) if (name ~ /^(IP|TaoIPFilter)/ && !(name in defined)) print name }')
   [ -z "$undefined" ] && echo "without ${folders[*]}: compiles and links" ||
     echo "undefined without ${folders[*]}:" $undefined
 done

@@ -21,5 +21,7 @@ for ranks in 1 2; do
   mpiexec --oversubscribe -n $ranks ./hermitian -ksp_view > view
   grep -E '^(bfb|fbf|additive)|^  [A-Za-z].*: (ok|[0-9.e+-]* exceeds)' view |
     diff "$AMGF_DIR/tests/pc_amgf/amgf_hermitian_solves.out" - && echo "ranks $ranks: solves"
-  sed -n '/KSP Object: (amgf_filter_)/,/linear system matrix/ s/.*package used to perform factorization: /  factored by /p' view | sort -u
+  sed -n '/KSP Object: (amgf_filter_)/,/linear system matrix/ {
+    s/.*package used to perform factorization: /  factored by /p
+  }' view | sort -u
 done

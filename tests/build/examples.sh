@@ -8,7 +8,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 make -C "$AMGF_DIR" --no-print-directory install PREFIX="$work/amgf" > log 2>&1 || cat log
-export PKG_CONFIG_PATH=$work/amgf/lib/pkgconfig:${PETSC_DIR:+$PETSC_DIR/${PETSC_ARCH:-}/lib/pkgconfig:}${PKG_CONFIG_PATH:-}
+petsc_packages=${PETSC_DIR:+$PETSC_DIR/${PETSC_ARCH:-}/lib/pkgconfig:}
+export PKG_CONFIG_PATH=$work/amgf/lib/pkgconfig:$petsc_packages${PKG_CONFIG_PATH:-}
 cp -r amgf/share/amgf/examples . && cd examples || exit 1
 make CFLAGS='-g -O2 -Wall -Werror' > log 2>&1 || cat log
 plugin=$(pkg-config --variable=plugin petscamgf)

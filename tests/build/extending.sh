@@ -28,7 +28,9 @@ for file in material cubic; do
   mpicc -std=c11 -Wall -Wextra -O1 -Iinclude \
     -I. $(pkg-config --cflags PETSc) $hdf5 -c "src/material/$file.c" -o "$file.o" || exit 1
 done
-mpicc "$AMGF_DIR"/build/apps/*.o material.o cubic.o "$AMGF_DIR/lib/libcontact.a" -L"$AMGF_DIR/lib" -lpetscamgf "-Wl,-rpath,$AMGF_DIR/lib,-rpath,$(pkg-config --variable=libdir PETSc)" \
+folders=$AMGF_DIR/lib,-rpath,$(pkg-config --variable=libdir PETSc)
+mpicc "$AMGF_DIR"/build/apps/*.o material.o cubic.o "$AMGF_DIR/lib/libcontact.a" \
+  -L"$AMGF_DIR/lib" -lpetscamgf "-Wl,-rpath,$folders" \
   $(pkg-config --libs PETSc) $(make -s --no-print-directory -C "$AMGF_DIR" print-contact-libs) -o contact || exit 1
 echo "compiles and links"
 for name in cubic linear soft; do

@@ -15,7 +15,8 @@ touch "$prefix/share/amgf/scenes/of_the_user.yaml"
 installs install PREFIX="$prefix"
 (cd "$prefix" && find . ! -name of_the_user.yaml | sort) | diff first - && echo "installed twice: the same files"
 rm "$prefix/share/amgf/scenes/of_the_user.yaml"
-for name in bin/contact lib/libpetscamgf.so lib/libcontact.a lib/pkgconfig/petscamgf.pc lib/pkgconfig/contact.pc include/petscamgf.h include/contact/step.h share/amgf/scenes/two_block.yaml share/amgf/examples/makefile \
+for name in bin/contact lib/libpetscamgf.so lib/libcontact.a lib/pkgconfig/petscamgf.pc lib/pkgconfig/contact.pc \
+  include/petscamgf.h include/contact/step.h share/amgf/scenes/two_block.yaml share/amgf/examples/makefile \
   share/doc/amgf/guide.md share/man/man1/contact.1 share/man/man3/PCAMGF.3 share/man/man3/TAOIPFILTER.3; do
   [ -e "$prefix/$name" ] || echo "not installed: $name"
 done

@@ -14,7 +14,8 @@ for word in -version --version --help; do
 done
 # -help alone, also for one who reads a line of it and no more
 "$contact" -help > out 2> err
-echo "-help: exit $?, $(grep -c . err) lines of errors, $(grep -c '^  -refine N' out) line of -refine, its last: $(tail -n 1 out | cut -d: -f1)"
+echo "-help: exit $?, $(grep -c . err) lines of errors, $(grep -c '^  -refine N' out) line of -refine," \
+  "its last: $(tail -n 1 out | cut -d: -f1)"
 "$contact" -help 2> err | sed q
 code=${PIPESTATUS[0]}
 echo "-help | sed q: $([ $code -eq 0 ] || [ $code -eq 141 ] && echo well || echo "exit \

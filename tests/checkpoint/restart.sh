@@ -90,7 +90,9 @@ pid=$!
 begun $pid grep -qsz 'Load step.*Load step' again.log # the first load step is complete
 kill -TERM $pid
 wait $pid
-echo "and again: exit $?, $(grep -c '^Continuing from term.h5 at time \([2-9]\|[1-9][0-9][0-9]*\)' again.log) $(grep -c '^Checkpoint term.h5: time' again.log)"
+echo "and again: exit $?," \
+  "$(grep -c '^Continuing from term.h5 at time \([2-9]\|[1-9][0-9][0-9]*\)' again.log)" \
+  "$(grep -c '^Checkpoint term.h5: time' again.log)"
 
 rm -f full.h5
 trap '' XFSZ # the disk is full: a write fails, and no signal says so

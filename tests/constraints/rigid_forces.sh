@@ -43,4 +43,6 @@ sed 's/moment: \[0.01, 0, 0\]/moment: [1, 0, 0]/' beam.yaml > turned.yaml
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -c '
 from summaries import load, say
 steps = load("best")["steps"]
-say("in equilibrium where a solution is acceptable only", all(step["equilibrium"] < 1e-8 and step["balance"] < 1e-8 for step in steps), [(step["reason"], step["equilibrium"]) for step in steps])'
+say("in equilibrium where a solution is acceptable only",
+    all(step["equilibrium"] < 1e-8 and step["balance"] < 1e-8 for step in steps),
+    [(step["reason"], step["equilibrium"]) for step in steps])'

@@ -111,8 +111,8 @@ else:
             [step["imbalance"] for step in steps])
     run = load("tube")
     cuts = [step["cuts"] for step in run["steps"]]
-    say("tube: all load steps converge, and after the first rolling one at most one is cut",
-        run["converged"] and sum(cuts[2:]) <= 1, (run["reason"], cuts))
+    say("tube: all load steps converge, and after the first rolling one at most one is cut", run["converged"]
+        and sum(cuts[2:]) <= 1, (run["reason"], cuts))
     end, bent = load("bend")["steps"][-1], math.pi / 2
     plate = body(end, "plate")
     say(

@@ -1,5 +1,6 @@
-"""Writes a mesh of two rings, one inside the other, for round_bodies.sh: python round_bodies.py FILE. The triangles of the
-round faces are irregular, so that their normals miss the axis."""
+"""Writes a mesh of two rings, one inside the other, for round_bodies.sh: python round_bodies.py FILE.
+
+The triangles of the round faces are irregular, so that their normals miss the axis."""
 import math
 import sys
 
@@ -26,7 +27,8 @@ nodes, cells, ends = [], [], []
 ring(nodes, cells, ends, 1, (5.0, 8.0), 1)
 ring(nodes, cells, ends, 2, (2.5, 4.99), -1)
 with open(sys.argv[1], 'w') as f:
-    f.write('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n3 1 "hub"\n3 2 "bush"\n2 1 "hub_end"\n2 2 "bush_end"\n$EndPhysicalNames\n')
+    f.write('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n')
+    f.write('$PhysicalNames\n4\n3 1 "hub"\n3 2 "bush"\n2 1 "hub_end"\n2 2 "bush_end"\n$EndPhysicalNames\n')
     f.write(f'$Nodes\n{len(nodes)}\n')
     for n, x in enumerate(nodes):
         f.write(f'{n + 1} {x[0]!r} {x[1]!r} {x[2]!r}\n')

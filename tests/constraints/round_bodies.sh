@@ -1,5 +1,6 @@
-# Round bodies that nothing but weak springs holds against a rotation about their axis: one sentence names body and axis,
-# and the run goes on. A torque on such a body ends the run. The hub is rigid; the weight presses the bush into it.
+# Round bodies that nothing but weak springs holds against a rotation about their axis: one sentence names body and
+# axis, and the run goes on. A torque on such a body ends the run. The hub is rigid; the weight presses the bush into
+# it.
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" -B "$AMGF_DIR/tests/constraints/round_bodies.py" ring.msh
 {
@@ -14,16 +15,19 @@ body_forces: [weight: {body: bush, value: [-1, 0, 0]}]
 contact: auto
 END
 } > facets.yaml
-sed -e 's/shape: gmsh.*material/shape: tube_arc, axis: z, radii: [5, 8], angles: [0, 360], extent: [0, 4], cells: [1, 24, 2], material/' \
+tube='tube_arc, axis: z, radii: [5, 8], angles: [0, 360], extent: [0, 4], cells: [1, 24, 2]'
+sed -e "s/shape: gmsh.*material/shape: $tube, material/" \
   -e 's/shape: gmsh.*young/shape: cylinder, axis: z, radius: 4.99, extent: [0, 4], cells: [3, 3, 2], young/' \
   -e 's/bush_end/lmin/' facets.yaml > cylinder.yaml
 sed 's/^contact/weak_springs: true\ncontact/' facets.yaml > weak.yaml
-sed 's/^contact/forces: [turn: {face: bush.lmin, value: [0, 0, 0], moment: [0, 0, 50]}]\ncontact/' cylinder.yaml > turned.yaml
+moment='forces: [turn: {face: bush.lmin, value: [0, 0, 0], moment: [0, 0, 50]}]'
+sed "s/^contact/$moment\ncontact/" cylinder.yaml > turned.yaml
 for scene in facets cylinder weak turned; do
   for n in 1 3; do
     mpiexec --oversubscribe -n $n "$contact" $scene.yaml -quiet -error_estimate 0 -summary ${scene}_$n.json > said 2>&1
     code=$?
-    grep '^contact:' said | grep -v 'do not converge\|penetrates' | sed 's/springs carry [^;]*;/springs carry ...;/;s/moved by [^,]*,/moved by ...,/'
+    grep '^contact:' said | grep -v 'do not converge\|penetrates' |
+      sed 's/springs carry [^;]*;/springs carry ...;/;s/moved by [^,]*,/moved by ...,/'
     echo "$scene, $n ranks: exit code $code"
   done
 done
@@ -33,8 +37,8 @@ done
 cat > lap.yaml <<'END'
 bodies:
   - plate1:
-      {shape: holed_box, axis: z, lower: [-20, -10, 0], upper: [15, 10, 4], radius: 5.05, cells: [6, 4, 2], young: 2.1e5,
-       poisson: 0.3}
+      {shape: holed_box, axis: z, lower: [-20, -10, 0], upper: [15, 10, 4], radius: 5.05, cells: [6, 4, 2],
+       young: 2.1e5, poisson: 0.3}
   - plate2:
       {shape: holed_box, axis: z, lower: [-15, -10, 4], upper: [20, 10, 8], radius: 5.05, cells: [6, 4, 2],
        young: 2.1e5, poisson: 0.3}

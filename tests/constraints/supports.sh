@@ -50,7 +50,9 @@ try 's/4, 4, 20/4, 4, inf/'
 # Many bodies on one another, each held by the one below; one of them, in the midst, along one axis by nothing
 pile() {
   echo "bodies:"
-  for i in $(seq 60); do echo "  - b$i: {lower: [0, 0, $((i - 1))], upper: [1, 1, $i], cells: [1, 1, 1], young: 1, poisson: 0.3}"; done
+  for i in $(seq 60); do
+    echo "  - b$i: {lower: [0, 0, $((i - 1))], upper: [1, 1, $i], cells: [1, 1, 1], young: 1, poisson: 0.3}"
+  done
   printf 'displacements:\n  - foot: {face: b1.zmin, value: [0, 0, 0]}\ncontact:\n'
   for i in $(seq 59); do echo "  - p$i: {mortar: b$i.zmax, nonmortar: b$((i + 1)).zmin, friction: 0.3}"; done
 }

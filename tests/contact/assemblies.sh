@@ -6,28 +6,32 @@ contact=$AMGF_DIR/bin/contact
 rows = [(0, 0), (1, 0), (2, 0), (0.5, 1), (1.5, 1), (1, 2)]
 text = "bodies:\n  - ground: {shape: rigid_plane, point: [0, 0, 0], normal: [0, 0, 1]}\n"
 for n, (x, z) in enumerate(rows):
-    text += (
-        f"  - brick{n}: "
-        f"{{lower: [{x + 0.01}, 0, {0.3 * z}], upper: [{x + 0.99}, 0.5, {0.3 * z + 0.3}], cells: [4, 2, 1], young: 1e4, poisson: 0.2}}\n"
-    )
+    text += (f"  - brick{n}: {{lower: [{x + 0.01}, 0, {0.3 * z}], upper: [{x + 0.99}, 0.5, {0.3 * z + 0.3}], "
+             f"cells: [4, 2, 1], young: 1e4, poisson: 0.2}}\n")
 text += ("contact: [auto: {friction: 0.6}]\nweak_springs: true\n"
          "displacements: [ground: {body: ground, value: [0, 0, 0]}]\nbody_forces: [weight: {value: [0, 0, -2]}]\n")
 open("bricks.yaml", "w").write(text)
 open("named.yaml", "w").write(text.replace("weight: {", "weight: {body: ground, "))
 open("ramp.yaml", "w").write(text + "ramps: [up: [0, 1]]\nload: {steps: 2}\n")
 open("fit.yaml", "w").write("""bodies:
-  - shaft: {shape: tube_arc, axis: z, radii: [2, 5], angles: [0, 360], extent: [0, 4], cells: [3, 24, 2], young: 2.1e5, poisson: 0.3}
-  - gear: {shape: tube_arc, axis: z, radii: [4.99, 10], angles: [0, 360], extent: [0, 4], cells: [5, 24, 2], young: 2.1e5, poisson: 0.3}
+  - shaft: {shape: tube_arc, axis: z, radii: [2, 5], angles: [0, 360], extent: [0, 4], cells: [3, 24, 2], young: 2.1e5,
+      poisson: 0.3}
+  - gear: {shape: tube_arc, axis: z, radii: [4.99, 10], angles: [0, 360], extent: [0, 4], cells: [5, 24, 2],
+      young: 2.1e5, poisson: 0.3}
 contact: [auto: {friction: 0.15, interference: true}]
-displacements: [foot: {face: shaft.lmin, value: [free, free, 0]}, y: {point: [5, 0, 0], body: shaft, value: [free, 0, free]},
-  x: {point: [0, 5, 0], body: shaft, value: [0, free, free]}, turn: {point: [0, -5, 0], body: shaft, value: [0, free, free]}]
+displacements: [foot: {face: shaft.lmin, value: [free, free, 0]},
+  x: {point: [0, 5, 0], body: shaft, value: [0, free, free]},
+  y: {point: [5, 0, 0], body: shaft, value: [free, 0, free]},
+  turn: {point: [0, -5, 0], body: shaft, value: [0, free, free]}]
 """)
 LINK = "  - link%d: {mesh: chain.inp, volume: link%d, young: 2.1e5, poisson: 0.3}\n"
 open("links.yaml",
      "w").write("bodies:\n" + "".join(LINK % (k, k) for k in range(2)) + "contact: auto\nweak_springs: true\n")
 open("chain.yaml", "w").write(
     "bodies:\n" + "".join(LINK % (k, k) for k in range(3)) +
-    """faces: [left: {of: link0.surface_1, upper: [-2.8, inf, inf]}, right: {of: link2.surface_1, lower: [11.2, -inf, -inf]}]
+    """faces:
+  - left: {of: link0.surface_1, upper: [-2.8, inf, inf]}
+  - right: {of: link2.surface_1, lower: [11.2, -inf, -inf]}
 contact: [auto: {friction: 0.1}]
 weak_springs: true
 displacements: [left: {face: link0.left, value: [0, 0, 0]}, right: {face: link2.right, value: [0.05, 0, 0]}]

@@ -1,9 +1,12 @@
-"""Writes a chain of three links that touch at one point each, for assemblies.sh: python chain.py FILE STRAIGHT AROUND OFFSET"""
+"""Writes a chain of three links that touch at one point each, for assemblies.sh.
+
+python chain.py FILE STRAIGHT AROUND OFFSET"""
 import math
 import sys
 
 RADIUS, THICKNESS = 3.0, 0.9  # of the bends and of the bar
-STRAIGHT, AROUND, OFFSET = float(sys.argv[2]), int(sys.argv[3]), float(sys.argv[4])  # half of the straight parts; cells along the bar; where they begin
+STRAIGHT = float(sys.argv[2])  # half the length of the straight parts
+AROUND, OFFSET = int(sys.argv[3]), float(sys.argv[4])  # cells along the bar, and where they begin
 
 
 def middle(along):
@@ -14,7 +17,8 @@ def middle(along):
     if way < 2 * STRAIGHT:
         return sign * (STRAIGHT - way), sign * RADIUS, 0.0, float(sign)
     turn = (way - 2 * STRAIGHT) / RADIUS
-    return sign * (-STRAIGHT - RADIUS * math.sin(turn)), sign * RADIUS * math.cos(turn), -sign * math.sin(turn), sign * math.cos(turn)
+    x, y = -STRAIGHT - RADIUS * math.sin(turn), RADIUS * math.cos(turn)
+    return sign * x, sign * y, -sign * math.sin(turn), sign * math.cos(turn)
 
 
 def place(link, along, s, t):
@@ -43,7 +47,8 @@ def write(file, links):
         out.write("*NODE\n" + "".join("%d, %.12g, %.12g, %.12g\n" % (n + 1, *x) for n, x in enumerate(nodes)))
         for link in range(links):
             out.write(f"*ELEMENT, TYPE=C3D8, ELSET=link{link}\n")
-            out.write("".join(f"{n + 1}, " + ", ".join(map(str, cell)) + "\n" for n, (name, cell) in enumerate(cells) if name == f"link{link}"))
+            own = [(n + 1, *cell) for n, (name, cell) in enumerate(cells) if name == f"link{link}"]
+            out.write("".join(", ".join(map(str, row)) + "\n" for row in own))
 
 
 write(sys.argv[1], 3)

@@ -41,5 +41,7 @@ contact:
 END
 for name in ball pin; do
   "$contact" $name.yaml -quiet -summary $name.json 2> $name.log
-  echo "$name: exit code $?, $(grep -c 'carries no force, although a point of .* penetrates the other body' $name.log) sentence"
+  code=$?
+  inside=$(grep -c 'carries no force, although a point of .* penetrates the other body' $name.log)
+  echo "$name: exit code $code, $inside sentence"
 done

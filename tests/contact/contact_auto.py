@@ -50,8 +50,8 @@ def write():
     }
     # Five thin plates: each meets its neighbours only, although the next but one is within the default distance
     plates = "".join(box(f"plate{k}", (0, 0, k), (40, 40, k + 1), (4, 4, 1)) for k in range(5))
-    scenes[
-        "plates"] = "bodies:\n" + plates + "displacements:\n  - foot: {face: plate0.zmin, value: [0, 0, 0]}\ncontact: auto\nweak_springs: true\n"
+    foot = "displacements:\n  - foot: {face: plate0.zmin, value: [0, 0, 0]}\n"
+    scenes["plates"] = "bodies:\n" + plates + foot + "contact: auto\nweak_springs: true\n"
     scenes["excepted"] = scenes["plates"].replace("auto", "[auto: {except: [plate1/plate2, plate4]}]")
     # A block slides from one slab onto the next, and past a column that it never reaches
     scenes["slides"] = ("bodies:\n" + box("first", (0, 0, -1), (2, 1, 0),

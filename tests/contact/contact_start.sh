@@ -55,7 +55,9 @@ stone 1 -1 ", interference: -1" && "$contact" stone.yaml -scene_check 2>&1 | gre
 stone 1 1 "" && try "nothing stops it"
 # Guided on its top alone, and pressed beside the table: it tips. One whose curved underside a table meets may tip, too:
 # the optimizer crept along that motion to its limit of iterations
-stone 1 0 "" && sed -i -e '/^symmetry/d' -e '/pull/,/^contact/{/pull/d}' -e 's/^body_forces:/pressures:\n  - push: {face: stone.zmax, value: 1}/' -e 's/\[1, 1, 1\], upper: \[3/[3.4, 1, 1], upper: [9/' \
+stone 1 0 "" && sed -i -e '/^symmetry/d' -e '/pull/,/^contact/{/pull/d}' \
+  -e 's/^body_forces:/pressures:\n  - push: {face: stone.zmax, value: 1}/' \
+  -e 's/\[1, 1, 1\], upper: \[3/[3.4, 1, 1], upper: [9/' \
   -e 's/^displacements:/&\n  - guide: {face: stone.zmax, value: [0, 0, free]}/' stone.yaml && try "tips"
 cat > stone.yaml << 'YAML'
 bodies:
@@ -72,7 +74,9 @@ contact:
   - lie: {mortar: stone.arc, nonmortar: table.zmax, gap: node, smooth: false, interference: true}
 YAML
 try "rocks"
-stone 1.01 0 ", distance: 0.5" && sed -i 's/^displacements:/&\n  - held: {face: stone.zmax, value: [free, free, -0.005]}/' stone.yaml && try "never met"
+stone 1.01 0 ", distance: 0.5" &&
+  sed -i 's/^displacements:/&\n  - held: {face: stone.zmax, value: [free, free, -0.005]}/' stone.yaml &&
+  try "never met"
 "$contact" stone.yaml -scene_check | sed -n '/^Contact at/,$p'
 for ranks in 3; do
   mpiexec --oversubscribe -n $ranks "$contact" stone.yaml -quiet 2>&1 | grep -c 'contact pair "lie" was open'

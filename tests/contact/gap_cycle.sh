@@ -13,7 +13,8 @@ run() {
   "$contact" ring.yaml -quiet -error_estimate 0 -summary "$name.json" "$@" 2> err
   echo "$name: exit code $?, $(grep -v "$coarse" err | sed -n 's/^contact: \([a-z]*\).*/\1/p' | tr '\n' ' ')"
 }
-run smooth -contact_update_tol 1e-7 # the ring rolls easily: a gap off by 1e-6 of its push still leaves a force to the side
+# The ring rolls easily: a gap off by 1e-6 of its push still leaves a force to the side
+run smooth -contact_update_tol 1e-7
 run facets -contact_smooth false
 run single -contact_updates 1
 "$PYTHON" "$AMGF_DIR/tests/contact/gap_cycle.py" write 14

@@ -68,7 +68,9 @@ SCENE
 }
 { blocks 0.9 ", interference: 0.1, ramp: load" \
   && echo "symmetry: [lower.xmin, lower.ymin, lower.zmin, upper.xmin, upper.ymin, upper.zmax]"; } > overlap.yaml
-{ blocks 1 && echo "displacements: [bottom: {face: lower.zmin, value: [0, 0, 0]}, top: {face: upper.zmax, value: [0, 0, -0.1]}]"; } > press.yaml
+{ blocks 1 &&
+  echo "displacements: [bottom: {face: lower.zmin, value: [0, 0, 0]}, top: {face: upper.zmax, value: [0, 0, -0.1]}]"
+} > press.yaml
 rings "interference: 0.04, ramp: heat" 5 | sed 's|1/8]|0, 1/2]|' > back.yaml
 for name in overlap press back; do run $name -error_estimate 0; done
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'PY'

@@ -1,15 +1,20 @@
-# A wall of 92 loose bricks in running bond, with friction on a rigid plane, whose pairs are found: the plane carries the weight, each brick is
-# in balance, and the wall is symmetric
+# A wall of 92 loose bricks in running bond, with friction on a rigid plane, whose pairs are found: the plane carries
+# the weight, each brick is in balance, and the wall is symmetric
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" -B - <<'SCENE'
 text, n = "bodies:\n  - ground: {shape: rigid_plane, point: [0, 0, 0], normal: [0, 0, 1]}\n", 0
 for z in range(8):
     ends = list(range(12)) if z % 2 == 0 else [0] + [k + 0.5 for k in range(11)] + [11]
     for low, high in zip(ends, ends[1:]):
-        text += f"  - b{n}: {{lower: [{low + 0.01}, 0, {0.3 * z}], upper: [{high - 0.01}, 0.5, {0.3 * z + 0.3}], cells: [2, 1, 1], young: 1e4, poisson: 0.2}}\n"
+        text += (f"  - b{n}: {{lower: [{low + 0.01}, 0, {0.3 * z}], upper: [{high - 0.01}, 0.5, {0.3 * z + 0.3}], "
+                 "cells: [2, 1, 1], young: 1e4, poisson: 0.2}\n")
         n += 1
 print(n, "bricks")
-text += "contact: [auto: {friction: 0.6}]\nweak_springs: true\ndisplacements: [ground: {body: ground, value: [0, 0, 0]}]\nbody_forces: [weight: {value: [0, 0, -2]}]\n"
+text += """contact: [auto: {friction: 0.6}]
+weak_springs: true
+displacements: [ground: {body: ground, value: [0, 0, 0]}]
+body_forces: [weight: {value: [0, 0, -2]}]
+"""
 open("wall.yaml", "w").write(text)
 SCENE
 "$contact" wall.yaml -quiet -summary wall.json || echo "exit code $?"

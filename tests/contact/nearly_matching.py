@@ -18,7 +18,6 @@ displacements:
   - floor: {{face: low.z0, value: [free, free, 0]}}
 """
 
-
 GASKET = """bodies:
   - low: {shape: tube_arc, axis: z, radii: [20, 40], angles: [0, 360], extent: [0, 10], cells: [4, 24, 2], young: 2.1e5,
           poisson: 0.3}

@@ -5,7 +5,8 @@ contact=$AMGF_DIR/bin/contact
 options="-quiet -tao_ipfilter_tol 1e-12"
 
 patch() { # orders of the lower and the upper block, Young's modulus of the upper, ranks, further options
-  sed "s/^  - lower:/  - lower:\n      order: $1/; s/^  - upper:/  - upper:\n      order: $2/; s/young: 10/young: $3/; s/value: \[free, free, -0.0105\]/value: [free, free, -0.01]/" \
+  sed -e "s/^  - lower:/  - lower:\n      order: $1/; s/^  - upper:/  - upper:\n      order: $2/" \
+    -e "s/young: 10/young: $3/; s/value: \[free, free, -0.0105\]/value: [free, free, -0.01]/" \
     "$AMGF_DIR/tests/contact/contact_patch.yaml" > patch.yaml
   mpiexec --oversubscribe -n "$4" "$contact" patch.yaml $options "${@:5}" -output "patch_$1_$2_$3_$4" ||
     echo "exit code $?"

@@ -1,4 +1,5 @@
-# A rigid block that rests on a rigid floor without a gap, from the start or after a fall; nothing in the scene is elastic
+# A rigid block that rests on a rigid floor without a gap, from the start or after a fall; nothing in the scene is
+# elastic
 for gap in 0 0.01; do
   for rotation in ", rotation: [0, 0, 0]" ""; do
     cat > block.yaml <<YAML

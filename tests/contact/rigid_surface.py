@@ -10,7 +10,8 @@ from summaries import load, say, within
 
 HALF_SPACE = """problem: {name}
 bodies:
-  - block: {{lower: [0, 0, -80], upper: [80, 80, 0], cells: [13, 13, 13], grading: [{grading}, {grading}, {inverse}], even: [5, 5, 5], young: 1000, poisson: 0.3, order: 2}}
+  - block: {{lower: [0, 0, -80], upper: [80, 80, 0], cells: [13, 13, 13], grading: [{grading}, {grading}, {inverse}],
+      even: [5, 5, 5], young: 1000, poisson: 0.3, order: 2}}
   - tool: {{{tool}, material: rigid}}
 displacements:
   - bottom: {{face: block.zmin, value: [0, 0, 0]}}
@@ -50,7 +51,8 @@ BOTTOM = ("displacements:\n  - bottom: {face: block.zmin, value: [free, free, 0]
           "  - line: {point: [1, -1, 0], body: block, value: [free, 0, 0]}\n")
 RUBBER = """problem: rubber
 bodies:
-  - block: {{lower: [-1, 0, 0], upper: [1, 0.5, 1], cells: [16, 1, 8], material: neohookean, young: 1, poisson: 0.4, element: full, order: {order}}}
+  - block: {{lower: [-1, 0, 0], upper: [1, 0.5, 1], cells: [16, 1, 8], material: neohookean, young: 1, poisson: 0.4,
+      element: full, order: {order}}}
   - tool: {{{tool}, material: rigid}}
 load_steps: 3
 displacements:
@@ -63,8 +65,10 @@ contact:
 # A flat punch of radius 1 on a slice of a half-space, whose cells are graded towards the edge of the punch
 PUNCH = """problem: punch
 bodies:
-  - inner: {{shape: tube_arc, axis: z, radii: [0.001, 1], angles: [0, 10], extent: [-1500, 0], cells: [12, 1, 22], grading: [{inward}, 1, {down}], young: 1000, poisson: 0.3, order: 2}}
-  - outer: {{shape: tube_arc, axis: z, radii: [1, 1500], angles: [0, 10], extent: [-1500, 0], cells: [22, 1, 22], grading: [90000, 1, {down}], young: 1000, poisson: 0.3, order: 2}}
+  - inner: {{shape: tube_arc, axis: z, radii: [0.001, 1], angles: [0, 10], extent: [-1500, 0], cells: [12, 1, 22],
+      grading: [{inward}, 1, {down}], young: 1000, poisson: 0.3, order: 2}}
+  - outer: {{shape: tube_arc, axis: z, radii: [1, 1500], angles: [0, 10], extent: [-1500, 0], cells: [22, 1, 22],
+      grading: [90000, 1, {down}], young: 1000, poisson: 0.3, order: 2}}
   - punch: {{shape: rigid_revolved, center: [0, 0, 0], direction: [0, 0, 1], points: [0, 0, 1, 0, 1, 1]}}
 ties:
   - seam: {{mortar: inner.outer, nonmortar: outer.inner}}

@@ -14,14 +14,16 @@ FILES = 20  # of a folder, C sources
 # The lowest first: a file calls files of its own folder and of those before it, and includes their headers alone
 LAYERS = """
 pc_amgf pc_amgf/blockamg pc_amgf/cholesky
-tao_ipfilter/solver tao_ipfilter/problem tao_ipfilter/measure tao_ipfilter/system tao_ipfilter/linear tao_ipfilter/step tao_ipfilter/driver
+tao_ipfilter/solver tao_ipfilter/problem tao_ipfilter/measure tao_ipfilter/system tao_ipfilter/linear
+tao_ipfilter/step tao_ipfilter/driver
 tao_ipfilter/subspace tao_ipfilter/friction tao_ipfilter
 src/plugin
 src/error src/options src/files src/material src/model src/report
 src/mesh/shapes src/mesh/query src/mesh/gmsh src/mesh/refine src/mesh src/mesh/supports
 src/scene/format src/scene/sections src/scene
 src/elasticity/elements src/elasticity/faces src/elasticity/recovery src/elasticity
-src/contact/geometry src/contact/surface src/contact/search src/contact/self src/contact/detect src/contact/smooth src/contact/assembly src/contact/gaps src/contact
+src/contact/geometry src/contact/surface src/contact/search src/contact/self src/contact/detect src/contact/smooth
+src/contact/assembly src/contact/gaps src/contact
 src/loads src/constraints src/dynamics src/state src/measure src/step/problem src/step/contact_update src/step src/run
 src/output src/checkpoint
 apps
@@ -157,10 +159,19 @@ def written():
         os.path.relpath(path, TOP) for path in glob.glob(os.path.join(TOP, "include", "*.h")))
 
 
+def scripts():
+    """Paths of all Python, shell and make files"""
+    for folder, subfolders, names in os.walk(TOP):
+        subfolders[:] = sorted(name for name in subfolders if not name.startswith(".") and name != "build")
+        yield from (os.path.relpath(os.path.join(folder, name), TOP)
+                    for name in sorted(names)
+                    if name == "makefile" or name.endswith((".py", ".sh", ".mk", ".sh.in")))
+
+
 def wide_lines():
     """The arguments of a test cannot be broken: PETSc's harness reads them from one line"""
     tests = [os.path.relpath(path, TOP) for path in sorted(glob.glob(os.path.join(TOP, "tests", "*", "*.[ch]")))]
-    for path in written() + tests:
+    for path in written() + tests + list(scripts()):
         for number, line in enumerate(text(path).splitlines(), 1):
             if len(line) > COLUMNS and not line.lstrip().startswith("args:"):
                 yield f"{path}:{number}: {len(line)} columns, more than {COLUMNS}"

@@ -26,10 +26,7 @@ def scenes():
     for name, material in MATERIAL.items():
         with open(name + ".yaml", "w") as file:
             file.write(
-                SCENE.format(material=material,
-                             speed=SPEED,
-                             guide=GUIDE[name],
-                             friction=FRICTION,
+                SCENE.format(material=material, speed=SPEED, guide=GUIDE[name], friction=FRICTION,
                              step=0.005 if name == "rigid" else 0.002))
 
 

@@ -1,8 +1,11 @@
-# A rigid disc of 24 flat sides that rolls on a plane loses the energy that a rolling polygon loses at its corners, not more
+# A rigid disc of 24 flat sides that rolls on a plane loses the energy that a rolling polygon loses at its corners, not
+# more
 contact=$AMGF_DIR/bin/contact
 cat > disc.yaml <<'SCENE'
 bodies:
-  - disc: {shape: tube_arc, axis: y, radii: [0.02, 1], angles: [82.5, 442.5], extent: [0, 0.2], center: [0, 0, 0.9914448613738104], cells: [1, 24, 1], material: rigid, density: 1, initial_velocity: [2, 0, 0], initial_spin: [0, 2, 0]}
+  - disc: {shape: tube_arc, axis: y, radii: [0.02, 1], angles: [82.5, 442.5], extent: [0, 0.2],
+      center: [0, 0, 0.9914448613738104], cells: [1, 24, 1], material: rigid, density: 1, initial_velocity: [2, 0, 0],
+      initial_spin: [0, 2, 0]}
   - floor: {shape: rigid_plane, point: [0, 0, 0], normal: [0, 0, 1]}
 displacements:
   - floor: {body: floor, value: [0, 0, 0]}
@@ -18,13 +21,15 @@ import math
 from summaries import load, say
 
 sides, inner, gravity, turn = 24, 0.02, 10, 2 * math.pi / 24
-area, second = ((lambda r: sides / 2 * r**2 * math.sin(turn)), (lambda r: sides / 12 * r**4 * math.sin(turn) * (2 + math.cos(turn))))
+area = lambda r: sides / 2 * r**2 * math.sin(turn)
+second = lambda r: sides / 12 * r**4 * math.sin(turn) * (2 + math.cos(turn))
 mass = 0.2 * (area(1) - area(inner))
 inertia = 0.2 * (second(1) - second(inner)) / mass  # relative to mass and radius of the corners
 steps = load("disc")["steps"]
 corners = [step["rigid_bodies"][0]["rotation"][1] / 360 * sides for step in steps]
 last = min(range(len(steps)), key=lambda k: abs(corners[k] - 6))  # it lies flat again after six corners
-energy = steps[last]["motions"][0]["kinetic_energy"] + mass * gravity * (steps[last]["rigid_bodies"][0]["position"][2] - math.cos(turn / 2))
+height = steps[last]["rigid_bodies"][0]["position"][2] - math.cos(turn / 2)
+energy = steps[last]["motions"][0]["kinetic_energy"] + mass * gravity * height
 lost, exact = 1 - energy / (0.5 * mass * 4 * (1 + inertia)), 1 - ((inertia + math.cos(turn)) / (inertia + 1)) ** 12
 say("six corners: the energy that a rolling polygon loses, within 15 %", abs(lost / exact - 1) < 0.15, (lost, exact))
 CHECK

@@ -9,7 +9,8 @@ try() {
   shift
   timeout -k 5 100 mpiexec --oversubscribe "$@" > out 2>&1
   code=$?
-  echo "  exit $([ $code -eq 0 ] && echo 0 || { [ $code -ge 124 ] && echo hang || echo 'not 0'; }), traceback to main: $(grep -c 'PETSC ERROR: #[0-9]* AppRun()' out)"
+  if [ $code -ge 124 ]; then code=hang; elif [ $code -gt 0 ]; then code='not 0'; fi
+  echo "  exit $code, traceback to main: $(grep -c 'PETSC ERROR: #[0-9]* AppRun()' out)"
   grep -ao 'contact: error.*' out | sed -e "s|$AMGF_DIR/||" -e 's/ (do not.*//' -e 's/^/  /'
 }
 

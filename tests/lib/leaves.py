@@ -8,8 +8,8 @@ def leaves(n, law, steps=1):
     for i in range(n):
         bodies += (
             f"  - leaf{i}: "
-            f"{{lower: [0, 0, {0.3 * i:.6g}], upper: [10, 1, {0.3 * (i + 1):.6g}], cells: [20, 2, 1], young: 1000, poisson: 0.3, element: incompatible}}\n"
-        )
+            f"{{lower: [0, 0, {0.3 * i:.6g}], upper: [10, 1, {0.3 * (i + 1):.6g}], cells: [20, 2, 1], young: 1000, "
+            f"poisson: 0.3, element: incompatible}}\n")
         displacements += f"  - clamp{i}: {{face: leaf{i}.xmin, value: [0, 0, 0]}}\n"
         pairs += f"  - j{i}: {{mortar: leaf{i - 1}.zmax, nonmortar: leaf{i}.zmin{law}}}\n" if i else ""
     tip = f"  - tip: {{face: leaf{n - 1}.xmax, value: [free, free, -1]}}\n"

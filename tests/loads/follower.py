@@ -18,7 +18,8 @@ load: {steps: 2}
 """
 OTHER_SIDES = "".join("  - q%s: {face: cube.%smin, value: 0.3, follows: true}\n" % (axis, axis) for axis in "xyz")
 SPHERE = """bodies:
-  - ball: {shape: sphere_shell, inner: {radius: 1}, outer: {radius: 2}, patches: [3, 3, 3], layers: 3, material: neohookean, young: 1, poisson: 0.3, order: 2}
+  - ball: {shape: sphere_shell, inner: {radius: 1}, outer: {radius: 2}, patches: [3, 3, 3], layers: 3,
+      material: neohookean, young: 1, poisson: 0.3, order: 2}
 symmetry: [ball.x0, ball.y0, ball.z0]
 pressures:
   - blow: {face: ball.inner, value: 0.2, follows: true}

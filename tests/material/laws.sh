@@ -17,9 +17,14 @@ load: {steps: 4}
 YAML
 cat > wood.yaml <<'YAML'
 bodies:
-  - full: {lower: [0, 0, 0], upper: [2, 1, 1], cells: [2, 1, 1], material: orthotropic, young: [12, 1, 0.7], poisson: [0.35, 0.4, 0.3], shear: [0.8, 0.1, 0.6], first_axis: [0, 0, 1], second_axis: [1, 0, 0]}
-  - bbar: {lower: [0, 2, 0], upper: [2, 3, 1], cells: [2, 1, 1], element: bbar, material: orthotropic, young: [12, 1, 0.7], poisson: [0.35, 0.4, 0.3], shear: [0.8, 0.1, 0.6], first_axis: [0, 0, 1], second_axis: [1, 0, 0]}
-  - modes: {lower: [0, 4, 0], upper: [2, 5, 1], cells: [2, 1, 1], element: incompatible, material: orthotropic, young: [12, 1, 0.7], poisson: [0.35, 0.4, 0.3], shear: [0.8, 0.1, 0.6], first_axis: [0, 0, 1], second_axis: [1, 0, 0]}
+  - full: {lower: [0, 0, 0], upper: [2, 1, 1], cells: [2, 1, 1], material: orthotropic, young: [12, 1, 0.7],
+      poisson: [0.35, 0.4, 0.3], shear: [0.8, 0.1, 0.6], first_axis: [0, 0, 1], second_axis: [1, 0, 0]}
+  - bbar: {lower: [0, 2, 0], upper: [2, 3, 1], cells: [2, 1, 1], element: bbar, material: orthotropic,
+      young: [12, 1, 0.7], poisson: [0.35, 0.4, 0.3], shear: [0.8, 0.1, 0.6], first_axis: [0, 0, 1],
+      second_axis: [1, 0, 0]}
+  - modes: {lower: [0, 4, 0], upper: [2, 5, 1], cells: [2, 1, 1], element: incompatible, material: orthotropic,
+      young: [12, 1, 0.7], poisson: [0.35, 0.4, 0.3], shear: [0.8, 0.1, 0.6], first_axis: [0, 0, 1],
+      second_axis: [1, 0, 0]}
 symmetry: [full.xmin, full.ymin, full.zmin, bbar.xmin, bbar.ymin, bbar.zmin, modes.xmin, modes.ymin, modes.zmin]
 pressures:
   - full: {face: full.zmax, value: -0.12}
@@ -74,11 +79,13 @@ try() {
   sed "$2" "$1.yaml" > other.yaml
   "$contact" other.yaml -quiet 2>&1 || echo "exit code $?"
 }
-try rubber 's/c01: 0.1, bulk: 20, element/c01: -0.1, bulk: 20, element/; s/gum: {law: mooney_rivlin, c10: 0.3, c01: 0.1/gum: {law: mooney_rivlin, c10: 0.3, c01: -0.1/'
+try rubber '
+  s/c01: 0.1, bulk: 20, element/c01: -0.1, bulk: 20, element/
+  s/gum: {law: mooney_rivlin, c10: 0.3, c01: 0.1/gum: {law: mooney_rivlin, c10: 0.3, c01: -0.1/'
 try rubber 's/bulk: 20}/bulk: 0}/'
 try rubber 's/, c10: 0.3, c01: 0.1, bulk: 20}$/, young: 1, poisson: 0.3}/'
 try rubber '/bbar: {/s/element: bbar/element: incompatible/'
-try wood '/full: {/s/0.35, 0.4, 0.3/0.35, 1.3, 0.3/'
-try wood '/full: {/s/young: \[12, 1/young: [12, -1/'
-try wood '/full: {/s/young: \[12, 1, 0.7\]/young: [12, 1]/'
-try wood '/full: {/s/second_axis: \[1, 0, 0\]/second_axis: [0, 0, 5]/'
+try wood '/full: {/,/}$/s/0.35, 0.4, 0.3/0.35, 1.3, 0.3/'
+try wood '/full: {/,/}$/s/young: \[12, 1/young: [12, -1/'
+try wood '/full: {/,/}$/s/young: \[12, 1, 0.7\]/young: [12, 1]/'
+try wood '/full: {/,/}$/s/second_axis: \[1, 0, 0\]/second_axis: [0, 0, 5]/'

@@ -7,13 +7,19 @@ cat > bars.yaml <<YAML
 problem: bars
 bodies:
   - full: {lower: [0, 0, 0], upper: [2, 1, 1], cells: [3, 2, 2], element: full, $linear}
-  - bbar: {lower: [0, 2, 0], upper: [2, 3, 1], cells: [2, 1, 1], element: bbar, material: j2, young: 200, poisson: 0.3, yield: 0.2, kinematic: 20}
-  - modes: {lower: [0, 4, 0], upper: [2, 5, 1], cells: [2, 1, 1], element: incompatible, material: j2, young: 200, poisson: 0.3, yield: 0.2, saturation: 0.3, saturation_rate: 100, kinematic: 5}
-  - second: {lower: [0, 6, 0], upper: [2, 7, 1], cells: [1, 1, 1], order: 2, material: j2, young: 200, poisson: 0.3, plastic_strains: [0, 0.002, 0.01], yield_stresses: [0.2, 0.25, 0.3]}
+  - bbar: {lower: [0, 2, 0], upper: [2, 3, 1], cells: [2, 1, 1], element: bbar,
+      material: j2, young: 200, poisson: 0.3, yield: 0.2, kinematic: 20}
+  - modes: {lower: [0, 4, 0], upper: [2, 5, 1], cells: [2, 1, 1], element: incompatible, material: j2, young: 200,
+      poisson: 0.3, yield: 0.2, saturation: 0.3, saturation_rate: 100, kinematic: 5}
+  - second: {lower: [0, 6, 0], upper: [2, 7, 1], cells: [1, 1, 1], order: 2, material: j2, young: 200, poisson: 0.3,
+      plastic_strains: [0, 0.002, 0.01], yield_stresses: [0.2, 0.25, 0.3]}
   - both: {lower: [0, 8, 0], upper: [2, 9, 1], cells: [1, 1, 1], order: 2, element: bbar, $linear}
-  - elastic: {lower: [0, 10, 0], upper: [2, 11, 1], cells: [1, 1, 1], material: j2, young: 200, poisson: 0.3, yield: 1e6}
+  - elastic: {lower: [0, 10, 0], upper: [2, 11, 1], cells: [1, 1, 1], material: j2, young: 200, poisson: 0.3,
+      yield: 1e6}
   - hot: {lower: [0, 12, 0], upper: [2, 13, 1], cells: [2, 1, 1], element: bbar, $linear, expansion: 1e-5}
-symmetry: [full.xmin, full.ymin, full.zmin, bbar.xmin, bbar.ymin, bbar.zmin, modes.xmin, modes.ymin, modes.zmin, second.xmin, second.ymin, second.zmin, both.xmin, both.ymin, both.zmin, elastic.xmin, elastic.ymin, elastic.zmin, hot.xmin, hot.ymin, hot.zmin]
+symmetry: [full.xmin, full.ymin, full.zmin, bbar.xmin, bbar.ymin, bbar.zmin, modes.xmin, modes.ymin, modes.zmin,
+    second.xmin, second.ymin, second.zmin, both.xmin, both.ymin, both.zmin, elastic.xmin, elastic.ymin, elastic.zmin,
+    hot.xmin, hot.ymin, hot.zmin]
 displacements:
   - full: {face: full.xmax, value: [0.01, free, free]}
   - bbar: {face: bbar.xmax, value: [0.01, free, free]}
@@ -29,7 +35,9 @@ YAML
 cat > tube.yaml <<'YAML'
 problem: tube
 bodies:
-  - tube: {shape: tube_arc, axis: z, center: [0, 0, 0], radii: [1, 2], angles: [0, 15], extent: [0, 0.1], cells: [16, 2, 1], grading: [4, 1, 1], material: j2, young: 1000, poisson: 0.4999, yield: 1.7320508075688772, element: bbar}
+  - tube: {shape: tube_arc, axis: z, center: [0, 0, 0], radii: [1, 2], angles: [0, 15], extent: [0, 0.1],
+      cells: [16, 2, 1], grading: [4, 1, 1], material: j2, young: 1000, poisson: 0.4999, yield: 1.7320508075688772,
+      element: bbar}
 displacements:
   - bottom: {face: tube.lmin, value: [free, free, 0]}
   - top: {face: tube.lmax, value: [free, free, 0]}

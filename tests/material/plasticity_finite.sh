@@ -12,7 +12,8 @@ bodies:
              saturation_rate: 1, hardening: 4}
   - both: {lower: [0, 6, 0], upper: [2, 7, 1], cells: [1, 1, 1], order: 2, element: bbar, material: j2_finite,
            young: 200, poisson: 0.3, plastic_strains: [0, 0.2, 3], yield_stresses: [0.2, 1.2, 12.4]}
-symmetry: [full.xmin, full.ymin, full.zmin, bbar.xmin, bbar.ymin, bbar.zmin, second.xmin, second.ymin, second.zmin, both.xmin, both.ymin, both.zmin]
+symmetry: [full.xmin, full.ymin, full.zmin, bbar.xmin, bbar.ymin, bbar.zmin, second.xmin, second.ymin, second.zmin,
+    both.xmin, both.ymin, both.zmin]
 displacements:
   - full: {face: full.xmax, value: [2, free, free]}
   - bbar: {face: bbar.xmax, value: [2, free, free]}

@@ -23,7 +23,7 @@ COLOURS = {
 
 def share(picture, colour):
     """Fraction of the bodies' part of the picture whose pixels have this hue, however dark the light makes them"""
-    pixels = picture[:-50, : int(0.8 * picture.shape[1]), :3].reshape(-1, 3)
+    pixels = picture[:-50, :int(0.8 * picture.shape[1]), :3].reshape(-1, 3)
     lightness = pixels.max(axis=1, keepdims=True)
     hue = pixels / np.maximum(lightness, 1e-3)
     white = pixels.min(axis=1) > 0.97

@@ -16,7 +16,9 @@ ls fields.xmf two.xmf 2> /dev/null
 
 sed 's/-0.1\]/-9]/' boxes.yaml > crushed.yaml
 "$contact" crushed.yaml -quiet -report crushed.html > out 2> err
-echo "crushed: exit code $?, the summary's $("$PYTHON" -c 'import json; print(json.load(open("crushed.json"))["exit_code"])')"
+code=$?
+written=$("$PYTHON" -c 'import json; print(json.load(open("crushed.json"))["exit_code"])')
+echo "crushed: exit code $code, the summary's $written"
 judge crushed 3
 
 "$contact" boxes.yaml -quiet -report page.txt 2>&1; echo "exit code $?"

@@ -18,10 +18,9 @@ LIMITS = {"axial_16": 5e-3, "axial_32": 1e-3}
 
 
 def tube(name, inner, outer, around, along):
-    return (
-        f"  - {name}: "
-        f"{{shape: tube_arc, axis: z, radii: [{inner}, {outer}], angles: [0, 90], extent: [0, {LENGTH}], cells: [{around // 3}, {around}, {along}], young: {YOUNG}, poisson: 0}}\n"
-    )
+    return (f"  - {name}: "
+            f"{{shape: tube_arc, axis: z, radii: [{inner}, {outer}], angles: [0, 90], extent: [0, {LENGTH}], "
+            f"cells: [{around // 3}, {around}, {along}], young: {YOUNG}, poisson: 0}}\n")
 
 
 def scene(outside, inside, along):

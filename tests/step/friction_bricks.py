@@ -18,10 +18,9 @@ def scene():
     for row in range(ROWS):
         for column in range(COLUMNS):
             x = 2 * column + row % 2 + 0.3
-            lines.append(
-                f"  - brick{row}_{column}: "
-                f"{{lower: [{x:.6g}, 0.1, {row}], upper: [{x + 1.9:.6g}, 1.9, {row + 1}], cells: [2, 2, 1], young: 2e5, poisson: 0.3}}"
-            )
+            lines.append(f"  - brick{row}_{column}: "
+                         f"{{lower: [{x:.6g}, 0.1, {row}], upper: [{x + 1.9:.6g}, 1.9, {row + 1}], cells: [2, 2, 1], "
+                         f"young: 2e5, poisson: 0.3}}")
     lines += [f"  - lid: {{lower: [0, 0, {ROWS}], upper: [{length}, 2, {ROWS + 1}], {plate}"]
     lines += [
         "displacements:", "  - ground: {face: floor.zmin, value: [0, 0, 0]}", "contact:",

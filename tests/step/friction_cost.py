@@ -1,5 +1,6 @@
-"""What friction costs: linear solves in five load steps of the ironing benchmark's published mesh, in three of which the
-die slides, with a coefficient of friction of 0.3 and without friction.
+"""What friction costs: linear solves in five load steps of the ironing benchmark's published mesh.
+
+The die slides in three of the load steps, with a coefficient of friction of 0.3 and without friction.
 
 python3 friction_cost.py scenes writes the scenes; python3 friction_cost.py judges the runs of friction_cost.sh.
 """

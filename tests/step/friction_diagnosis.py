@@ -47,10 +47,9 @@ DRIVEN = CLAMP.replace("pressures:\n  - press: {face: top.zmax, value: 50, ramp:
 def stack(blocks, friction, more=""):
     bodies, pairs, top, below = "", "", 0.0, "floor.zmax"
     for k, (x, y, middle, height, cells, young) in enumerate(blocks):
-        bodies += (
-            f"  - b{k}: "
-            f"{{lower: [{middle - x}, {-y}, {top}], upper: [{middle + x}, {y}, {top + height}], cells: {cells}, young: {young}, poisson: 0.3}}\n"
-        )
+        bodies += (f"  - b{k}: "
+                   f"{{lower: [{middle - x}, {-y}, {top}], upper: [{middle + x}, {y}, {top + height}], cells: {cells}, "
+                   f"young: {young}, poisson: 0.3}}\n")
         pairs += f"  - p{k}: {{mortar: {below}, nonmortar: b{k}.zmin, friction: {friction}}}\n"
         below, top = f"b{k}.zmax", top + height
     return f"""problem: stack

@@ -74,7 +74,8 @@ def scene():
     down, along = [(k + 1) / DOWN for k in range(DOWN)], [(k + 1) / ALONG for k in range(ALONG)]
     return f"""problem: shallow_ironing
 bodies:
-  - foundation: {{mesh: ironing.msh, volume: foundation, young: 689.6, poisson: 0.32, material: neohookean, element: full}}
+  - foundation: {{mesh: ironing.msh, volume: foundation, young: 689.6, poisson: 0.32, material: neohookean,
+      element: full}}
   - block: {{mesh: ironing.msh, volume: block, young: 6896, poisson: 0.32, material: neohookean, element: full}}
 displacements:
   - floor: {{face: foundation.foundation_low, value: [0, 0, 0]}}

@@ -55,17 +55,18 @@ probes:
 
 
 def half(name, inner, outer, start, cells):
-    return (
-        f"  - {name}: "
-        f"{{shape: tube_arc, axis: z, radii: [{inner}, {outer}], angles: [{start}, {start + 180}], extent: [0, {LENGTH}], cells: [{cells // 7}, {cells}, 1], young: {YOUNG}, poisson: {POISSON}}}\n"
-    )
+    return (f"  - {name}: "
+            f"{{shape: tube_arc, axis: z, radii: [{inner}, {outer}], angles: [{start}, {start + 180}], "
+            f"extent: [0, {LENGTH}], cells: [{cells // 7}, {cells}, 1], young: {YOUNG}, poisson: {POISSON}}}\n")
 
 
 def torque(outside, inside):
     turn = "rotation: [0, 0, 0.03], center: [0, 0, 0], ramp: turn"
     return f"""problem: torque
 bodies:
-{half("hub", FIT, RIM, 0, outside)}{half("hub2", FIT, RIM, 180, outside)}{half("shaft", BORE, FIT + INTERFERENCE, 0, inside)}{half("shaft2", BORE, FIT + INTERFERENCE, 180, inside)}displacements:
+{half("hub", FIT, RIM, 0, outside)}{half("hub2", FIT, RIM, 180, outside)}\
+{half("shaft", BORE, FIT + INTERFERENCE, 0, inside)}{half("shaft2", BORE, FIT + INTERFERENCE, 180, inside)}\
+displacements:
   - hold: {{face: hub.outer, value: [0, 0, 0]}}
   - hold2: {{face: hub2.outer, value: [0, 0, 0]}}
   - turn: {{face: shaft.inner, value: [0, 0, 0], {turn}}}
@@ -86,17 +87,16 @@ ramps:
 
 
 def pulley(angle):
-    return (
-        f"  - pulley: "
-        f"{{shape: tube_arc, axis: z, radii: [40, {PULLEY}], angles: [-20, {angle + 20}], extent: [-0.5, 1.5], cells: [1, {(angle + 40) // 5}, 1], material: rigid}}\n"
-    )
+    return (f"  - pulley: "
+            f"{{shape: tube_arc, axis: z, radii: [40, {PULLEY}], angles: [-20, {angle + 20}], extent: [-0.5, 1.5], "
+            f"cells: [1, {(angle + 40) // 5}, 1], material: rigid}}\n")
 
 
 def belt(angle, cells, thickness, layers):
     return (
         f"  - belt: "
-        f"{{shape: tube_arc, axis: z, radii: [{PULLEY}, {PULLEY + thickness}], angles: [0, {angle}], extent: [0, 1], cells: [{layers}, {cells}, 1], young: 1000, poisson: 0, element: incompatible}}\n"
-    )
+        f"{{shape: tube_arc, axis: z, radii: [{PULLEY}, {PULLEY + thickness}], angles: [0, {angle}], extent: [0, 1], "
+        f"cells: [{layers}, {cells}, 1], young: 1000, poisson: 0, element: incompatible}}\n")
 
 
 def capstan(angle, cells, thickness):

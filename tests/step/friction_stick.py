@@ -33,8 +33,10 @@ def belt(law):
     """A thin belt around half of a drum, pulled at one end more than at the other"""
     return f"""problem: belt
 bodies:
-  - drum: {{shape: tube_arc, axis: y, radii: [0.6, 1], angles: [0, 180], extent: [0, 0.5], cells: [2, 24, 2], young: 1e5, poisson: 0.3}}
-  - belt: {{shape: tube_arc, axis: y, radii: [1, 1.05], angles: [0, 180], extent: [0.05, 0.45], cells: [1, 36, 2], young: 1000, poisson: 0.3}}
+  - drum: {{shape: tube_arc, axis: y, radii: [0.6, 1], angles: [0, 180], extent: [0, 0.5], cells: [2, 24, 2],
+      young: 1e5, poisson: 0.3}}
+  - belt: {{shape: tube_arc, axis: y, radii: [1, 1.05], angles: [0, 180], extent: [0.05, 0.45], cells: [1, 36, 2],
+      young: 1000, poisson: 0.3}}
 displacements:
   - hold: {{face: drum.inner, value: [0, 0, 0]}}
   - pull: {{face: belt.amin, value: [0, free, -0.02]}}

@@ -1,7 +1,10 @@
-"""The forces on the wedge of friction_wedge.sh: equal on both sides, within the cone of friction, and none at the end."""
+"""The forces on the wedge of friction_wedge.sh.
+
+They are equal on both sides, within the cone of friction, and none at the end."""
 from summaries import load, say
 
 steps = load("wedge")["steps"]
 pressed = [[pair["normal_force"] for pair in step["pairs"]] for step in steps]
-say("pressed alike by both faces", all(abs(a - b) < 2e-3 * pressed[1][0] for a, b in pressed) and 0 < pressed[0][0] < pressed[1][0], pressed)
+alike = all(abs(a - b) < 2e-3 * pressed[1][0] for a, b in pressed)
+say("pressed alike by both faces", alike and 0 < pressed[0][0] < pressed[1][0], pressed)
 say("without force at the end", max(pressed[-1]) < 1e-9 * pressed[1][0], pressed)

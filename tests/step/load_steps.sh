@@ -16,7 +16,8 @@ for ranks in 1 3; do
   launch=()
   [ "$ranks" -eq 1 ] || launch=(mpiexec --oversubscribe -n "$ranks")
   "${launch[@]}" "$contact" bar.yaml -quiet -summary bar.json -log_view :bar.log
-  echo "$ranks: exit $?, optimizer used: $(grep -c TaoIPFltSolve bar.log), contact searched: $(grep -c ContactSearch bar.log)"
+  echo "$ranks: exit $?, optimizer used: $(grep -c TaoIPFltSolve bar.log)," \
+    "contact searched: $(grep -c ContactSearch bar.log)"
   # E e^2/2 per volume, e = 0.005 and 0.01, volume 6; force 10 e x area 2
   "$PYTHON" - <<'PY'
 import json
@@ -29,7 +30,10 @@ done
   cp good_0001.h5 before.h5
 "$contact" "$AMGF_DIR/share/scenes/two_block.yaml" -refine 0 -quiet -output good -load_steps 1 \
   -tao_ipfilter_subspace false -tao_max_it 2 -load_max_cuts 0 2> err # directions of the subspace are no steps
-echo "failed step: exit $?, $(grep -c 'contact: load step 1 failed: iteration limit 2 reached' err) sentence, old file intact: $(cmp -s good_0001.h5 before.h5 && echo yes || echo no)"
+code=$?
+said=$(grep -c 'contact: load step 1 failed: iteration limit 2 reached' err)
+echo "failed step: exit $code, $said sentence," \
+  "old file intact: $(cmp -s good_0001.h5 before.h5 && echo yes || echo no)"
 # -summary through a link: what it leads to stays until there is a new one
 echo kept > target.json && ln -sf target.json link.json
 "$contact" bar.yaml -quiet -summary link.json -accuracy 2 2> err

@@ -22,7 +22,8 @@ for hold in "" ", hold: {face: wedge.side1, value: [0, free, free]}"; do
   wedge neohookean 0 0.1 "$hold"
   for ranks in 1 2; do
     mpiexec --oversubscribe -n $ranks "$contact" wedge.yaml -quiet -error_estimate 0 > out 2>&1
-    echo "$([ "$hold" ] && echo held || echo free), $ranks ranks: exit $?, $(grep -o 'slips away in load step 1' out || echo no warning)"
+    echo "$([ "$hold" ] && echo held || echo free), $ranks ranks: exit $?," \
+      "$(grep -o 'slips away in load step 1' out || echo no warning)"
   done
 done
 for law in linear neohookean; do
@@ -31,7 +32,8 @@ for law in linear neohookean; do
   echo "$law, friction 0.2, touches at the tip: exit $?"
   wedge $law 0.2 0.08
   "$contact" wedge.yaml -quiet -error_estimate 0 -summary wedge.json > out 2>&1
-  echo "$law, friction 0.2, touches at the thick end: exit $?, $(grep -o 'slips away in load step 1' out || echo no warning)"
+  echo "$law, friction 0.2, touches at the thick end: exit $?," \
+    "$(grep -o 'slips away in load step 1' out || echo no warning)"
   "$PYTHON" - <<PYTHON
 from summaries import load, say
 forces = [pair["normal_force"] for pair in load("wedge")["steps"][-1]["pairs"]]

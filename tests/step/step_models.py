@@ -24,7 +24,8 @@ for step, w in zip(bar, (0, W)):
     say("bar, step %d: stored energy is half the work of dead loads" % step["step"],
         within(step["potential"], -step["energy"], 1e-8), step["potential"])
 
-runs = {name: load(name) for name in ("energy", "quadratic", "updated_2", "updated_5", "untrue", "press", "squash", "gentle")}
+names = ("energy", "quadratic", "updated_2", "updated_5", "untrue", "press", "squash", "gentle")
+runs = {name: load(name) for name in names}
 last = {name: run["steps"][-1] for name, run in runs.items()}
 say("energy: equilibrium to 1e-8", last["energy"]["equilibrium"] <= 1e-8, last["energy"]["equilibrium"])
 say("quadratic: no equilibrium, by more than 1e-4", last["quadratic"]["equilibrium"] > 1e-4,

@@ -233,7 +233,10 @@ derivatives and starting points, and use their default options. The time limit i
 
 | result | meaning |
 | --- | --- |
-| right | the solver reports convergence (or an acceptable point); the objective differs by less than %g, relative, from an optimum or a local minimum of the literature, and constraints are violated by less than %g, relative to the rows of the Jacobian. It is also right to report an infeasible or unbounded problem as such, and to report at the optimum that no multipliers exist |
+| right | the solver reports convergence (or an acceptable point); the objective differs by less than %g, \
+relative, from an optimum or a local minimum of the literature, and constraints are violated by less than %g, \
+relative to the rows of the Jacobian. It is also right to report an infeasible or unbounded problem as such, and to \
+report at the optimum that no multipliers exist |
 | wrong | the solver reports convergence at another point, or reports an unbounded problem as infeasible |
 | failed | the solver reports failure |
 | points | number of points at which the objective or its gradient was computed |

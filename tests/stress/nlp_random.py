@@ -180,13 +180,15 @@ options. The time limit is %g s per problem.
 | family | a problem is solved if the solver reports |
 | --- | --- |
 | infeasible | that it is infeasible |
-| polynomials, which may be unbounded below | convergence as below, or an unbounded problem at a point that meets the constraints and has an objective below -{BOTTOMLESS:g} |
+| polynomials, which may be unbounded below | convergence as below, or an unbounded problem at a point that meets \
+the constraints and has an objective below -{BOTTOMLESS:g} |
 | all others | convergence, and constraints are violated by less than {FAR_VIOLATION:g} |
 
 Iterations and points are sums over the problems that both solve with the same objective. A point is
 one at which the objective or its gradient was computed.
 
-| family | problems | ipfilter solves | IPOPT solves | both, alike | iterations | points | IPOPT's iterations | IPOPT's points |
+| family | problems | ipfilter solves | IPOPT solves | both, alike | iterations | points | IPOPT's iterations \
+| IPOPT's points |
 | --- | --- | --- | --- | --- | --- | --- | --- | --- |
 """
 

@@ -22,7 +22,8 @@ HEADER = """# Stress report
 | --- | --- |
 | status | converged; failed: the run stopped with a message; refused: the input was rejected before the run |
 | PCG mean, PCG max | iterations of PCG per Newton system |
-| true gap | smallest gap of the deformed bodies. It is negative where bodies overlap, because these scenes have one contact update per load step |
+| true gap | smallest gap of the deformed bodies. It is negative where bodies overlap, because these scenes have one \
+contact update per load step |
 | difference in energy | relative difference from a run with MUMPS on the whole matrix and a tolerance of 1e-10 |
 | verdict | whether the result is as it must be |"""
 

@@ -18,7 +18,8 @@ class Row:
     def __init__(self, group, name, scene, options=(), end="converges", checks=(), drift=1e-6, reference=True,
                  quick=False, like=None):
         self.group, self.name, self.scene, self.options = group, name, scene, options
-        self.end, self.checks, self.drift, self.reference, self.quick, self.like = end, checks, drift, reference, quick, like
+        self.end, self.checks, self.drift, self.reference = end, checks, drift, reference
+        self.quick, self.like = quick, like
 
 
 def nonmortar_force(run):

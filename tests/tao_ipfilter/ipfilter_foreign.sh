@@ -24,7 +24,12 @@ objective() {
 
 # same REFERENCE VALUE
 same() {
-  awk -v a="$1" -v b="$2" 'BEGIN { d = a - b; if (d < 0) d = -d; s = a < 0 ? -a : a; print (a != "" && b != "" && d <= 1e-4 * (1 + s)) ? "  same objective" : "  NOT THE SAME: " a " " b }'
+  awk -v a="$1" -v b="$2" '
+    function abs(x) { return x < 0 ? -x : x }
+    BEGIN {
+      same = a != "" && b != "" && abs(a - b) <= 1e-4 * (1 + abs(a))
+      print same ? "  same objective" : "  NOT THE SAME: " a " " b
+    }'
 }
 
 ipfilter=(-dll_append "$plugin" -tao_type ipfilter)

@@ -48,7 +48,8 @@ contact:
     "elastic punch, sharp, nu 0.3": ("force", PUNCH % "0.3, E"),
     "elastic punch, sharp, nu 0.48": ("force", PUNCH % "0.48, E"),
     "ring between plates, nu 0.3": ("force", """bodies:
-  - ring: {shape: tube_arc, axis: y, center: [0, 0, 1], radii: [0.85, 1], angles: [90, 180], extent: [0, 0.1], cells: [2, 24, 1], young: 1000, poisson: 0.3, E}
+  - ring: {shape: tube_arc, axis: y, center: [0, 0, 1], radii: [0.85, 1], angles: [90, 180], extent: [0, 0.1],
+      cells: [2, 24, 1], young: 1000, poisson: 0.3, E}
   - plate: {lower: [0, 0, -0.2], upper: [0.6, 0.1, 0], cells: [1, 1, 1], material: rigid}
 symmetry: [ring.lmin, ring.lmax, ring.amax]
 displacements:
@@ -69,20 +70,24 @@ load: {steps: 2}
                                           second.STRIP % ("material: neohookean, young: 1, poisson: 0.45", 0.2) +
                                           "load: {steps: 2}\n"),
     "shrunk ring, nu 0.3": ("energy", """bodies:
-  - hub: {shape: tube_arc, axis: z, radii: [0.6, 1.001], angles: [0, 90], extent: [0, 0.3], cells: [4, 10, 2], young: 1000, poisson: 0.3, E}
-  - ring: {shape: tube_arc, axis: z, radii: [0.999, 1.4], angles: [0, 90], extent: [0, 0.2], cells: [4, 12, 2], young: 1000, poisson: 0.3, E}
+  - hub: {shape: tube_arc, axis: z, radii: [0.6, 1.001], angles: [0, 90], extent: [0, 0.3], cells: [4, 10, 2],
+      young: 1000, poisson: 0.3, E}
+  - ring: {shape: tube_arc, axis: z, radii: [0.999, 1.4], angles: [0, 90], extent: [0, 0.2], cells: [4, 12, 2],
+      young: 1000, poisson: 0.3, E}
 symmetry: [hub.amin, hub.amax, hub.lmin, ring.amin, ring.amax, ring.lmin]
 contact:
   - fit: {mortar: hub.outer, nonmortar: ring.inner, interference: true}
 """),
     "tube under pressure, nu 0.45": ("energy", """bodies:
-  - tube: {shape: tube_arc, axis: z, radii: [1, 1.5], angles: [0, 90], extent: [0, 0.25], cells: [4, 10, 1], young: 1000, poisson: 0.45, E}
+  - tube: {shape: tube_arc, axis: z, radii: [1, 1.5], angles: [0, 90], extent: [0, 0.25], cells: [4, 10, 1],
+      young: 1000, poisson: 0.45, E}
 symmetry: [tube.amin, tube.amax, tube.lmin, tube.lmax]
 pressures:
   - bore: {face: tube.inner, value: 1}
 """),
     "plastic imprint of a sharp punch": ("force", """bodies:
-  - block: {lower: [0, 0, -1], upper: [1.5, 0.1, 0], cells: [12, 1, 8], material: j2, young: 1000, poisson: 0.3, yield: 1, hardening: 20, E}
+  - block: {lower: [0, 0, -1], upper: [1.5, 0.1, 0], cells: [12, 1, 8], material: j2, young: 1000, poisson: 0.3,
+      yield: 1, hardening: 20, E}
   - punch: {lower: [0, 0, 0], upper: [0.5, 0.1, 0.2], cells: [1, 1, 1], material: rigid}
 symmetry: [block.xmin, block.ymin, block.ymax]
 displacements:
@@ -178,7 +183,8 @@ Two criteria say whether the choice was good:
 
 | column | meaning |
 | --- | --- |
-| best of order 1 | the error of `auto` is at most 1.2 times the smallest error of all elements of order 1 on the same mesh |
+| best of order 1 | the error of `auto` is at most 1.2 times the smallest error of all elements of order 1 \
+on the same mesh |
 | on the front | no run that is at least as fast has an error more than 20 % smaller |
 
 If `auto` is not on the front, order 2 on a coarser mesh is better. The scene must then request

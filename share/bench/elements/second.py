@@ -8,7 +8,8 @@ LAW = "material: neohookean, young: 1000, poisson: %s, E}"
 # A strip and a rigid roller that is pressed into it. To be filled in: the strip's material, the depth [length]
 STRIP = """bodies:
   - strip: {lower: [0, 0, -1], upper: [2, 0.2, 0], cells: [10, 1, 5], %s, E}
-  - roller: {shape: tube_arc, axis: y, center: [0, 0, 1], radii: [0.8, 1], angles: [90, 200], extent: [0, 0.2], cells: [1, 24, 1], material: rigid}
+  - roller: {shape: tube_arc, axis: y, center: [0, 0, 1], radii: [0.8, 1], angles: [90, 200], extent: [0, 0.2],
+      cells: [1, 24, 1], material: rigid}
 symmetry: [strip.xmin, strip.ymin, strip.ymax]
 displacements:
   - low: {face: strip.zmin, value: [0, 0, 0]}
@@ -55,7 +56,8 @@ contact:
   - touch: {mortar: stop.zmax, nonmortar: clip.zmin, distance: 0.5}
 """),
     "elastic and plastic bending, j2": ("energy", """bodies:
-  - beam: {lower: [0, 0, 0], upper: [6, 0.5, 0.5], cells: [12, 1, 2], material: j2, young: 1000, poisson: 0.3, yield: 5, hardening: 50, E}
+  - beam: {lower: [0, 0, 0], upper: [6, 0.5, 0.5], cells: [12, 1, 2], material: j2, young: 1000, poisson: 0.3,
+      yield: 5, hardening: 50, E}
 symmetry: [beam.ymin]
 displacements:
   - wall: {face: beam.xmin, value: [0, 0, 0]}
@@ -63,7 +65,8 @@ displacements:
 load: {steps: 4}
 """),
     "curved arch of skewed cells, nu 0.3": ("energy", """bodies:
-  - arch: {shape: tube_arc, axis: y, radii: [3, 3.3], angles: [0, 90], extent: [0, 0.5], cells: [1, 10, 1], young: 1000, poisson: 0.3, E}
+  - arch: {shape: tube_arc, axis: y, radii: [3, 3.3], angles: [0, 90], extent: [0, 0.5], cells: [1, 10, 1],
+      young: 1000, poisson: 0.3, E}
 symmetry: [arch.lmin]
 displacements:
   - foot: {face: arch.amin, value: [0, 0, 0]}
@@ -82,15 +85,16 @@ contact:
   - stand: {mortar: floor.zmax, nonmortar: bar.zmin}
 """),
     "tube under pressure, finite strain, nu 0.3": ("energy", """bodies:
-  - tube: {shape: tube_arc, axis: z, radii: [1, 1.5], angles: [0, 90], extent: [0, 0.25], cells: [4, 10, 1], material: neohookean, young: 10, poisson: 0.3, E}
+  - tube: {shape: tube_arc, axis: z, radii: [1, 1.5], angles: [0, 90], extent: [0, 0.25], cells: [4, 10, 1],
+      material: neohookean, young: 10, poisson: 0.3, E}
 symmetry: [tube.amin, tube.amax, tube.lmin, tube.lmax]
 pressures:
   - bore: {face: tube.inner, value: 0.5}
 load: {steps: 2}
 """),
     "wheel of finite strain on a plate, coarse, nu 0.3": ("force", """bodies:
-  - wheel: {shape: tube_arc, axis: y, center: [0, 0, 1], radii: [0.3, 1], angles: [90, 180], extent: [0, 0.1], cells: [5, 16, 1], """
-                                                          + LAW % 0.3 + """
+  - wheel: {shape: tube_arc, axis: y, center: [0, 0, 1], radii: [0.3, 1], angles: [90, 180], extent: [0, 0.1],
+      cells: [5, 16, 1], """ + LAW % 0.3 + """
   - plate: {lower: [0, 0, -0.2], upper: [0.6, 0.1, 0], cells: [1, 1, 1], material: rigid}
 symmetry: [wheel.lmin, wheel.lmax, wheel.amax]
 displacements:
