@@ -1,7 +1,7 @@
 """pressure_finite.py scenes: writes the scenes of pressure_finite.sh; check: reads their summaries"""
 import sys
 
-from neo_hookean import compressed
+from neo_hookean import uniaxial
 from summaries import load, say, within
 
 HEIGHT = 0.5  # of the compressed block, whose sides were 1
@@ -45,7 +45,7 @@ def scenes():
 
 
 def check():
-    width, force = compressed(HEIGHT, YOUNG, POISSON)
+    width, force = uniaxial(HEIGHT, YOUNG, POISSON)
     for name in [name for name, _, _ in runs()] + ["plates_mortar_2", "planes_5"]:
         step = load(name)["steps"][-1]
         for pair in step["pairs"]:

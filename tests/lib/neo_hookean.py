@@ -1,8 +1,8 @@
-"""A neo-Hookean block with unit sides that is compressed between frictionless planes: a closed form."""
+"""A neo-Hookean block with unit sides that is compressed or stretched along one axis: a closed form."""
 
 
-def compressed(height, young, poisson):
-    """Width and force of the block at a given height. The width minimizes the energy."""
+def uniaxial(height, young, poisson):
+    """Width and compressive force of the block at a given height. The width minimizes the energy."""
     mu, kappa, step = young / 2 / (1 + poisson), young / 3 / (1 - 2 * poisson), 1e-6
 
     def energy(height, width):

@@ -1,7 +1,7 @@
 """compression.py scenes: writes the scenes of compression.sh; check: reads their summaries"""
 import sys
 
-from neo_hookean import compressed
+from neo_hookean import uniaxial
 from summaries import load, say, within
 
 HEIGHT, STEPS, YOUNG = 0.56, 4, 3
@@ -32,7 +32,7 @@ def check():
     for name, (poisson, _) in BLOCKS.items():
         steps = load(name)["steps"]
         seen = [step["pairs"][0]["normal_force"] for step in steps]
-        forces = [compressed(1 - (1 - HEIGHT) * (k + 1) / STEPS, YOUNG, poisson)[1] for k in range(STEPS)]
+        forces = [uniaxial(1 - (1 - HEIGHT) * (k + 1) / STEPS, YOUNG, poisson)[1] for k in range(STEPS)]
         say(f"{name}: forces of a uniform strain",
             len(seen) == STEPS and all(within(a, b, 1e-5) for a, b in zip(seen, forces)), (seen, forces))
 
