@@ -65,6 +65,7 @@ typedef struct {
                             which tangents contain the dampers [1/time] */
   PetscInt   nweak;        /* number of bodies with weak springs */
   PetscReal  softness;     /* stiffness of the weak springs as a fraction of the body's */
+  Mat        modes;        /* rigid body modes of these bodies, a column each; NULL until a load step needs them */
   MeshRotation *rotations; /* [bodies] rotations that only weak springs resist; NULL if there are no weak springs */
 } Springs;
 

@@ -181,6 +181,7 @@ PetscErrorCode SpringsDestroy(Springs *springs)
   PetscCall(VecDestroy(&springs->weak));
   PetscCall(MatDestroy(&springs->between));
   PetscCall(MatDestroy(&springs->dampers));
+  PetscCall(MatDestroy(&springs->modes));
   PetscCall(PetscFree(springs->connectors));
   PetscCall(PetscFree(springs->rotations));
   PetscFunctionReturn(0);

@@ -22,19 +22,13 @@ static PetscErrorCode FreeMotionsMeasureBodies(FreeMotions *m)
 {
   Simulation         sim = m->sim;
   const PetscScalar *x;
-  PetscReal         *count;
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(m->nbodies, &count));
   PetscCall(PetscCalloc2(3 * m->nbodies, &m->center, m->nbodies, &m->size));
+  PetscCall(VertexPlacesGetCentres(&sim->places, m->x, m->nbodies, m->center));
   PetscCall(VecGetLocalSize(m->x, &n));
   PetscCall(VecGetArrayRead(m->x, &x));
-  for (PetscInt i = 0; i < n; ++i) m->center[3 * sim->places.body[i / 3] + i % 3] += PetscRealPart(x[i]);
-  for (PetscInt i = 0; i < n; i += 3) count[sim->places.body[i / 3]] += 1.0;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, count, (PetscMPIInt)m->nbodies, MPIU_REAL, MPIU_SUM, sim->comm));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, m->center, (PetscMPIInt)(3 * m->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
-  for (PetscInt k = 0; k < 3 * m->nbodies; ++k) m->center[k] /= count[k / 3];
   for (PetscInt i = 0; i < n; ++i) {
     const PetscInt b = sim->places.body[i / 3];
 
@@ -42,7 +36,6 @@ static PetscErrorCode FreeMotionsMeasureBodies(FreeMotions *m)
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, m->size, (PetscMPIInt)m->nbodies, MPIU_REAL, MPIU_MAX, sim->comm));
   PetscCall(VecRestoreArrayRead(m->x, &x));
-  PetscCall(PetscFree(count));
   PetscFunctionReturn(0);
 }
 

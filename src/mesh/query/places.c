@@ -43,6 +43,27 @@ PetscErrorCode VertexPlacesCreate(DM dm, VertexPlaces *places)
   PetscFunctionReturn(0);
 }
 
+/* Collective. Computes the mean of the positions x of the nodes of each body. centre: 3 numbers per body [length] */
+PetscErrorCode VertexPlacesGetCentres(const VertexPlaces *places, Vec x, PetscInt nbodies, PetscReal centre[])
+{
+  const PetscScalar *a;
+  PetscReal         *sum; /* per body: the sum of the positions, and the number of nodes */
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(4 * nbodies, &sum));
+  PetscCall(VecGetLocalSize(x, &n));
+  PetscCall(VecGetArrayRead(x, &a));
+  for (PetscInt i = 0; i < n; ++i) sum[4 * places->body[i / 3] + i % 3] += PetscRealPart(a[i]);
+  for (PetscInt i = 0; i < n; i += 3) sum[4 * places->body[i / 3] + 3] += 1.0;
+  PetscCall(VecRestoreArrayRead(x, &a));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, sum, (PetscMPIInt)(4 * nbodies), MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)x)));
+  for (PetscInt k = 0; k < 3 * nbodies; ++k) centre[k] = sum[4 * (k / 3) + k % 3] / sum[4 * (k / 3) + 3];
+  PetscCall(PetscFree(sum));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode VertexPlacesDestroy(VertexPlaces *places)
 {
   PetscFunctionBegin;

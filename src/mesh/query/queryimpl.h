@@ -63,6 +63,7 @@ typedef struct {
 } VertexPlaces;
 
 PETSC_INTERN PetscErrorCode VertexPlacesCreate(DM, VertexPlaces *);
+PETSC_INTERN PetscErrorCode VertexPlacesGetCentres(const VertexPlaces *, Vec x, PetscInt nbodies, PetscReal centre[]);
 PETSC_INTERN PetscErrorCode VertexPlacesDestroy(VertexPlaces *);
 
 #endif

@@ -2,41 +2,28 @@
 #include "problemimpl.h"
 #include <vector3.h>
 
-/*
-   Computes the centre of the vertices of each body on weak springs. column[b]: number of its first mode; negative for
-   other bodies. *n: number of modes
-*/
-static PetscErrorCode WeakModesNumber(Simulation sim, PetscInt column[], PetscReal centre[][3], PetscInt *n)
+/* Numbers the modes. column[b]: the first mode of body b; negative for bodies without weak springs. *n: their number */
+static PetscErrorCode WeakModesNumber(Simulation sim, PetscInt column[], PetscInt *n)
 {
-  const PetscScalar *k, *x;
+  const PetscScalar *k;
   PetscInt           nlocal;
-  PetscReal(*sum)[4];
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(sim->scene->nbodies, &sum));
+  PetscCall(PetscArrayzero(column, sim->scene->nbodies));
   PetscCall(VecGetLocalSize(sim->springs.weak, &nlocal));
   PetscCall(VecGetArrayRead(sim->springs.weak, &k));
-  PetscCall(VecGetArrayRead(sim->places.x, &x));
   for (PetscInt i = 0; i < nlocal; i += 3) {
-    PetscReal *body = sum[sim->places.body[i / 3]];
-
-    if (!(PetscRealPart(k[i]) > 0.0)) continue;
-    for (PetscInt d = 0; d < 3; ++d) body[d] += PetscRealPart(x[i + d]);
-    body[3] += 1.0;
+    if (PetscRealPart(k[i]) > 0.0) column[sim->places.body[i / 3]] = 1;
   }
-  PetscCall(VecRestoreArrayRead(sim->places.x, &x));
   PetscCall(VecRestoreArrayRead(sim->springs.weak, &k));
-  PetscCallMPI(
-    MPI_Allreduce(MPI_IN_PLACE, sum, (PetscMPIInt)(4 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, column, (PetscMPIInt)sim->scene->nbodies, MPIU_INT, MPI_MAX, sim->comm));
   *n = 0;
   for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
-    const PetscBool weak = (PetscBool)(sum[b][3] > 0.0);
+    const PetscBool weak = (PetscBool)(column[b] > 0);
 
     column[b] = weak ? *n : -1;
     if (weak) *n += 6;
-    for (PetscInt d = 0; d < 3; ++d) centre[b][d] = weak ? sum[b][d] / sum[b][3] : 0.0;
   }
-  PetscCall(PetscFree(sum));
   PetscFunctionReturn(0);
 }
 
@@ -62,7 +49,7 @@ static PetscErrorCode WeakModesSetVertex(Mat modes, PetscInt row, PetscInt colum
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode WeakModesFill(Simulation sim, const PetscInt column[], PetscReal centre[][3], Mat modes)
+static PetscErrorCode WeakModesFill(Simulation sim, const PetscInt column[], const PetscReal centre[], Mat modes)
 {
   const PetscScalar *x, *m;
   PetscInt           start, end;
@@ -81,7 +68,7 @@ static PetscErrorCode WeakModesFill(Simulation sim, const PetscInt column[], Pet
     PetscReal      arm[3];
 
     if (column[b] < 0) continue;
-    for (PetscInt d = 0; d < 3; ++d) arm[d] = PetscRealPart(x[i + d]) - centre[b][d];
+    for (PetscInt d = 0; d < 3; ++d) arm[d] = PetscRealPart(x[i + d]) - centre[3 * b + d];
     PetscCall(WeakModesSetVertex(modes, start + i, column[b], arm, m + i));
   }
   PetscCall(VecRestoreArrayRead(moves, &m));
@@ -92,23 +79,31 @@ static PetscErrorCode WeakModesFill(Simulation sim, const PetscInt column[], Pet
   PetscFunctionReturn(0);
 }
 
+/* Collective. Creates the modes from the undeformed positions: they are the same in all load steps. */
+static PetscErrorCode WeakModesCreate(Simulation sim, Mat *modes)
+{
+  const PetscInt nbodies = sim->scene->nbodies;
+  PetscInt       n, N, nmodes, *column;
+  PetscReal     *centre;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(nbodies, &column, 3 * nbodies, &centre));
+  PetscCall(WeakModesNumber(sim, column, &nmodes));
+  PetscCall(VertexPlacesGetCentres(&sim->places, sim->places.x, nbodies, centre));
+  PetscCall(VecGetLocalSize(sim->places.x, &n));
+  PetscCall(VecGetSize(sim->places.x, &N));
+  PetscCall(MatCreateAIJ(sim->comm, n, PETSC_DECIDE, N, nmodes, 6, NULL, 6, NULL, modes));
+  PetscCall(WeakModesFill(sim, column, centre, *modes));
+  PetscCall(PetscFree2(column, centre));
+  PetscFunctionReturn(0);
+}
+
 /* Collective. Passes the rigid body modes of all bodies on weak springs to the optimizer, if there are such bodies. */
 PetscErrorCode WeakModesGive(Simulation sim, Tao tao)
 {
-  PetscInt n, N, nmodes, *column;
-  PetscReal(*centre)[3];
-  Mat modes;
-
   PetscFunctionBegin;
   if (!sim->springs.nweak || !sim->quadratic) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc2(sim->scene->nbodies, &column, sim->scene->nbodies, &centre));
-  PetscCall(WeakModesNumber(sim, column, centre, &nmodes));
-  PetscCall(VecGetLocalSize(sim->places.x, &n));
-  PetscCall(VecGetSize(sim->places.x, &N));
-  PetscCall(MatCreateAIJ(sim->comm, n, PETSC_DECIDE, N, nmodes, 6, NULL, 6, NULL, &modes));
-  PetscCall(WeakModesFill(sim, column, centre, modes));
-  PetscCall(TaoIPFilterSetModes(tao, modes));
-  PetscCall(MatDestroy(&modes));
-  PetscCall(PetscFree2(column, centre));
+  if (!sim->springs.modes) PetscCall(WeakModesCreate(sim, &sim->springs.modes));
+  PetscCall(TaoIPFilterSetModes(tao, sim->springs.modes));
   PetscFunctionReturn(0);
 }
