@@ -23,6 +23,7 @@ typedef struct {
   PetscReal   coarseness;       /* mean size of the nonmortar facets in contact divided by that of the mortar facets;
                                    0: no contact */
   PetscBool   narrow;           /* the contact area is only one nonmortar facet wide */
+  PetscReal   facet;            /* mean size of the nonmortar facets in contact [length]; 0: no contact */
   PetscReal   penetration_rounding; /* uncertainty of `penetration` on curved faces [length] */
   PetscBool   frictional;           /* has friction */
   PetscReal   shear_force;          /* sum of the magnitudes of the friction forces of all rows [force] */

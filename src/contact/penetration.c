@@ -47,10 +47,12 @@ static PetscBool PenetrationMayMeet(const void *context, const ContactCandidates
   return (PetscBool)!ContactSelfIsWall(&vertex->facet, &vertex->facet.reference[3 * vertex->corner], &other, y);
 }
 
-/* Computes the point xi of a facet of `side`, on its smooth surface if it has one */
-static void PenetrationPlace(const ContactSurface *side, PetscInt facet, const PetscReal xi[2], PetscReal y[3])
+/* Computes point k of PENETRATION_POINTS^2 points of a facet of `side`, on its smooth surface if it has one */
+static void PenetrationPlace(const ContactSurface *side, PetscInt facet, PetscInt k, PetscReal y[3])
 {
-  const PetscReal *x = &side->x[12 * facet];
+  const PetscReal *x     = &side->x[12 * facet];
+  const PetscReal  xi[2] = {2.0 * (PetscReal)(k % PENETRATION_POINTS) / (PENETRATION_POINTS - 1) - 1.0,
+     2.0 * (PetscReal)(k / PENETRATION_POINTS) / (PENETRATION_POINTS - 1) - 1.0};
   PetscReal        phi[4], n[3];
 
   for (PetscInt c = 0; c < 3; ++c) y[c] = 0.0;
@@ -69,12 +71,10 @@ static void PenetrationOfFacet(PetscReal reach, const ContactSurface *side, Pets
   const ContactTree *tree, const ContactCandidates *facets, PetscReal *deepest)
 {
   for (PetscInt k = 0; k < PENETRATION_POINTS * PENETRATION_POINTS; ++k) {
-    const PetscReal xi[2] = {2.0 * (PetscReal)(k % PENETRATION_POINTS) / (PENETRATION_POINTS - 1) - 1.0,
-      2.0 * (PetscReal)(k / PENETRATION_POINTS) / (PENETRATION_POINTS - 1) - 1.0};
-    PetscReal       y[3];
-    ContactNearest  nearest;
+    PetscReal      y[3];
+    ContactNearest nearest;
 
-    PenetrationPlace(side, f, xi, y);
+    PenetrationPlace(side, f, k, y);
     ContactFindNearest(tree, facets, CONTACT_NORMAL_COSINE, reach, y, normal, NULL, NULL, &nearest);
     if (nearest.facet >= 0) *deepest = PetscMax(*deepest, PenetrationOfVertex(facets, &nearest, y));
   }
@@ -124,14 +124,22 @@ static PetscErrorCode PenetrationOfSide(Contact contact, PetscReal reach, PetscB
   PetscFunctionReturn(0);
 }
 
-/* Increases *deepest to the largest depth of this rank's vertices below a rigid surface [length] */
-static void PenetrationOfFormula(Contact contact, PetscInt p, PetscReal *deepest)
+/* Increases *deepest to the largest depth of this rank's vertices below a rigid surface [length]. within: whether
+   points in the facets count, too */
+static void PenetrationOfFormula(Contact contact, PetscInt p, PetscBool within, PetscReal *deepest)
 {
-  const ContactRows *rows = &contact->rows;
-  PetscReal          gradient[3], weight[4];
+  const ContactPairData *pair = &contact->pairs[p];
+  const ContactRows     *rows = &contact->rows;
+  PetscReal              gradient[3], weight[4], y[3];
 
   for (PetscInt i = rows->first[p]; i < rows->first[p + 1]; ++i)
-    *deepest = PetscMax(*deepest, -ContactSurfaceDistance(&contact->pairs[p], &rows->x[3 * i], gradient, weight));
+    *deepest = PetscMax(*deepest, -ContactSurfaceDistance(pair, &rows->x[3 * i], gradient, weight));
+  for (PetscInt f = 0; within && f < pair->nonmortar.nfacets; ++f) {
+    for (PetscInt k = 0; k < PENETRATION_POINTS * PENETRATION_POINTS; ++k) {
+      PenetrationPlace(&pair->nonmortar, f, k, y);
+      *deepest = PetscMax(*deepest, -ContactSurfaceDistance(pair, y, gradient, weight));
+    }
+  }
 }
 
 /*
@@ -161,7 +169,7 @@ PetscErrorCode ContactGetPenetration(Contact contact, Vec u, const PetscBool wit
     depth[p]    = 0.0;
     rounding[p] = 0.1 * pair->bulge;
     if (pair->formula) {
-      PenetrationOfFormula(contact, p, &depth[p]);
+      PenetrationOfFormula(contact, p, within[p], &depth[p]);
       continue;
     }
     PetscCall(PenetrationOfSide(contact, reach, within[p], &pair->nonmortar, &pair->mortar, &depth[p]));

@@ -10,19 +10,24 @@
   0.1 /* change of the force between load steps, relative to the largest force, that counts as a
                            reversal */
 
-/* Computes the mean over the contact area of (nonmortar facet size / mortar facet size). Collective. */
-static PetscErrorCode PairMeasureCoarseness(MPI_Comm comm, const PairRows *rows, PetscReal *coarseness)
+/* Computes the means over the contact area of the nonmortar facet size, and of its ratio to the mortar facet size.
+   Collective. */
+static PetscErrorCode PairMeasureFacets(MPI_Comm comm, const PairRows *rows, PetscReal *facet, PetscReal *coarseness)
 {
-  PetscReal sums[2] = {0.0, 0.0};
+  PetscReal sums[4] = {0.0, 0.0, 0.0, 0.0};
 
   PetscFunctionBegin;
   for (PetscInt r = 0; r < rows->n; ++r) {
-    if (!(rows->closed[r] > 0.0 && rows->facing[r] > 0.0)) continue;
+    if (!(rows->closed[r] > 0.0)) continue;
     sums[0] += rows->area[r];
-    sums[1] += rows->area[r] * rows->own[r] / rows->facing[r];
+    sums[1] += rows->area[r] * rows->own[r];
+    if (!(rows->facing[r] > 0.0)) continue;
+    sums[2] += rows->area[r];
+    sums[3] += rows->area[r] * rows->own[r] / rows->facing[r];
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_REAL, MPIU_SUM, comm));
-  *coarseness = sums[0] > 0.0 ? sums[1] / sums[0] : 0.0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, comm));
+  *facet      = sums[0] > 0.0 ? sums[1] / sums[0] : 0.0;
+  *coarseness = sums[2] > 0.0 ? sums[3] / sums[2] : 0.0;
   PetscFunctionReturn(0);
 }
 
@@ -116,11 +121,11 @@ static PetscErrorCode PairMeasureNarrowness(Simulation sim, PetscInt pair, Petsc
   PetscFunctionReturn(0);
 }
 
-/* Sets coarseness and narrowness in the pair's report, whose area must be set. Collective. */
+/* Sets facet size, coarseness and narrowness in the pair's report. Collective. */
 PetscErrorCode PairMeshMeasure(Simulation sim, PetscInt pair, const PairRows *rows, PetscInt first, PairReport *report)
 {
   PetscFunctionBegin;
-  PetscCall(PairMeasureCoarseness(sim->comm, rows, &report->coarseness));
+  PetscCall(PairMeasureFacets(sim->comm, rows, &report->facet, &report->coarseness));
   PetscCall(PairMeasureNarrowness(sim, pair, first, &report->narrow));
   PetscFunctionReturn(0);
 }
@@ -210,6 +215,31 @@ static PetscErrorCode PairWarnOfCoarseness(Simulation sim, PetscInt p)
   PetscFunctionReturn(0);
 }
 
+/* Warns if the contact with a curved rigid surface is only one facet wide when it carries its largest force */
+static PetscErrorCode PairWarnOfSurface(Simulation sim, PetscInt p)
+{
+  const SceneContactPair *pair    = &sim->scene->pairs[p];
+  const SceneBody        *surface = SceneFaceBody(sim->scene, pair->mortar);
+  const PairReport       *largest = NULL;
+
+  PetscFunctionBegin;
+  if (!SceneBodyIsSurface(surface) || surface->shape == SHAPE_RIGID_PLANE) PetscFunctionReturn(0);
+  for (PetscInt s = 0; s < sim->report.nsteps; ++s) {
+    const StepReport *step = &sim->report.steps[s];
+
+    if (p >= step->npairs || step->pairs[p].normal_force <= step->force_rounding) continue;
+    if (!largest || step->pairs[p].normal_force > largest->normal_force) largest = &step->pairs[p];
+  }
+  if (!largest || !largest->narrow) PetscFunctionReturn(0);
+  PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
+    "contact pair \"%s\": the contact with the rigid surface \"%s\" (smallest radius %.3g) is only one facet of %s "
+    "wide, and the facets are %.3g large: its force hardly depends on the shape of the surface; refine %s to about "
+    "seven facets across the contact",
+    pair->name, surface->name, (double)SceneSurfaceRadius(surface), pair->nonmortar, (double)largest->facet,
+    pair->nonmortar));
+  PetscFunctionReturn(0);
+}
+
 /* Warns of coarse contact meshes after the last load step */
 PetscErrorCode PairMeshWarn(Simulation sim)
 {
@@ -217,6 +247,7 @@ PetscErrorCode PairMeshWarn(Simulation sim)
   for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
     PetscCall(PairWarnOfCoarseness(sim, p));
     PetscCall(PairWarnOfRotation(sim, p));
+    PetscCall(PairWarnOfSurface(sim, p));
   }
   PetscFunctionReturn(0);
 }

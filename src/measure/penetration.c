@@ -90,10 +90,11 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
     if (its->penetration <= PetscMax(PENETRATION_SHARE * motion, its->penetration_rounding)) continue;
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
       "contact pair \"%s\" carries no force, although a point of %s or %s penetrates the other body by %.3g, %.3g %% "
-      "of the largest displacement: the mean gap of the nonmortar facets there is open; use gap: node, swap the two "
-      "faces, or refine them",
-      pair->name, pair->mortar, pair->nonmortar, (double)its->penetration,
-      100.0 * (double)(its->penetration / motion)));
+      "of the largest displacement: %s",
+      pair->name, pair->mortar, pair->nonmortar, (double)its->penetration, 100.0 * (double)(its->penetration / motion),
+      SceneBodyIsSurface(SceneFaceBody(sim->scene, pair->mortar))
+        ? "the rigid surface lies between the nonmortar vertices, which do not touch it; refine the nonmortar face"
+        : "the mean gap of the nonmortar facets there is open; use gap: node, swap the two faces, or refine them"));
     PetscCall(PenetrationFail(sim, report, reason));
   }
   PetscFunctionReturn(0);

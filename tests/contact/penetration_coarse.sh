@@ -49,3 +49,24 @@ YAML
     echo "crossed cylinders pressed by $depth, $ranks ranks: exit $?, $(grep -o 'carries no force' out)"
   done
 done
+# A rigid ball over cells as large as its radius: between four nodes, over a node, and over cells that are fine enough
+ball() { # position, cells
+  cat > ball.yaml <<YAML
+bodies:
+  - block: {lower: [-2, -2, -2], upper: [2, 2, 0], cells: [$2, $2, 4], young: 1000, poisson: 0.3}
+  - ball: {shape: rigid_sphere, center: [$1, $1, 0.5], radius: 0.5}
+displacements:
+  - ground: {face: block.zmin, value: [0, 0, 0]}
+  - press: {body: ball, value: [0, 0, -0.1]}
+contact:
+  - touch: {mortar: ball.surface, nonmortar: block.zmax}
+YAML
+  for ranks in 1 3; do
+    mpiexec --oversubscribe -n $ranks "$contact" ball.yaml -quiet -error_estimate 0 > said 2>&1
+    echo "ball at $1, $2 cells, $ranks ranks: exit $?"
+    sed -n '/^contact:/p' said
+  done
+}
+ball 0.25 8
+ball 0 8
+ball 0 24
