@@ -318,10 +318,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
       "converged: the point is feasible and its objective %g is below the given minimum %g", (double)ip->at.f,
       (double)tao->fmin));
   } else if (unbounded) {
-    PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g",
-      (double)ip->first->f, (double)lowest));
-    ip->rec->best_error = PETSC_INFINITY; /* The last iterate, or the last step, shows that the objective is
-                                             unbounded; the best iterate would not show it. */
+    PetscCall(IPSetUnbounded(tao, lowest));
   } else if (ip->rec->nacceptable >= IP_ACCEPTABLE_IT && IPConstraintsMet(tao)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: KKT error %g stayed below %g, but did not reach the tolerance %g", (double)IPBothErrors(ip),

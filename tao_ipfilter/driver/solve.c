@@ -138,9 +138,12 @@ static PetscErrorCode EndLinear(Tao tao)
 */
 static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violated, PetscBool infeasible)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  TAO_IPFILTER *ip        = (TAO_IPFILTER *)tao->data;
+  PetscBool     unbounded = PETSC_FALSE;
+  PetscReal     lowest;
 
   PetscFunctionBegin;
+  if (solved && !infeasible && !violated) PetscCall(IPTestUnboundedRays(tao, &lowest, &unbounded));
   if (infeasible)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
       "the constraints seem infeasible: their violation has a local minimum of %g", (double)ip->kkt->inf_pr));
@@ -153,6 +156,7 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   else if (violated)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "no step reduces the constraint violation %g any further",
       (double)ip->kkt->inf_pr));
+  else if (unbounded) PetscCall(IPSetUnbounded(tao, lowest));
   else
     PetscCall(
       IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "line search failed at KKT error %g", (double)IPBothErrors(ip)));

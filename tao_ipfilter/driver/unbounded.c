@@ -113,21 +113,34 @@ static PetscErrorCode UnboundedAdmits(Tao tao, PetscReal far, PetscBool *admitte
 }
 
 /*
-   Finds whether a multiple of the last step leads to a point that shows an unbounded objective. Newton's method would
-   approach such a point slowly, since the shift limits its steps. *f: objective at that point.
+   Finds whether a multiple of the direction d leads from the iterate to a point that shows an unbounded objective.
+   fall: decrease of the objective along d. *f: objective at that point.
 */
-static PetscErrorCode UnboundedAlong(Tao tao, PetscReal fall, PetscReal *f, PetscBool *unbounded)
+static PetscErrorCode UnboundedAlong(Tao tao, Vec d, PetscReal fall, PetscReal *f, PetscBool *unbounded)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
   const PetscReal goal = ip->first->f - UnboundedFall(ip), times = 2.0 * (ip->at.f - goal) / fall;
   PetscReal       norm;
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &norm));
-  PetscCall(VecWAXPY(ip->trial.x, times, ip->dir.x, tao->solution));
+  PetscCall(VecNorm(d, NORM_INFINITY, &norm));
+  PetscCall(VecWAXPY(ip->trial.x, times, d, tao->solution));
   PetscCall(TaoComputeObjective(tao, ip->trial.x, f));
   *unbounded = (PetscBool)(!IPUndefined(*f) && *f < goal);
   if (*unbounded) PetscCall(UnboundedAdmits(tao, times * norm, unbounded));
+  PetscFunctionReturn(0);
+}
+
+/* Ends the solve because the objective is unbounded. The last iterate is kept: it, or the last step from it, shows that
+   the objective is unbounded; the best iterate would not show it. lowest: lowest value found */
+PetscErrorCode IPSetUnbounded(Tao tao, PetscReal lowest)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(IPSetReason(tao, TAO_DIVERGED_USER, "the objective seems unbounded below: it fell from %g to %g",
+    (double)ip->first->f, (double)lowest));
+  ip->rec->best_error = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
 
@@ -148,6 +161,30 @@ PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
   PetscCall(UnboundedAtIterate(tao, unbounded));
   PetscCall(UnboundedCount(tao, &fall));
   if (!*unbounded && UnboundedFall(ip) > 0.0 && ip->rec->nstraight && ip->rec->nstraight % patience == 0)
-    PetscCall(UnboundedAlong(tao, fall, f, unbounded));
+    PetscCall(UnboundedAlong(tao, ip->dir.x, fall, f, unbounded));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Finds, after the line search has failed, whether the objective is unbounded along the last direction, or along the
+   ray from the origin through the iterate. Where the objective falls along curved constraints, steps may become too
+   short before the iterates show that it is unbounded.
+*/
+PetscErrorCode IPTestUnboundedRays(Tao tao, PetscReal *f, PetscBool *unbounded)
+{
+  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
+  const Vec     d[2] = {ip->dir.x, tao->solution};
+  PetscBool     bounded;
+
+  PetscFunctionBegin;
+  *unbounded = PETSC_FALSE;
+  PetscCall(UnboundedHasAllBounds(tao, &bounded));
+  if (bounded || ip->terms->n || !(UnboundedFall(ip) > 0.0)) PetscFunctionReturn(0);
+  for (PetscInt k = 0; k < 2 && !*unbounded; ++k) {
+    PetscScalar slope;
+
+    PetscCall(VecDot(tao->gradient, d[k], &slope));
+    if (PetscRealPart(slope) < 0.0) PetscCall(UnboundedAlong(tao, d[k], -PetscRealPart(slope), f, unbounded));
+  }
   PetscFunctionReturn(0);
 }

@@ -42,7 +42,7 @@ static const struct {
 };
 
 /* Rounding decides which way these go, and one way is twice as long as another: their counts are not held */
-static const char erratic[] = ",HS108,scale4,zigzag,";
+static const char erratic[] = ",HS108,scale4,zigzag,parabola,";
 
 /* Whether a list ",A,B," names the problem */
 static PetscErrorCode Named(const char *list, const NLP *p, PetscBool *named)

@@ -295,6 +295,8 @@ static const NLP problems[] = {
   {"line", "-x1", "", "", "0:", "1", 0.0, NLP_UNBOUNDED, NULL},
   {"cubic", "x1^3", "", "", "", "-1", 0.0, NLP_UNBOUNDED, NULL},
   {"ray", "-x1-x2", "x1-x2^2+4", "", "", "1 1", 0.0, NLP_UNBOUNDED, NULL},
+  /* steps along the parabola become too short long before the objective has fallen far */
+  {"parabola", "-x1-x2", "x2^2-x1", "", "", "0 1", 0.0, NLP_UNBOUNDED, NULL},
 };
 
 #endif
