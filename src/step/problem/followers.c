@@ -106,6 +106,46 @@ PetscErrorCode FollowersSubtract(const StepProblem *p, Vec u, PetscReal *energy,
 }
 
 /*
+   Ends a solve in which pressures that follow their faces have no equilibrium, because they exceed a limit load: that
+   of a balloon, for example. The tangent is then indefinite at most iterates, and the objective falls.
+*/
+PetscErrorCode FollowersTestLimit(Tao tao, void *ctx)
+{
+  StepProblem       *p        = (StepProblem *)ctx;
+  const PetscInt     patience = 15;
+  PetscInt           its, indefinite;
+  PetscReal          f;
+  TaoConvergedReason reason;
+
+  PetscFunctionBegin;
+  PetscCall(TaoGetSolutionStatus(tao, &its, &f, NULL, NULL, NULL, &reason));
+  PetscCall(TaoIPFilterGetRegularizations(tao, &indefinite, NULL, NULL));
+  if (!its) p->nfalls = 0;
+  else p->nfalls = indefinite > p->nindefinite && f < p->last_f ? p->nfalls + 1 : PetscMax(p->nfalls - 1, 0);
+  p->nindefinite = indefinite;
+  p->last_f      = f;
+  if (reason != TAO_CONTINUE_ITERATING || p->nfalls < patience) PetscFunctionReturn(0);
+  p->beyond_limit = PETSC_TRUE;
+  PetscCall(TaoSetConvergedReason(tao, TAO_DIVERGED_USER));
+  PetscFunctionReturn(0);
+}
+
+/* Reports that FollowersTestLimit() has ended the solve */
+PetscErrorCode FollowersReportLimit(const StepProblem *p, StepReport *report)
+{
+  char reason[512];
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(reason, sizeof(reason),
+    "no equilibrium was found at time %g: the pressures that follow their faces seem to exceed a limit load, because "
+    "the stiffness stays indefinite while the bodies move on; the last equilibrium is at time %g; prescribe "
+    "displacements in place of the pressures to pass the limit",
+    (double)p->time, (double)p->sim->path->time));
+  PetscCall(ReportReason(report, PETSC_FALSE, reason));
+  PetscFunctionReturn(0);
+}
+
+/*
    Compares the linearized follower loads with the loads at the solution u. *again: true if they differ, so that another
    solve must follow with the loads linearized at a new centre. Otherwise p->load becomes the load at u. nsolves: number
    of solves so far.

@@ -94,6 +94,8 @@ static PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCall(TaoGetTolerances(*tao, &sim->control->tolerances.optimizer, NULL, NULL));
   PetscCall(PetscObjectTypeCompare((PetscObject)*tao, TAOIPFILTER, ours));
   PetscCall(OptimizerSetTolerance(p, *ours, *tao));
+  if (*ours && p->followed && !sim->quadratic && !SimulationIsDynamic(sim))
+    PetscCall(TaoMonitorSet(*tao, FollowersTestLimit, p, NULL));
   if (!*ours && !p->lower)
     PetscCall(StepProblemSetBounds(p, PETSC_INFINITY)); /* TAOPDIPM of PETSc 3.18 reads the bounds even if there are
                                                            none */
@@ -194,6 +196,7 @@ static PetscErrorCode OptimizerReport(StepProblem *p, Tao tao, PetscBool ours, c
   if (ours) PetscCall(TaoIPFilterGetReason(tao, &sentence));
   PetscCall(ReportReason(report, (PetscBool)(reason > 0), sentence ? sentence : TaoConvergedReasons[reason]));
   if (reason < 0 && p->flowing) PetscCall(ProximalReportFlow(p, report));
+  else if (reason < 0 && p->beyond_limit) PetscCall(FollowersReportLimit(p, report));
   else if (reason < 0 && !p->sim->control->interrupted) PetscCall(OptimizerDiagnose(p, report));
   PetscCall(TaoGetIterationNumber(tao, &n));
   report->ip_iterations += n;

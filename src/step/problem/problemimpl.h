@@ -86,7 +86,11 @@ typedef struct {
   PetscBool   rough;            /* true if a contact update made no progress, so that Newton's method is not
                                         used for now */
   PetscInt    nflows;           /* number of iterates that show plastic flow */
-  const char *flowing;          /* name of the body that flows, so that there is no equilibrium; NULL: none */
+  PetscInt    nfalls;       /* number of iterates with an indefinite tangent and a lower objective, less the others */
+  PetscInt    nindefinite;  /* number of indefinite systems up to the last iterate */
+  PetscReal   last_f;       /* objective of the last iterate [force length] */
+  PetscBool   beyond_limit; /* true if follower loads seem to exceed a limit load */
+  const char *flowing;      /* name of the body that flows, so that there is no equilibrium; NULL: none */
   Vec         w, Kw;
 
   StepFriction friction;
@@ -113,6 +117,8 @@ PETSC_INTERN PetscErrorCode FollowersBegin(StepProblem *);
 PETSC_INTERN PetscErrorCode FollowersTurn(StepProblem *);
 PETSC_INTERN PetscErrorCode FollowersForget(StepProblem *);
 PETSC_INTERN PetscErrorCode FollowersSubtract(const StepProblem *, Vec u, PetscReal *energy, Vec force);
+PETSC_INTERN PetscErrorCode FollowersTestLimit(Tao, void *);
+PETSC_INTERN PetscErrorCode FollowersReportLimit(const StepProblem *, StepReport *);
 PETSC_INTERN PetscErrorCode FollowersForesee(StepProblem *);
 PETSC_INTERN PetscErrorCode FollowersAdvanceMean(StepProblem *, Vec u, PetscInt nsolves, StepReport *,
   PetscBool *again);
