@@ -157,7 +157,6 @@ PETSC_INTERN PetscErrorCode TiesFollow(const Ties *, Vec u);
 PETSC_INTERN PetscErrorCode TiesGather(const Ties *, Vec force);
 PETSC_INTERN PetscErrorCode TiesSet(const Ties *, PetscReal value, Vec);
 PETSC_INTERN PetscErrorCode TiesGetForces(const Constraints *, Vec force, Vec *ties, Vec *rigid);
-PETSC_INTERN PetscErrorCode TiesMeasure(const Constraints *, Vec forces, PetscReal bodies[]);
 PETSC_INTERN PetscErrorCode TiesDestroy(Ties *);
 
 #endif

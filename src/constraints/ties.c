@@ -374,22 +374,6 @@ PetscErrorCode TiesCreateTangent(const Constraints *c, Mat *K)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Adds the forces of all rows to the sums of the bodies, 3 numbers per body [force] */
-PetscErrorCode TiesMeasure(const Constraints *c, Vec forces, PetscReal bodies[])
-{
-  const PetscScalar *a;
-  PetscInt           n;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(forces, &n));
-  PetscCall(VecGetArrayRead(forces, &a));
-  for (PetscInt i = 0; i < n; ++i) bodies[3 * c->bodies.places.body[i / 3] + i % 3] += PetscRealPart(a[i]);
-  PetscCall(VecRestoreArrayRead(forces, &a));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)(3 * c->bodies.scene->nbodies), MPIU_REAL, MPIU_SUM,
-    c->bodies.comm));
-  PetscFunctionReturn(0);
-}
-
 PetscErrorCode TiesDestroy(Ties *ties)
 {
   PetscFunctionBegin;

@@ -136,40 +136,32 @@ PetscErrorCode SpringsCreate(const Bodies *bodies, Springs *springs)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Adds the springs' forces on the bodies to `force`, 3 numbers per body, and computes *weak, the sum of the
-   magnitudes of the weak springs' forces [force] */
-PetscErrorCode SpringsMeasure(const Bodies *bodies, const Springs *springs, Vec u, PetscReal force[], PetscReal *weak)
+/* Collective. Creates `force`, the springs' forces on the nodes, and computes *weak, the sum of the magnitudes of the
+   weak springs' forces [force] */
+PetscErrorCode SpringsMeasure(const Bodies *bodies, const Springs *springs, Vec u, Vec *force, PetscReal *weak)
 {
-  const PetscScalar *k, *w = NULL, *v, *f;
-  PetscInt           n;
-  PetscReal          sum = 0.0;
-  Vec                joint;
+  PetscReal sum = 0.0;
+  Vec       part;
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(u, &n));
-  PetscCall(VecDuplicate(u, &joint));
-  PetscCall(VecZeroEntries(joint));
-  if (springs->between) PetscCall(MatMult(springs->between, u, joint));
-  PetscCall(VecGetArrayRead(joint, &f));
-  PetscCall(VecGetArrayRead(u, &v));
-  PetscCall(VecGetArrayRead(springs->stiffness, &k));
-  if (springs->weak) PetscCall(VecGetArrayRead(springs->weak, &w));
-  for (PetscInt i = 0; i < n; i += 3) {
-    PetscReal square = 0.0;
+  PetscCall(VecDuplicate(u, force));
+  PetscCall(VecDuplicate(u, &part));
+  PetscCall(VecPointwiseMult(*force, springs->stiffness, u));
+  if (springs->between) PetscCall(MatMultAdd(springs->between, u, *force, *force));
+  PetscCall(VecScale(*force, -1.0));
+  if (springs->weak) {
+    const PetscScalar *f;
+    PetscInt           n;
 
-    for (PetscInt d = 0; d < 3; ++d) {
-      force[3 * bodies->places.body[i / 3] + d] -= PetscRealPart(k[i + d] * v[i + d] + f[i + d]);
-      if (w) square += PetscSqr(PetscRealPart(w[i + d] * v[i + d]));
-    }
-    sum += PetscSqrtReal(square);
+    PetscCall(VecPointwiseMult(part, springs->weak, u));
+    PetscCall(VecGetLocalSize(part, &n));
+    PetscCall(VecGetArrayRead(part, &f));
+    for (PetscInt i = 0; i < n; i += 3)
+      sum += PetscSqrtReal(
+        PetscSqr(PetscRealPart(f[i])) + PetscSqr(PetscRealPart(f[i + 1])) + PetscSqr(PetscRealPart(f[i + 2])));
+    PetscCall(VecRestoreArrayRead(part, &f));
   }
-  if (w) PetscCall(VecRestoreArrayRead(springs->weak, &w));
-  PetscCall(VecRestoreArrayRead(springs->stiffness, &k));
-  PetscCall(VecRestoreArrayRead(u, &v));
-  PetscCall(VecRestoreArrayRead(joint, &f));
-  PetscCall(VecDestroy(&joint));
-  PetscCallMPI(
-    MPI_Allreduce(MPI_IN_PLACE, force, (PetscMPIInt)(3 * bodies->scene->nbodies), MPIU_REAL, MPIU_SUM, bodies->comm));
+  PetscCall(VecDestroy(&part));
   PetscCallMPI(MPI_Allreduce(&sum, weak, 1, MPIU_REAL, MPIU_SUM, bodies->comm));
   PetscFunctionReturn(0);
 }

@@ -348,59 +348,45 @@ static PetscErrorCode ForcesAddToBody(BodyReport *body, PetscReal sum[3], const 
   PetscFunctionReturn(0);
 }
 
-/* Adds the forces on all bodies to their sums at this offset in the reports, and frees them. forces: 3 components per
-   body [force] */
-static PetscErrorCode ForcesAddToBodies(StepReport *report, size_t offset, PetscReal **forces)
+/* Adds forces at nodes to the bodies' sums at this offset in the reports */
+static PetscErrorCode ForcesAddToBodies(Simulation sim, Vec forces, size_t offset, StepReport *report)
 {
-  PetscFunctionBegin;
-  for (PetscInt b = 0; b < report->nbodies; ++b) {
-    BodyReport *body = &report->bodies[b];
-
-    PetscCall(ForcesAddToBody(body, (PetscReal *)((char *)body + offset), &(*forces)[3 * b], 0.0));
-  }
-  PetscCall(PetscFree(*forces));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode ForcesSumLoads(Simulation sim, Vec load, StepReport *report)
-{
-  const PetscScalar *a;
-  PetscReal         *sums;
+  const PetscScalar *f;
+  PetscReal         *sums; /* per body: 3 components, and the sum of the magnitudes at the nodes */
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
-  PetscCall(VecGetLocalSize(load, &n));
-  PetscCall(VecGetArrayRead(load, &a));
-  for (PetscInt i = 0; i < n; ++i) sums[3 * sim->places.body[i / 3] + i % 3] += PetscRealPart(a[i]);
-  PetscCall(VecRestoreArrayRead(load, &a));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(3 * report->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
-  PetscCall(ForcesAddToBodies(report, offsetof(BodyReport, load), &sums));
+  PetscCall(PetscCalloc1(4 * report->nbodies, &sums));
+  PetscCall(VecGetLocalSize(forces, &n));
+  PetscCall(VecGetArrayRead(forces, &f));
+  for (PetscInt i = 0; i < n; i += 3) {
+    const PetscReal at[3] = {PetscRealPart(f[i]), PetscRealPart(f[i + 1]), PetscRealPart(f[i + 2])};
+    PetscReal      *body  = &sums[4 * sim->places.body[i / 3]];
+
+    for (PetscInt c = 0; c < 3; ++c) body[c] += at[c];
+    body[3] += VectorNorm(at);
+  }
+  PetscCall(VecRestoreArrayRead(forces, &f));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(4 * report->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
+  for (PetscInt b = 0; b < report->nbodies; ++b) {
+    BodyReport *body = &report->bodies[b];
+
+    PetscCall(ForcesAddToBody(body, (PetscReal *)((char *)body + offset), &sums[4 * b], sums[4 * b + 3]));
+  }
+  PetscCall(PetscFree(sums));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode ForcesSumSprings(Simulation sim, Vec u, StepReport *report)
 {
   const Bodies bodies = SimulationBodies(sim);
-  PetscReal   *sums;
+  Vec          forces;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
-  PetscCall(SpringsMeasure(&bodies, &sim->springs, u, sums, &report->weak_spring_force));
+  PetscCall(SpringsMeasure(&bodies, &sim->springs, u, &forces, &report->weak_spring_force));
   PetscCall(ForcesMeasureConnectors(sim, u, report));
-  PetscCall(ForcesAddToBodies(report, offsetof(BodyReport, springs), &sums));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode ForcesSumTies(Simulation sim, Vec ties, StepReport *report)
-{
-  const Constraints constraints = SimulationConstraints(sim);
-  PetscReal        *sums;
-
-  PetscFunctionBegin;
-  PetscCall(PetscCalloc1(3 * report->nbodies, &sums));
-  PetscCall(TiesMeasure(&constraints, ties, sums));
-  PetscCall(ForcesAddToBodies(report, offsetof(BodyReport, ties), &sums));
+  PetscCall(ForcesAddToBodies(sim, forces, offsetof(BodyReport, springs), report));
+  PetscCall(VecDestroy(&forces));
   PetscFunctionReturn(0);
 }
 
@@ -425,9 +411,9 @@ PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, Pe
 
     PetscCall(ForcesAddToBody(body, body->reaction, report->faces[f].reaction, report->faces[f].size));
   }
-  if (load) PetscCall(ForcesSumLoads(sim, load, report));
+  if (load) PetscCall(ForcesAddToBodies(sim, load, offsetof(BodyReport, load), report));
   if (sim->springs.stiffness) PetscCall(ForcesSumSprings(sim, u, report));
-  if (ties) PetscCall(ForcesSumTies(sim, ties, report));
+  if (ties) PetscCall(ForcesAddToBodies(sim, ties, offsetof(BodyReport, ties), report));
   report->balance = 0.0;
   for (PetscInt b = 0; b < report->nbodies; ++b) largest = PetscMax(largest, report->bodies[b].balance);
   for (PetscInt b = 0; b < report->nbodies; ++b) {

@@ -23,3 +23,26 @@ echo "a run of one step after one of three:" again*
 cp again_0001.h5 again_0002.h5 # as an older run leaves it that was killed
 PYTHONPATH=$AMGF_DIR/share/python "$PYTHON" -B \
   -c 'from contact.files import Files; print("load steps to draw:", Files("again").files)'
+
+# A rubber block between two plates to which it is tied, and a block with opposite pressures between two springs: the
+# forces on a body cancel, but they are no rounding errors, to which its residual would be compared
+cat > between.yaml <<YAML
+bodies:
+  - pad: {lower: [0, 0, 0], upper: [2, 1, 0.5], cells: [6, 3, 3], young: 10, poisson: 0.45, material: neohookean}
+  - below: {lower: [-1, -0.5, -0.3], upper: [3, 1.5, 0], cells: [3, 2, 1], material: rigid}
+  - above: {lower: [-1, -0.5, 0.5], upper: [3, 1.5, 0.8], cells: [4, 2, 1], material: rigid}
+  - block: {lower: [9, 0, 0], upper: [10, 1, 1], cells: [2, 2, 2], young: 10, poisson: 0.3}
+ties: [lower: {mortar: below.zmax, nonmortar: pad.zmin}, upper: {mortar: above.zmin, nonmortar: pad.zmax}]
+displacements:
+  - stand: {body: below, value: [0, 0, 0]}
+  - press: {body: above, value: [0.1, 0, -0.05]}
+springs: [left: {face: block.xmin, value: [1, 1, 1]}, right: {face: block.xmax, value: [1, 1, 1]}]
+pressures: [left: {face: block.xmin, value: 1}, right: {face: block.xmax, value: 1}]
+YAML
+"$contact" between.yaml -quiet -summary between.json
+"$PYTHON" - <<'PY'
+from summaries import load, say
+
+for body in load("between")["steps"][0]["bodies"]:
+    say(f"between: forces on {body['name']} are in equilibrium to 1e-9", body["balance"] < 1e-9, body["balance"])
+PY
