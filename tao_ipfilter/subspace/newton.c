@@ -269,9 +269,10 @@ static PetscErrorCode NewtonShorten(Tao tao, const NewtonLine *line, PetscReal b
 
 /*
    Line search. Halves the step until the penalized objective falls, and shortens it further if the objective is lower
-   before the end of the step. *ok: false if the objective does not fall, or if the model is not convex along d
+   before the end of the step. *downhill: false if the objective grows at the start of d, since the model is not convex
+   along d; *ok: whether the objective falls
 */
-static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
+static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *downhill, PetscBool *ok)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
   const PetscReal armijo = 1e-4, least = 1e-4, noise = 1e3;
@@ -293,7 +294,8 @@ static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *ok)
   before              = ip->at.f + line.nu * violation + terms[0];
   ip->search->ntrials = 0;
   *ok                 = PETSC_FALSE;
-  for (PetscReal alpha = 1.0; slope < rounding && alpha >= least && !*ok; alpha *= 0.5) {
+  *downhill           = (PetscBool)(slope < rounding);
+  for (PetscReal alpha = 1.0; *downhill && alpha >= least && !*ok; alpha *= 0.5) {
     ip->search->ntrials++;
     PetscCall(NewtonTry(tao, &line, alpha, &merit));
     *ok = (PetscBool)(merit < PETSC_INFINITY && merit <= before + armijo * alpha * slope + rounding);
@@ -362,8 +364,11 @@ static PetscErrorCode NewtonEvaluateHessian(Tao tao)
 }
 
 /*
-   Computes the Newton step d. The Hessian is shifted until the model is convex. *found: false if no moderate shift is
-   sufficient. At the first point the set-up of the model has already been tried.
+   Computes the Newton step d, and the part of it that the line search takes. The Hessian is shifted until the model is
+   convex. With norm terms the model may have a second solution far away, where the objective is larger: if only
+   friction resists a motion in which the Hessian is indefinite. Then the Hessian is shifted, too. *found: false if no
+   moderate shift is sufficient, or the line search fails. At the first point the set-up of the model has already been
+   tried.
 */
 static PetscErrorCode NewtonFindStep(Tao tao, IPRecycle *recycle, Vec d, Vec force, PetscBool *found)
 {
@@ -376,14 +381,20 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPRecycle *recycle, Vec d, Vec for
   ip->shift->delta = 0.0;
   if (ip->terms->n) PetscCall(VecCopy(ip->terms->force, ip->terms->last));
   for (PetscInt k = 0; k <= shifts; k++) {
+    PetscBool convex = *found, downhill;
+
     if (k) PetscCall(IPRegularizeMore(tao));
     if (k || tao->niter) {
+      if (k && ip->terms->n) PetscCall(VecCopy(ip->terms->last, ip->terms->force));
       PetscCall(NewtonEvaluateHessian(tao));
-      PetscCall(IPRecycleUpdate(tao, recycle, found));
-      if (*found) PetscCall(IPFilteredSetUp(tao, recycle, found));
+      PetscCall(IPRecycleUpdate(tao, recycle, &convex));
+      if (convex) PetscCall(IPFilteredSetUp(tao, recycle, &convex));
     }
-    if (*found) PetscCall(NewtonSolveModel(tao, recycle, target, d, force, found));
-    if (*found) break;
+    if (convex) PetscCall(NewtonSolveModel(tao, recycle, target, d, force, &convex));
+    *found = convex;
+    if (!convex) continue;
+    PetscCall(NewtonSearch(tao, d, force, &downhill, found));
+    if (downhill || !ip->terms->n) break;
   }
   if (*found) IPRegularized(ip);
   if (*found) IPFilteredOf(tao)->residual = ip->kkt->dual_norm;
@@ -406,7 +417,6 @@ PetscErrorCode IPNewtonSubspaceStep(Tao tao, PetscBool *done)
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
   *done = IPFilteredProgresses(IPFilteredOf(tao), IPBothErrors(ip), patience);
   if (*done) PetscCall(NewtonFindStep(tao, recycle, d, force, done));
-  if (*done) PetscCall(NewtonSearch(tao, d, force, done));
   if (*done) PetscCall(NewtonAccept(tao, d, force));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &d));
