@@ -17,8 +17,8 @@ static PetscInt PlasticGridIndex(const PlasticGrid *grid, const PetscInt box[3])
 }
 
 /*
-   Chooses a grid with about as many boxes as records. No side of the grid is taken as shorter than `flat` of its
-   longest one.
+   Chooses a grid with about as many boxes as records. A side that is shorter than the fraction `flat` of the longest
+   one is replaced by that fraction.
 */
 static void PlasticGridSetSize(PetscInt n, const PetscReal places[], PlasticGrid *grid)
 {

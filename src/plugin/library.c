@@ -14,15 +14,16 @@ typedef union {
   _Alignas(32) unsigned char bytes[64];
 } LibraryNumber;
 
-/* Fills the number with bytes that do not occur in a zero */
+/* Sets all bytes of the number to a value that no byte of a zero has */
 static void LibraryMark(LibraryNumber *number)
 {
   for (size_t i = 0; i < sizeof(number->bytes); i++) number->bytes[i] = 0xff;
 }
 
 /*
-   Raises an error unless the library, which has stored a zero, has overwritten as many bytes as the compiled type has.
-   type: name of the type.
+   Raises an error if a type has another size in the running PETSc than in the compiled plugin. The running PETSc has
+   stored a zero in the marked number: the bytes that are zero are its size. type: name of the type; compiled: its size
+   in the plugin.
 */
 static PetscErrorCode LibraryCheckSize(const char type[], size_t compiled, const LibraryNumber *number)
 {

@@ -1,4 +1,4 @@
-/* The starting point: bounds, row scales, and the sizes of everything there */
+/* Prepares the starting point: moves it into the bounds, scales the rows, and measures the sizes of the terms there */
 #include "driverimpl.h"
 #include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/matrices.h"

@@ -268,11 +268,10 @@ static PetscBool PivotIsEndless(const IPTermSet *set)
 }
 
 /*
-   Moves to a solution in which each component of friction obeys its own law. open: starts with all constraints open
-   and all forces zero, which is the only solution of the changed data. Otherwise starts with the present state, which
-   may be one of several solutions.
-   *found: false if the path does not reach a solution, or C is not computed. *steps: increased by the number of
-   exchanges.
+   Follows a path to a solution in which each component of friction obeys its own law. open: the path begins with data
+   for which all constraints are open and all forces are zero; this is their only solution. Otherwise it begins with
+   data for which the present state is a solution; there may be others. *found: false if the path does not reach a
+   solution, or C is not computed. *steps: increased by the number of exchanges.
 */
 PetscErrorCode IPTermPivotFollow(IPTermSet *set, const IPReducedSystem *s, PetscBool open, PetscInt *steps,
   PetscBool *found)

@@ -95,7 +95,7 @@ static PetscErrorCode AndersonApply(const Anderson *s, Vec f, Vec x)
 
 /*
    Moves u_linearized to the next point of linearization. u: solution found with u_linearized; change: measure of its
-   residual, for contact the change of the gap [length]; *damped: true if only half the step was done.
+   residual, for contact the change of the gap [length]; *damped: true if only half of the step was taken.
 */
 PetscErrorCode AndersonAdvance(Anderson *s, PetscReal change, Vec u, Vec u_linearized, PetscBool *damped)
 {
