@@ -474,7 +474,8 @@ PETSC_EXTERN PetscErrorCode SceneStlCreate(MPI_Comm, const char place[], const c
 PETSC_EXTERN PetscErrorCode SceneStlDestroy(SceneStl *);
 /* Returns the distance of a point from an undeformed rigid surface, negative inside [length]; computes its gradient */
 PETSC_EXTERN PetscReal SceneSurfaceDistance(const SceneBody *, const PetscReal x[3], PetscReal gradient[3]);
-/* Returns the smallest radius of curvature of a rigid surface [length]; 0 if it has sharp edges */
+/* Returns the radius of a rigid sphere or cylinder, or of the section of a rigid torus [length]; of other bodies
+   PETSC_INFINITY */
 PETSC_EXTERN PetscReal SceneSurfaceRadius(const SceneBody *);
 /* Sets both sides of a pair whose `self` is set, and marks the body if they are its whole boundary */
 PETSC_EXTERN PetscErrorCode SceneContactPairSetSelf(PetscInt nbodies, SceneBody bodies[], SceneContactPair *);

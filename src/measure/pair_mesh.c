@@ -215,28 +215,30 @@ static PetscErrorCode PairWarnOfCoarseness(Simulation sim, PetscInt p)
   PetscFunctionReturn(0);
 }
 
-/* Warns if the contact with a curved rigid surface is only one facet wide when it carries its largest force */
-static PetscErrorCode PairWarnOfSurface(Simulation sim, PetscInt p)
+/*
+   Warns of facets that are too large for the radius of a rigid surface: about seven facets across the contact are
+   needed, and its width is less than two radii. The contact must be one facet wide when it carries its largest force.
+*/
+static PetscErrorCode PairWarnOfRadius(Simulation sim, PetscInt p)
 {
+  const PetscReal         share   = 1.0 / 3.0;
   const SceneContactPair *pair    = &sim->scene->pairs[p];
   const SceneBody        *surface = SceneFaceBody(sim->scene, pair->mortar);
+  const PetscReal         radius  = SceneSurfaceRadius(surface);
   const PairReport       *largest = NULL;
 
   PetscFunctionBegin;
-  if (!SceneBodyIsSurface(surface) || surface->shape == SHAPE_RIGID_PLANE) PetscFunctionReturn(0);
   for (PetscInt s = 0; s < sim->report.nsteps; ++s) {
     const StepReport *step = &sim->report.steps[s];
 
     if (p >= step->npairs || step->pairs[p].normal_force <= step->force_rounding) continue;
     if (!largest || step->pairs[p].normal_force > largest->normal_force) largest = &step->pairs[p];
   }
-  if (!largest || !largest->narrow) PetscFunctionReturn(0);
+  if (!largest || !largest->narrow || !(largest->facet > share * radius)) PetscFunctionReturn(0);
   PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
-    "contact pair \"%s\": the contact with the rigid surface \"%s\" (smallest radius %.3g) is only one facet of %s "
-    "wide, and the facets are %.3g large: its force hardly depends on the shape of the surface; refine %s to about "
-    "seven facets across the contact",
-    pair->name, surface->name, (double)SceneSurfaceRadius(surface), pair->nonmortar, (double)largest->facet,
-    pair->nonmortar));
+    "contact pair \"%s\": facets of %s are %.3g large, and the radius of the rigid surface \"%s\" is %.3g: the force "
+    "depends on where the vertices are; refine %s to about seven facets across the contact",
+    pair->name, pair->nonmortar, (double)largest->facet, surface->name, (double)radius, pair->nonmortar));
   PetscFunctionReturn(0);
 }
 
@@ -247,7 +249,7 @@ PetscErrorCode PairMeshWarn(Simulation sim)
   for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
     PetscCall(PairWarnOfCoarseness(sim, p));
     PetscCall(PairWarnOfRotation(sim, p));
-    PetscCall(PairWarnOfSurface(sim, p));
+    PetscCall(PairWarnOfRadius(sim, p));
   }
   PetscFunctionReturn(0);
 }

@@ -142,12 +142,9 @@ PetscReal SceneSurfaceDistance(const SceneBody *body, const PetscReal x[3], Pets
 PetscReal SceneSurfaceRadius(const SceneBody *body)
 {
   switch (body->shape) {
-  case SHAPE_RIGID_PLANE: return PETSC_INFINITY;
   case SHAPE_RIGID_CYLINDER:
   case SHAPE_RIGID_SPHERE: return body->own[SURFACE_RADIUS];
   case SHAPE_RIGID_TORUS: return body->own[SURFACE_SECTION];
-  case SHAPE_RIGID_EXTRUDED:
-  case SHAPE_RIGID_REVOLVED: return body->own[SURFACE_OUTSIDE];
-  default: return 0.0; /* a cone, or facets of an STL file */
+  default: return PETSC_INFINITY;
   }
 }
