@@ -3,7 +3,8 @@
 "$PYTHON" "$AMGF_DIR/tests/contact/edge_resultant.py" scenes
 for scene in {dual,node}_{1,6}_{450,495,505} {mortar,auto}_6_{450,495,505}; do
   timeout 300 "$AMGF_DIR/bin/contact" $scene.yaml -quiet -summary $scene.json 2> $scene.err; done
-"$AMGF_DIR/bin/contact" auto_three.yaml -quiet -checkpoint two.h5 -checkpoint_every 2 -summary auto_three.json 2> two.err
+"$AMGF_DIR/bin/contact" auto_three.yaml -quiet -checkpoint two.h5 -checkpoint_every 2 -summary auto_three.json \
+  2> two.err
 "$AMGF_DIR/bin/contact" auto_three.yaml -quiet -restart two.h5 -summary auto_rest.json
 for gap in mortar dual; do
   end=${gap/mortar/}
