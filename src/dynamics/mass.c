@@ -84,32 +84,24 @@ PetscErrorCode MassCreate(const Constraints *c, Dynamics *d)
 /* Collective. Computes the centre of mass of each undeformed body [length] */
 PetscErrorCode MassGetCentres(const Constraints *c, const Dynamics *d, PetscReal centres[][3])
 {
-  const PetscInt     nbodies = c->bodies.scene->nbodies;
-  const PetscScalar *m;
-  PetscReal         *sums;
-  PetscInt           n;
-  Vec                ones, product;
+  const VertexPlaces *places  = &c->bodies.places;
+  const PetscInt      nbodies = c->bodies.scene->nbodies;
+  PetscReal          *mass, *moment;
+  Vec                 ones, product;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(6 * nbodies, &sums));
-  PetscCall(VecDuplicate(c->bodies.places.x, &ones));
+  PetscCall(PetscMalloc2(3 * nbodies, &mass, 3 * nbodies, &moment));
+  PetscCall(VecDuplicate(places->x, &ones));
   PetscCall(VecDuplicate(ones, &product));
-  PetscCall(VecGetLocalSize(ones, &n));
-  for (int k = 0; k < 2; ++k) {
-    if (k) PetscCall(MatMult(d->mass, c->bodies.places.x, product));
-    else {
-      PetscCall(VecSet(ones, 1.0));
-      PetscCall(MatMult(d->mass, ones, product));
-    }
-    PetscCall(VecGetArrayRead(product, &m));
-    for (PetscInt i = 0; i < n; ++i) sums[6 * c->bodies.places.body[i / 3] + 3 * k + i % 3] += PetscRealPart(m[i]);
-    PetscCall(VecRestoreArrayRead(product, &m));
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(6 * nbodies), MPIU_REAL, MPIU_SUM, c->bodies.comm));
-  for (PetscInt i = 0; i < 3 * nbodies; ++i) centres[i / 3][i % 3] = sums[6 * (i / 3) + 3 + i % 3] / sums[6 * (i / 3)];
+  PetscCall(VecSet(ones, 1.0));
+  PetscCall(MatMult(d->mass, ones, product));
+  PetscCall(VertexPlacesSum(places, product, nbodies, mass));
+  PetscCall(MatMult(d->mass, places->x, product));
+  PetscCall(VertexPlacesSum(places, product, nbodies, moment));
+  for (PetscInt i = 0; i < 3 * nbodies; ++i) centres[i / 3][i % 3] = moment[i] / mass[3 * (i / 3)];
   PetscCall(VecDestroy(&product));
   PetscCall(VecDestroy(&ones));
-  PetscCall(PetscFree(sums));
+  PetscCall(PetscFree2(mass, moment));
   PetscFunctionReturn(0);
 }
 

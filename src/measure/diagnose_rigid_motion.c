@@ -23,19 +23,12 @@ typedef struct {
 /* Finds the body with the largest displacement component, and that component. Collective. */
 static PetscErrorCode RigidFitFindFarthest(Simulation sim, Vec u, PetscInt *farthest, PetscReal *distance)
 {
-  const PetscInt     nbodies = sim->scene->nbodies;
-  const PetscScalar *x;
-  PetscReal         *largest;
-  PetscInt           n;
+  const PetscInt nbodies = sim->scene->nbodies;
+  PetscReal     *largest;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(nbodies, &largest));
-  PetscCall(VecGetLocalSize(u, &n));
-  PetscCall(VecGetArrayRead(u, &x));
-  for (PetscInt i = 0; i < n; ++i)
-    largest[sim->places.body[i / 3]] = PetscMax(largest[sim->places.body[i / 3]], PetscAbsScalar(x[i]));
-  PetscCall(VecRestoreArrayRead(u, &x));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_MAX, sim->comm));
+  PetscCall(PetscMalloc1(nbodies, &largest));
+  PetscCall(VertexPlacesLargest(&sim->places, u, nbodies, largest));
   *farthest = 0;
   for (PetscInt b = 1; b < nbodies; ++b) {
     if (largest[b] > largest[*farthest]) *farthest = b;

@@ -351,23 +351,11 @@ static PetscErrorCode ForcesAddToBody(BodyReport *body, PetscReal sum[3], const 
 /* Adds forces at nodes to the bodies' sums at this offset in the reports */
 static PetscErrorCode ForcesAddToBodies(Simulation sim, Vec forces, size_t offset, StepReport *report)
 {
-  const PetscScalar *f;
-  PetscReal         *sums; /* per body: 3 components, and the sum of the magnitudes at the nodes */
-  PetscInt           n;
+  PetscReal *sums;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(4 * report->nbodies, &sums));
-  PetscCall(VecGetLocalSize(forces, &n));
-  PetscCall(VecGetArrayRead(forces, &f));
-  for (PetscInt i = 0; i < n; i += 3) {
-    const PetscReal at[3] = {PetscRealPart(f[i]), PetscRealPart(f[i + 1]), PetscRealPart(f[i + 2])};
-    PetscReal      *body  = &sums[4 * sim->places.body[i / 3]];
-
-    for (PetscInt c = 0; c < 3; ++c) body[c] += at[c];
-    body[3] += VectorNorm(at);
-  }
-  PetscCall(VecRestoreArrayRead(forces, &f));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(4 * report->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCall(PetscMalloc1(4 * report->nbodies, &sums));
+  PetscCall(VertexPlacesSumForces(&sim->places, forces, forces, report->nbodies, sums));
   for (PetscInt b = 0; b < report->nbodies; ++b) {
     BodyReport *body = &report->bodies[b];
 

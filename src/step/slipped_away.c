@@ -12,22 +12,13 @@ static const PetscReal no_force   = 1e-9; /* largest force that counts as none, 
 /* Collective. Computes the largest displacement of each body since the last state [length] */
 static PetscErrorCode SlippedMeasure(Simulation sim, PetscReal moved[])
 {
-  const PetscScalar *u, *before;
-  PetscInt           n;
+  Vec increment;
 
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(moved, sim->scene->nbodies));
-  PetscCall(VecGetLocalSize(sim->path->u, &n));
-  PetscCall(VecGetArrayRead(sim->path->u, &u));
-  PetscCall(VecGetArrayRead(sim->path->previous_u, &before));
-  for (PetscInt i = 0; i < n; ++i) {
-    PetscReal *its = &moved[sim->places.body[i / 3]];
-
-    *its = PetscMax(*its, PetscAbsReal(PetscRealPart(u[i] - before[i])));
-  }
-  PetscCall(VecRestoreArrayRead(sim->path->previous_u, &before));
-  PetscCall(VecRestoreArrayRead(sim->path->u, &u));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, moved, (PetscMPIInt)sim->scene->nbodies, MPIU_REAL, MPIU_MAX, sim->comm));
+  PetscCall(VecDuplicate(sim->path->u, &increment));
+  PetscCall(VecWAXPY(increment, -1.0, sim->path->previous_u, sim->path->u));
+  PetscCall(VertexPlacesLargest(&sim->places, increment, sim->scene->nbodies, moved));
+  PetscCall(VecDestroy(&increment));
   PetscFunctionReturn(0);
 }
 

@@ -21,3 +21,10 @@ def mean(values):
 
 def each(run, key):
     return [step[key] for step in run["steps"]]
+
+
+def say_same_steps(what, run, whole, keys, limit):
+    """The two load steps of a restarted run have the values of the same steps of the whole run"""
+    pairs = [(step, other) for step in run["steps"] for other in whole["steps"] if other["step"] == step["step"]]
+    off = max(abs(step[key] / other[key] - 1) for step, other in pairs for key in keys)
+    say(what, len(pairs) == 2 and off < limit, (len(pairs), off))

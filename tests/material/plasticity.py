@@ -5,7 +5,7 @@ import sys
 
 sys.path.insert(0, os.path.join(os.environ["AMGF_DIR"], "tests", "lib"))
 import h5py
-from summaries import load, say
+from summaries import load, say, say_same_steps
 
 E, NU = 200.0, 0.3
 
@@ -66,21 +66,11 @@ for ranks in (1, 2, 3):
         all(b > a for a, b in zip(work[1:2] + work[3:], work[3:])) and work[0] == 0 and abs(work[2] - work[1]) < 1e-12,
         work)
 
-whole = load("whole")["steps"]
+compared = ("energy", "plastic_work", "plastic_strain")
 for ranks in (1, 3):
-    part = load("part%d" % ranks)["steps"]
-    pairs = [(step, other) for step in part for other in whole if other["step"] == step["step"]]
-    off = max(
-        abs(step[key] / other[key] - 1)
-        for step, other in pairs
-        for key in ("energy", "plastic_work", "plastic_strain"))
-    say("restarted on %d ranks: the same" % ranks, len(pairs) == 2 and off < 1e-9, (len(pairs), off))
-
-finer = load("finer")["steps"]
-pairs = [(step, other) for step in finer for other in whole if other["step"] == step["step"]]
-off = [abs(step[key] / other[key] - 1) for step, other in pairs for key in ("energy", "plastic_work", "plastic_strain")]
-say("restarted on a refined mesh, 2 ranks: the same, since the strain is uniform",
-    len(pairs) == 2 and max(off) < 1e-7, (len(pairs), off))
+    say_same_steps("restarted on %d ranks: the same" % ranks, load("part%d" % ranks), load("whole"), compared, 1e-9)
+say_same_steps("restarted on a refined mesh, 2 ranks: the same, since the strain is uniform", load("finer"),
+               load("whole"), compared, 1e-7)
 
 k, a, b, G = 1.0, 1.0, 2.0, 1000 / 2 / 1.4999
 

@@ -6,7 +6,7 @@ import sys
 
 sys.path.insert(0, os.path.join(os.environ["AMGF_DIR"], "tests", "lib"))
 import h5py
-from summaries import load, say
+from summaries import load, say, say_same_steps
 
 E, NU = 200.0, 0.3
 MU, KAPPA = E / 2 / (1 + NU), E / 3 / (1 - 2 * NU)
@@ -63,15 +63,9 @@ for ranks in (1, 3):
         max(forces.values()) < 1e-7, forces)
     say("  and their equivalent plastic strains", max(strains.values()) < 1e-8, strains)
 
-whole = load("whole")["steps"]
 for ranks in (1, 2):
-    part = load("part%d" % ranks)["steps"]
-    pairs = [(step, other) for step in part for other in whole if other["step"] == step["step"]]
-    off = max(
-        abs(step[key] / other[key] - 1)
-        for step, other in pairs
-        for key in ("energy", "plastic_work", "plastic_strain"))
-    say("restarted on %d ranks: the same" % ranks, len(pairs) == 2 and off < 1e-8, (len(pairs), off))
+    say_same_steps("restarted on %d ranks: the same" % ranks, load("part%d" % ranks), load("whole"),
+                   ("energy", "plastic_work", "plastic_strain"), 1e-8)
 
 # rigid-plastic tube: r^2 - R^2 = a^2 - 1; the pressures are those of a = 1.1 and a = 1.3
 exact = [math.sqrt(4 + a * a - 1) - 2 for a in (1.1, 1.3)]

@@ -43,12 +43,8 @@ static PetscErrorCode CaseSolve(const Case *c, Mat A, PetscInt *its, char type[]
   if (c->options) PetscCall(PetscOptionsInsertString(NULL, c->options));
   PetscCall(MatCreateVecs(A, &x, &b));
   PetscCall(FillVector(b, 0.7));
-  PetscCall(KSPCreate(PETSC_COMM_WORLD, &ksp));
-  PetscCall(KSPSetType(ksp, KSPCG));
+  PetscCall(ProblemCreateSolver(A, A, &ksp, &pc));
   PetscCall(KSPSetTolerances(ksp, 1e-9, 0.0, PETSC_DEFAULT, 2000));
-  PetscCall(KSPSetOperators(ksp, A, A));
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCSetType(pc, PCAMGF));
   PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
   PetscCall(PCAMGFSetCycle(pc, c->cycle));
   PetscCall(ProblemCreateFilterIS(&c->problem, A, PETSC_COMM_WORLD, &filter));

@@ -16,12 +16,8 @@ static PetscErrorCode ContextCreate(Mat A, PCAMGFFactorUse use, Context *c)
   c->A = A;
   PetscCall(MatCreateVecs(A, &c->x, &c->b));
   PetscCall(FillVector(c->b, 0.8));
-  PetscCall(KSPCreate(PETSC_COMM_WORLD, &c->ksp));
-  PetscCall(KSPSetType(c->ksp, KSPCG));
+  PetscCall(ProblemCreateSolver(A, A, &c->ksp, &c->pc));
   PetscCall(KSPSetTolerances(c->ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 2000));
-  PetscCall(KSPSetOperators(c->ksp, A, A));
-  PetscCall(KSPGetPC(c->ksp, &c->pc));
-  PetscCall(PCSetType(c->pc, PCAMGF));
   PetscCall(PCAMGFSetFilterOptional(c->pc, PETSC_TRUE));
   PetscCall(PCAMGFSetFactor(c->pc, use));
   PetscCall(KSPSetFromOptions(c->ksp));
@@ -40,7 +36,6 @@ static PetscErrorCode ContextDestroy(Context *c)
 /* Solves, and prints by what, whether in an iteration or two, and whether the residual is small */
 static PetscErrorCode Solve(Context *c, const char what[])
 {
-  Vec       r;
   PetscReal residual;
   PetscInt  its;
   PetscBool factored;
@@ -49,10 +44,7 @@ static PetscErrorCode Solve(Context *c, const char what[])
   PetscCall(VecSet(c->x, 0.0));
   PetscCall(KSPSolve(c->ksp, c->b, c->x));
   PetscCall(KSPGetIterationNumber(c->ksp, &its));
-  PetscCall(VecDuplicate(c->b, &r));
-  PetscCall(MatMult(c->A, c->x, r));
-  PetscCall(RelativeDifference(r, c->b, &residual));
-  PetscCall(VecDestroy(&r));
+  PetscCall(ProblemResidual(c->A, c->b, c->x, &residual));
   PetscCall(PCAMGFGetFactored(c->pc, &factored, NULL));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s by %s%s\n", what, residual < 1e-7 ? "solved" : "NOT SOLVED",
     factored ? "factorization" : "AMG", its <= 2 ? ", at once" : ""));

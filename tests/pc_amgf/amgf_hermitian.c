@@ -208,13 +208,9 @@ static PetscErrorCode CheckCycle(Mat A, IS is, Mat P, PCAMGFCycle cycle, PetscBo
   PetscFunctionBeginUser;
   PetscCall(PetscPrintf(PetscObjectComm((PetscObject)A), "%s, %s\n", PCAMGFCycles[cycle],
     P ? "range of a matrix" : "unknowns"));
-  PetscCall(KSPCreate(PetscObjectComm((PetscObject)A), &ksp));
-  PetscCall(KSPSetType(ksp, KSPCG));
-  PetscCall(KSPSetOperators(ksp, A, A));
+  PetscCall(ProblemCreateSolver(A, A, &ksp, &pc));
   PetscCall(KSPSetTolerances(ksp, 1e-12, PETSC_DEFAULT, PETSC_DEFAULT, 60));
   PetscCall(KSPSetErrorIfNotConverged(ksp, PETSC_TRUE));
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCSetType(pc, PCAMGF));
   PetscCall(PCAMGFSetCycle(pc, cycle));
   if (P) PetscCall(PCAMGFSetFilterInterpolation(pc, P));
   else PetscCall(PCAMGFSetFilterIS(pc, is));

@@ -43,11 +43,7 @@ static PetscErrorCode OperatorSolve(Mat B, Mat P, IS filter, PetscBool *solved)
   PetscFunctionBeginUser;
   PetscCall(MatCreateVecs(P, &x, &b));
   PetscCall(VecSet(b, 1.0));
-  PetscCall(KSPCreate(PetscObjectComm((PetscObject)P), &ksp));
-  PetscCall(KSPSetOperators(ksp, B, P));
-  PetscCall(KSPSetType(ksp, KSPCG));
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCSetType(pc, PCAMGF));
+  PetscCall(ProblemCreateSolver(B, P, &ksp, &pc));
   if (filter) PetscCall(PCAMGFSetFilterIS(pc, filter));
   PetscCall(KSPSetFromOptions(ksp));
   PetscCall(KSPSolve(ksp, b, x));

@@ -206,6 +206,31 @@ static inline PetscErrorCode RelativeDifference(Vec x, Vec y, PetscReal *differe
   PetscFunctionReturn(0);
 }
 
+/* CG with PCAMGF; P: the matrix of the preconditioner */
+static inline PetscErrorCode ProblemCreateSolver(Mat A, Mat P, KSP *ksp, PC *pc)
+{
+  PetscFunctionBeginUser;
+  PetscCall(KSPCreate(PetscObjectComm((PetscObject)P), ksp));
+  PetscCall(KSPSetType(*ksp, KSPCG));
+  PetscCall(KSPSetOperators(*ksp, A, P));
+  PetscCall(KSPGetPC(*ksp, pc));
+  PetscCall(PCSetType(*pc, PCAMGF));
+  PetscFunctionReturn(0);
+}
+
+/* |b - A x| / |b| */
+static inline PetscErrorCode ProblemResidual(Mat A, Vec b, Vec x, PetscReal *residual)
+{
+  Vec product;
+
+  PetscFunctionBeginUser;
+  PetscCall(VecDuplicate(b, &product));
+  PetscCall(MatMult(A, x, product));
+  PetscCall(RelativeDifference(product, b, residual));
+  PetscCall(VecDestroy(&product));
+  PetscFunctionReturn(0);
+}
+
 /* One line of expected output: passes, or says by how much it does not */
 static inline PetscErrorCode ReportBound(MPI_Comm comm, const char what[], PetscReal value, PetscReal bound)
 {

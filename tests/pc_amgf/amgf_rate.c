@@ -61,11 +61,7 @@ static PetscErrorCode Choose(Mat A, size_t size, char why[])
   PetscFunctionBeginUser;
   PetscCall(MatCreateVecs(A, &x, &b));
   PetscCall(FillVector(b, 0.8));
-  PetscCall(KSPCreate(PETSC_COMM_WORLD, &ksp));
-  PetscCall(KSPSetType(ksp, KSPCG));
-  PetscCall(KSPSetOperators(ksp, A, A));
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCSetType(pc, PCAMGF));
+  PetscCall(ProblemCreateSolver(A, A, &ksp, &pc));
   PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
   PetscCall(PCAMGFSetFactor(pc, PC_AMGF_FACTOR_AUTO));
   PetscCall(PCAMGFExpect(pc, 1e6, 1.0));

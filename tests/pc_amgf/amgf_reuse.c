@@ -23,12 +23,8 @@ static PetscErrorCode ContextCreate(Context *c, PetscInt n)
   PetscCall(ProblemCreateFilterIS(&c->problem, c->A, c->comm, &c->is));
   PetscCall(MatCreateVecs(c->A, &c->x, &c->b));
   PetscCall(FillVector(c->b, 0.8));
-  PetscCall(KSPCreate(c->comm, &c->ksp));
-  PetscCall(KSPSetType(c->ksp, KSPCG));
+  PetscCall(ProblemCreateSolver(c->A, c->A, &c->ksp, &c->pc));
   PetscCall(KSPSetTolerances(c->ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 2000));
-  PetscCall(KSPSetOperators(c->ksp, c->A, c->A));
-  PetscCall(KSPGetPC(c->ksp, &c->pc));
-  PetscCall(PCSetType(c->pc, PCAMGF));
   PetscCall(PCAMGFSetFilterIS(c->pc, c->is));
   PetscFunctionReturn(0);
 }
@@ -49,7 +45,6 @@ static PetscErrorCode Solve(Context *c, const char what[])
 {
   PCAMGFCounts       counts;
   KSPConvergedReason reason;
-  Vec                r;
   PetscReal          residual, rtol;
 
   PetscFunctionBeginUser;
@@ -58,10 +53,7 @@ static PetscErrorCode Solve(Context *c, const char what[])
   PetscCall(KSPGetConvergedReason(c->ksp, &reason));
   PetscCall(KSPGetTolerances(c->ksp, &rtol, NULL, NULL, NULL));
   PetscCall(PCAMGFGetCounts(c->pc, &counts));
-  PetscCall(VecDuplicate(c->b, &r));
-  PetscCall(MatMult(c->A, c->x, r));
-  PetscCall(RelativeDifference(r, c->b, &residual));
-  PetscCall(VecDestroy(&r));
+  PetscCall(ProblemResidual(c->A, c->b, c->x, &residual));
   PetscCall(PetscPrintf(c->comm, "  %s: %s, AMG set-ups %" PetscInt_FMT ", filter set-ups %" PetscInt_FMT "\n", what,
     reason > 0 && residual < 1e3 * rtol ? "solved" : "NOT SOLVED", counts.amg_setups, counts.filter_setups));
   PetscFunctionReturn(0);

@@ -137,11 +137,7 @@ static PetscErrorCode CheckDetectionOfInfinity(Context *c, PetscScalar entry, co
   PetscCall(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
   PetscCall(PetscOptionsSetValue(NULL, "-pc_amgf_detect", "10"));
   PetscCall(VecDuplicate(c->r, &x));
-  PetscCall(KSPCreate(c->comm, &ksp));
-  PetscCall(KSPSetType(ksp, KSPCG));
-  PetscCall(KSPSetOperators(ksp, A, A));
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCSetType(pc, PCAMGF));
+  PetscCall(ProblemCreateSolver(A, A, &ksp, &pc));
   PetscCall(PCSetFromOptions(pc));
   PetscCall(KSPSolve(ksp, c->r, x));
   PetscCall(KSPGetConvergedReason(ksp, &reason));
@@ -266,12 +262,8 @@ static PetscErrorCode SolveWith(Context *c, Mat A)
 
   PetscFunctionBeginUser;
   PetscCall(VecDuplicate(c->r, &x));
-  PetscCall(KSPCreate(c->comm, &ksp));
-  PetscCall(KSPSetType(ksp, KSPCG));
-  PetscCall(KSPSetOperators(ksp, A, A));
+  PetscCall(ProblemCreateSolver(A, A, &ksp, &pc));
   PetscCall(KSPSetTolerances(ksp, 1e-8, PETSC_DEFAULT, PETSC_DEFAULT, 20));
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCSetType(pc, PCAMGF));
   PetscCall(KSPSolve(ksp, c->r, x));
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCall(PetscPrintf(c->comm, "  BoomerAMG: %s\n", reason > 0 ? "ok" : KSPConvergedReasons[reason]));

@@ -43,24 +43,84 @@ PetscErrorCode VertexPlacesCreate(DM dm, VertexPlaces *places)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Computes the mean of the positions x of the nodes of each body. centre: 3 numbers per body [length] */
-PetscErrorCode VertexPlacesGetCentres(const VertexPlaces *places, Vec x, PetscInt nbodies, PetscReal centre[])
+/* Collective. Computes the sum of a vector over the nodes of each body, 3 numbers per body */
+PetscErrorCode VertexPlacesSum(const VertexPlaces *places, Vec v, PetscInt nbodies, PetscReal sums[])
 {
   const PetscScalar *a;
-  PetscReal         *sum; /* per body: the sum of the positions, and the number of nodes */
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(4 * nbodies, &sum));
-  PetscCall(VecGetLocalSize(x, &n));
-  PetscCall(VecGetArrayRead(x, &a));
-  for (PetscInt i = 0; i < n; ++i) sum[4 * places->body[i / 3] + i % 3] += PetscRealPart(a[i]);
-  for (PetscInt i = 0; i < n; i += 3) sum[4 * places->body[i / 3] + 3] += 1.0;
-  PetscCall(VecRestoreArrayRead(x, &a));
+  PetscCall(PetscArrayzero(sums, 3 * nbodies));
+  PetscCall(VecGetLocalSize(v, &n));
+  PetscCall(VecGetArrayRead(v, &a));
+  for (PetscInt i = 0; i < n; ++i) sums[3 * places->body[i / 3] + i % 3] += PetscRealPart(a[i]);
+  PetscCall(VecRestoreArrayRead(v, &a));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(3 * nbodies), MPIU_REAL, MPIU_SUM,
+    PetscObjectComm((PetscObject)v)));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Computes four numbers per body: the resultant of the nodal forces `force`, and the sum of the magnitudes
+   of the nodal forces `all` [force] */
+PetscErrorCode VertexPlacesSumForces(const VertexPlaces *places, Vec force, Vec all, PetscInt nbodies, PetscReal sums[])
+{
+  const PetscScalar *f, *a;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(sums, 4 * nbodies));
+  PetscCall(VecGetLocalSize(force, &n));
+  PetscCall(VecGetArrayRead(force, &f));
+  PetscCall(VecGetArrayRead(all, &a));
+  for (PetscInt i = 0; i < n; i += 3) {
+    PetscReal *body = &sums[4 * places->body[i / 3]], square = 0.0;
+
+    for (PetscInt d = 0; d < 3; ++d) {
+      body[d] += PetscRealPart(f[i + d]);
+      square += PetscSqr(PetscRealPart(a[i + d]));
+    }
+    body[3] += PetscSqrtReal(square);
+  }
+  PetscCall(VecRestoreArrayRead(all, &a));
+  PetscCall(VecRestoreArrayRead(force, &f));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(4 * nbodies), MPIU_REAL, MPIU_SUM,
+    PetscObjectComm((PetscObject)force)));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Computes the largest magnitude of an entry of a vector at the nodes of each body */
+PetscErrorCode VertexPlacesLargest(const VertexPlaces *places, Vec v, PetscInt nbodies, PetscReal largest[])
+{
+  const PetscScalar *a;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(largest, nbodies));
+  PetscCall(VecGetLocalSize(v, &n));
+  PetscCall(VecGetArrayRead(v, &a));
+  for (PetscInt i = 0; i < n; ++i)
+    largest[places->body[i / 3]] = PetscMax(largest[places->body[i / 3]], PetscAbsScalar(a[i]));
+  PetscCall(VecRestoreArrayRead(v, &a));
   PetscCallMPI(
-    MPI_Allreduce(MPI_IN_PLACE, sum, (PetscMPIInt)(4 * nbodies), MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)x)));
-  for (PetscInt k = 0; k < 3 * nbodies; ++k) centre[k] = sum[4 * (k / 3) + k % 3] / sum[4 * (k / 3) + 3];
-  PetscCall(PetscFree(sum));
+    MPI_Allreduce(MPI_IN_PLACE, largest, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)v)));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Computes the mean of the positions x of the nodes of each body. centres: 3 numbers per body [length] */
+PetscErrorCode VertexPlacesGetCentres(const VertexPlaces *places, Vec x, PetscInt nbodies, PetscReal centres[])
+{
+  PetscReal *count;
+  Vec        ones;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(3 * nbodies, &count));
+  PetscCall(VecDuplicate(x, &ones));
+  PetscCall(VecSet(ones, 1.0));
+  PetscCall(VertexPlacesSum(places, ones, nbodies, count));
+  PetscCall(VertexPlacesSum(places, x, nbodies, centres));
+  for (PetscInt i = 0; i < 3 * nbodies; ++i) centres[i] /= count[i];
+  PetscCall(VecDestroy(&ones));
+  PetscCall(PetscFree(count));
   PetscFunctionReturn(0);
 }
 

@@ -14,29 +14,14 @@ static const PetscReal weak_springs_share = 0.01;
 */
 static PetscErrorCode WeakSpringsMeasure(Simulation sim, Vec u, Vec load, PetscReal carried[])
 {
-  const PetscScalar *v, *k, *f;
-  PetscInt           n;
+  Vec force;
 
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(carried, 4 * sim->scene->nbodies));
-  PetscCall(VecGetLocalSize(u, &n));
-  PetscCall(VecGetArrayRead(u, &v));
-  PetscCall(VecGetArrayRead(sim->springs.weak, &k));
-  PetscCall(VecGetArrayRead(load, &f));
-  for (PetscInt i = 0; i < n; i += 3) {
-    PetscReal *body = &carried[4 * sim->places.body[i / 3]], square = 0.0;
-
-    for (PetscInt d = 0; d < 3; ++d) {
-      body[d] -= PetscRealPart(k[i + d] * v[i + d]);
-      square += PetscSqr(PetscRealPart(f[i + d]));
-    }
-    body[3] += PetscSqrtReal(square);
-  }
-  PetscCall(VecRestoreArrayRead(load, &f));
-  PetscCall(VecRestoreArrayRead(sim->springs.weak, &k));
-  PetscCall(VecRestoreArrayRead(u, &v));
-  PetscCallMPI(
-    MPI_Allreduce(MPI_IN_PLACE, carried, (PetscMPIInt)(4 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCall(VecDuplicate(u, &force));
+  PetscCall(VecPointwiseMult(force, sim->springs.weak, u));
+  PetscCall(VecScale(force, -1.0));
+  PetscCall(VertexPlacesSumForces(&sim->places, force, load, sim->scene->nbodies, carried));
+  PetscCall(VecDestroy(&force));
   PetscFunctionReturn(0);
 }
 

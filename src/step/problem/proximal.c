@@ -373,37 +373,19 @@ PetscErrorCode ProximalLinearize(StepProblem *p, Vec u_linearized)
 }
 
 /*
-   Compares two forces. *share: maximum over the bodies of the resultant of `force` on a body divided by the sum of the
-   magnitudes of the nodal forces `all`.
+   Compares two forces. *fraction: maximum over the bodies of the resultant of `force` on a body divided by the sum of
+   the magnitudes of the nodal forces `all`.
 */
 static PetscErrorCode ProximalCompareResultants(const StepProblem *p, Vec force, Vec all, PetscReal *fraction)
 {
-  const Simulation   sim = p->sim;
-  const PetscScalar *f, *a;
-  PetscInt           n;
-  PetscReal         *sums; /* four values per body: the three components of the resultant of `force`, and the sum of
-                              the magnitudes of `all` */
+  const PetscInt nbodies = p->sim->scene->nbodies;
+  PetscReal     *sums;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(4 * sim->scene->nbodies, &sums));
-  PetscCall(VecGetLocalSize(force, &n));
-  PetscCall(VecGetArrayRead(force, &f));
-  PetscCall(VecGetArrayRead(all, &a));
-  for (PetscInt i = 0; i < n; i += 3) {
-    PetscReal *body = &sums[4 * sim->places.body[i / 3]], square = 0.0;
-
-    for (PetscInt d = 0; d < 3; ++d) {
-      body[d] += PetscRealPart(f[i + d]);
-      square += PetscSqr(PetscRealPart(a[i + d]));
-    }
-    body[3] += PetscSqrtReal(square);
-  }
-  PetscCall(VecRestoreArrayRead(all, &a));
-  PetscCall(VecRestoreArrayRead(force, &f));
-  PetscCallMPI(
-    MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(4 * sim->scene->nbodies), MPIU_REAL, MPIU_SUM, sim->comm));
   *fraction = 0.0;
-  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
+  PetscCall(PetscMalloc1(4 * nbodies, &sums));
+  PetscCall(VertexPlacesSumForces(&p->sim->places, force, all, nbodies, sums));
+  for (PetscInt b = 0; b < nbodies; ++b) {
     if (sums[4 * b + 3] > 0.0) *fraction = PetscMax(*fraction, VectorNorm(&sums[4 * b]) / sums[4 * b + 3]);
   }
   PetscCall(PetscFree(sums));
