@@ -73,21 +73,30 @@ PetscBool IPAcceptable(const TAO_IPFILTER *ip)
   return (PetscBool)(IPBothErrors(ip) <= IP_ACCEPTABLE_TOL && OwnMet(ip));
 }
 
+/* Computes the size of the unknowns with which steps are compared: at least a small fraction of the first size */
+static PetscErrorCode UnknownsSize(Tao tao, PetscReal *size)
+{
+  const PetscReal vanishing = 1e-3;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, size));
+  *size = PetscMax(*size, vanishing * ((TAO_IPFILTER *)tao->data)->first->x);
+  PetscFunctionReturn(0);
+}
+
 /*
    Counts consecutive steps that are as small as rounding errors of x. A step that halves the KKT error is not counted:
-   it may change small unknowns and slacks beside a large unknown. If x tends to zero, the steps are compared with the
-   rounding errors of a small fraction of the first x.
+   it may change small unknowns and slacks beside a large unknown.
 */
 static PetscErrorCode CountTinySteps(Tao tao)
 {
-  TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
-  const PetscReal vanishing = 1e-3, useful = 0.5, error = IPBothErrors(ip);
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal useful = 0.5, error = IPBothErrors(ip);
   PetscReal       size;
   PetscBool       tiny;
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  size                = PetscMax(size, vanishing * ip->first->x);
+  PetscCall(UnknownsSize(tao, &size));
   tiny                = (PetscBool)(tao->niter && ip->search->tag != 'R' && ip->dir.norm <= IP_TINY_STEP * size);
   ip->rec->ntiny      = tiny && error > useful * ip->rec->last_error ? ip->rec->ntiny + 1 : 0;
   ip->rec->last_error = error;
@@ -130,10 +139,51 @@ static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
 }
 
 /*
+   Finds whether the iterate may be far from the solution although the error is small relative to a first value. This is
+   the case if the error bound exceeds the present objective, the residuals exceed the tolerance in the caller's units,
+   and the last step shows that Newton's method has not converged: it changed the unknowns or the objective noticeably,
+   was shortened, or was limited by a shift of the Hessian. In a curved valley all of these occur. After several
+   consecutive iterates without a lower objective the answer is no.
+*/
+static PetscErrorCode ObserveFall(Tao tao)
+{
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  IPRecord       *rec   = ip->rec;
+  const PetscReal trace = 1e-6, rounding = 1e-3 * PETSC_MACHINE_EPSILON, f = ip->at.f;
+  const PetscBool shifted  = (PetscBool)(ip->shift->delta > 0.0);
+  const PetscInt  patience = 40;
+  const PetscReal some     = PetscMax(trace * PetscAbsReal(f), rounding * ip->scale->terms);
+  const PetscBool open     = (PetscBool)(IPAcceptable(ip) && tao->niter && !ip->method->on &&
+                                     !IPErrorBoundWithinPresent(ip) && ip->kkt->unscaled > ip->tol);
+  PetscReal       size;
+  PetscBool       cut;
+
+  PetscFunctionBegin;
+  PetscCall(UnknownsSize(tao, &size));
+  cut = (PetscBool)(ip->search->alpha < 1.0 || PetscAbsReal(rec->before - f) > some || ip->dir.norm > trace * size);
+  cut = (PetscBool)(shifted || (!rec->ntiny && cut));
+  rec->nidle  = open && cut && f > rec->lowest - some ? rec->nidle + 1 : 0;
+  rec->falls  = (PetscBool)(open && cut && rec->nidle < patience);
+  rec->nopen  = rec->falls && Converged(ip) && shifted ? rec->nopen + 1 : 0;
+  rec->lowest = rec->nidle ? PetscMin(rec->lowest, f) : f;
+  rec->before = f;
+  PetscFunctionReturn(0);
+}
+
+/* Records whether the last step was as small as rounding errors, and whether the objective may still fall noticeably */
+PetscErrorCode IPObserveStep(Tao tao)
+{
+  PetscFunctionBegin;
+  PetscCall(CountTinySteps(tao));
+  PetscCall(ObserveFall(tao));
+  PetscFunctionReturn(0);
+}
+
+/*
    Returns whether another iteration is to refine an iterate that has converged. Where the objective has fallen to a
    small fraction of its first value, an error that is negligible relative to the first value may exceed the objective.
-   Refinement ends when an iteration does not halve the error bound. Without a complementarity gap, Newton's method
-   leaves residuals of the size of rounding errors, which no iteration reduces.
+   Refinement ends when an iteration does not halve the error bound, and Newton's method has converged. Without a
+   complementarity gap it leaves residuals of the size of rounding errors, which no iteration reduces.
 */
 PetscBool IPRefines(TAO_IPFILTER *ip)
 {
@@ -142,8 +192,12 @@ PetscBool IPRefines(TAO_IPFILTER *ip)
   PetscBool       gap = PETSC_FALSE;
 
   for (PetscInt b = 0; b < IP_NPAIRS; b++) gap = (PetscBool)(gap || ip->pair[b].n);
-  if (ip->method->on || IPErrorBoundRefined(ip) || (!gap && ip->kkt->error <= rounding)) return PETSC_FALSE;
   ip->rec->last_bound = ip->kkt->bound;
+  if (ip->rec->falls) {
+    ip->rec->nrefined = 1;
+    return PETSC_TRUE;
+  }
+  if (ip->method->on || IPErrorBoundRefined(ip) || (!gap && ip->kkt->error <= rounding)) return PETSC_FALSE;
   if (ip->rec->nrefined && ip->kkt->bound > halve * before) return PETSC_FALSE;
   return (PetscBool)(ip->rec->nrefined++ < most);
 }
@@ -177,14 +231,16 @@ static PetscErrorCode LargestUnknown(Tao tao, PetscReal *size, PetscReal *curvat
 /*
    Finds whether the iterates of a nonconvex problem grow without limit. At infinity gradient and curvature may vanish
    as at a minimum. The iterates have run away if the unknowns are much larger than at the start and the Hessian still
-   needs a shift there. If the largest unknown has no curvature, a smaller growth suffices.
+   needs a shift there, in several iterates where the objective still falls. If the largest unknown has no curvature, a
+   smaller growth suffices.
 */
 static PetscErrorCode RunsAway(Tao tao, PetscBool *away)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
   const PetscReal large = 100.0, beyond = 10.0, flat = 1e-8;
+  const PetscInt  patience = 10;
   PetscReal       size, stiffness, curvature;
-  PetscBool       vanishes;
+  PetscBool       vanishes, before;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(ip->stiff->hdiag, NORM_INFINITY, &stiffness));
@@ -192,12 +248,16 @@ static PetscErrorCode RunsAway(Tao tao, PetscBool *away)
                       ip->shift->delta > 0.0);
   if (!*away) PetscFunctionReturn(0);
   PetscCall(LargestUnknown(tao, &size, &curvature));
-  vanishes = (PetscBool)(curvature > 0.0 && curvature <= flat * stiffness); /* it is 0 for linear unknowns */
-  *away    = (PetscBool)(size > (vanishes ? beyond : large) * ip->first->x);
-  if (*away)
-    PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
-      "no solution: the unknowns grow without limit, from %g to %g, where the objective is nearly flat",
-      (double)ip->first->x, (double)size));
+  vanishes      = (PetscBool)(curvature > 0.0 && curvature <= flat * stiffness); /* it is 0 for linear unknowns */
+  *away         = (PetscBool)(size > (vanishes ? beyond : large) * ip->first->x);
+  before        = (PetscBool)(ip->rec->away || !ip->rec->nrefined);
+  ip->rec->away = *away;
+  *away         = (PetscBool)(*away && (ip->rec->falls ? ip->rec->nopen >= patience : before));
+  if (!*away) PetscFunctionReturn(0);
+  ip->rec->nrefined = 0;
+  PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
+    "no solution: the unknowns grow without limit, from %g to %g, where the objective is nearly flat",
+    (double)ip->first->x, (double)size));
   PetscFunctionReturn(0);
 }
 
@@ -207,7 +267,8 @@ PetscErrorCode IPConvergeRefined(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  if (ip->rec->nrefined && tao->reason != TAO_CONVERGED_GATOL && Converged(ip) && IPConstraintsMet(tao))
+  if (ip->rec->nrefined && !ip->rec->best_falls && tao->reason != TAO_CONVERGED_GATOL && Converged(ip) &&
+      IPConstraintsMet(tao))
     PetscCall(ConvergeUnlessDegenerate(tao));
   PetscFunctionReturn(0);
 }
@@ -331,7 +392,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
    Ends the iteration if a limit of iterations or evaluations is reached, or if several steps were as small as rounding
    errors
 */
-static PetscErrorCode TestLimits(Tao tao)
+PetscErrorCode IPTestLimits(Tao tao)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const IPKKT    *k        = ip->kkt;
@@ -347,7 +408,7 @@ static PetscErrorCode TestLimits(Tao tao)
         "steps are as small as rounding errors at KKT error %g, but the constraint violation %g (relative %g) exceeds "
         "catol %g or crtol %g",
         (double)error, (double)k->inf_pr, (double)k->primal, (double)tao->catol, (double)tao->crtol));
-    else if (IPAcceptable(ip))
+    else if (IPAcceptable(ip) && !ip->rec->falls)
       PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
         "acceptable: steps are as small as rounding errors at KKT error %g; the tolerance is %g", (double)error,
         (double)ip->tol));
@@ -373,10 +434,9 @@ PetscErrorCode IPTestConvergence(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  PetscCall(CountTinySteps(tao));
-  ip->rec->nacceptable = IPAcceptable(ip) ? ip->rec->nacceptable + 1 : 0;
+  ip->rec->nacceptable = IPAcceptable(ip) && !ip->rec->falls ? ip->rec->nacceptable + 1 : 0;
   PetscUseTypeMethod(tao, convergencetest, tao->cnvP);
-  if (tao->reason == TAO_CONTINUE_ITERATING) PetscCall(TestLimits(tao));
+  if (tao->reason == TAO_CONTINUE_ITERATING) PetscCall(IPTestLimits(tao));
   else if (!ip->rec->reason[0])
     PetscCall(
       IPSetReason(tao, tao->reason, "the test set by TaoSetConvergenceTest() ended the solve with %s, at KKT error %g",

@@ -28,6 +28,8 @@ PETSC_INTERN PetscErrorCode IPTestNumbers(Tao);
 PETSC_INTERN PetscBool      IPConstraintsMet(Tao);
 PETSC_INTERN PetscErrorCode IPTestConvergence(Tao);
 PETSC_INTERN PetscErrorCode IPConvergeRefined(Tao);
+PETSC_INTERN PetscErrorCode IPObserveStep(Tao);
+PETSC_INTERN PetscErrorCode IPTestLimits(Tao);
 PETSC_INTERN PetscBool      IPRefines(TAO_IPFILTER *);
 PETSC_INTERN PetscBool      IPAcceptable(const TAO_IPFILTER *);
 

@@ -25,7 +25,8 @@ static PetscErrorCode ResetSolve(Tao tao)
   *rec             = (IPRecord){.max_nksp = rec->max_nksp,
                 .ksp_iterations           = rec->ksp_iterations,
                 .best_error               = PETSC_INFINITY,
-                .best_violation           = PETSC_INFINITY};
+                .best_violation           = PETSC_INFINITY,
+                .lowest                   = PETSC_INFINITY};
   *ip->lin         = (IPLinear){.flexible = ip->lin->flexible, .residual = ip->lin->residual};
   *ip->bar         = (IPBarrier){.free = (PetscBool)(ip->opt->barrier == IP_BARRIER_MEHROTRA && !ip->qn->B),
             .curved                    = (PetscBool)(ip->qn->B != NULL)};
@@ -55,7 +56,7 @@ static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
                   same = 1.01;
 
   if (acceptable || ip->rec->best_error <= IP_ACCEPTABLE_TOL)
-    return (PetscBool)(acceptable && IPBothErrors(ip) <= same * ip->rec->best_error);
+    return (PetscBool)(acceptable && (ip->rec->falls || IPBothErrors(ip) <= same * ip->rec->best_error));
   return (PetscBool)(violation < best || (violation == best && IPBothErrors(ip) <= same * ip->rec->best_error));
 }
 
@@ -68,6 +69,7 @@ static PetscErrorCode KeepBest(Tao tao)
   if (!BetterThanBest(ip)) PetscFunctionReturn(0);
   ip->rec->best_error     = IPBothErrors(ip);
   ip->rec->best_violation = ip->kkt->violation;
+  ip->rec->best_falls     = ip->rec->falls;
   PetscCall(IPIterateCopy(&ip->at, &ip->best));
   if (ip->terms->n) PetscCall(VecCopy(ip->terms->force, ip->terms->best));
   PetscFunctionReturn(0);
@@ -102,6 +104,7 @@ static PetscErrorCode AssessIterate(Tao tao)
   PetscCall(IPComputeKKT(tao));
   PetscCall(IPTestNumbers(tao));
   if (tao->reason == TAO_DIVERGED_NAN) PetscFunctionReturn(0);
+  PetscCall(IPObserveStep(tao));
   PetscCall(KeepBest(tao));
   PetscCall(IPSetMultipliers(tao));
   PetscCall(TaoLogConvergenceHistory(tao, ip->at.f, ip->kkt->error, ip->kkt->inf_pr, tao->ksp_tot_its));
@@ -114,6 +117,7 @@ static PetscErrorCode AssessIterate(Tao tao)
   if (left || (tao->reason == TAO_CONVERGED_GATOL && IPRefines(ip))) {
     tao->reason        = TAO_CONTINUE_ITERATING;
     ip->rec->reason[0] = '\0';
+    if (!left) PetscCall(IPTestLimits(tao));
   }
   PetscFunctionReturn(0);
 }
@@ -187,7 +191,7 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
   PetscBool       ok = PETSC_FALSE, infeasible = PETSC_FALSE, relaxed;
 
   PetscFunctionBegin;
-  if (IPAcceptable(ip) && IPConstraintsMet(tao) && !(solved && ip->bar->free)) {
+  if (IPAcceptable(ip) && !ip->rec->falls && IPConstraintsMet(tao) && !(solved && ip->bar->free)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: no step reduces the KKT error %g further; the tolerance is %g", (double)IPBothErrors(ip),
       (double)ip->tol));

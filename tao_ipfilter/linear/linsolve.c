@@ -4,6 +4,7 @@
 */
 #include "linearimpl.h"
 #include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/factors.h"
 #include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/linear.h"
 #include "tao_ipfilter/solver/matrices.h"
@@ -173,14 +174,43 @@ static PetscErrorCode ConcludeDirect(Tao tao, IPLinearVerdict *verdict)
   PetscFunctionReturn(0);
 }
 
-/* Makes the attempts one by one until *verdict is not IP_LINEAR_FAILED */
-static PetscErrorCode MakeAttempts(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
+/*
+   Solves a small system by MUMPS, whose rounding errors are smaller than those of a Krylov method where A is badly
+   conditioned. Larger systems are left alone, since the factors of the whole matrix may cost too much. *verdict is not
+   changed if MUMPS fails or finds the matrix singular.
+*/
+static PetscErrorCode SolveSmall(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
 {
-  const size_t n     = PETSC_STATIC_ARRAY_LENGTH(attempts);
-  const size_t first = DirectOnly((TAO_IPFILTER *)tao->data) ? n - 1 : 0;
-  PetscBool    sound = PETSC_TRUE, possible;
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscInt  few    = 500;
+  IPLinearVerdict direct = IP_LINEAR_FAILED;
+  PetscBool       sound  = PETSC_TRUE;
+  PetscInt        n;
 
   PetscFunctionBegin;
+  PetscCall(VecGetSize(d, &n));
+  if (n > few || DirectOnly(ip)) PetscFunctionReturn(0);
+  PetscCall(CheckNumbers(tao, &sound));
+  if (sound) PetscCall(IPDirectSolve(tao, b, d, &direct));
+  ip->lin->why[0] = '\0';
+  if (direct == IP_LINEAR_SOLVED || (direct == IP_LINEAR_INDEFINITE && ip->direct->F)) *verdict = direct;
+  PetscFunctionReturn(0);
+}
+
+/*
+   Makes the attempts one by one until *verdict is not IP_LINEAR_FAILED. Small systems are solved directly where the
+   iterate is refined, or where CG calls the matrix indefinite, since rounding errors may have changed the sign of a
+   product p^T A p.
+*/
+static PetscErrorCode MakeAttempts(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  const size_t  n     = PETSC_STATIC_ARRAY_LENGTH(attempts);
+  const size_t  first = DirectOnly(ip) ? n - 1 : 0;
+  PetscBool     sound = PETSC_TRUE, possible;
+
+  PetscFunctionBegin;
+  if (ip->rec->nrefined) PetscCall(SolveSmall(tao, b, d, verdict));
   for (size_t k = first; k < n && *verdict == IP_LINEAR_FAILED; k++) {
     if (k == PetscMax(first, 1)) PetscCall(CheckNumbers(tao, &sound));
     if (!sound) PetscFunctionReturn(0);
@@ -189,6 +219,8 @@ static PetscErrorCode MakeAttempts(Tao tao, Vec b, Vec d, IPLinearVerdict *verdi
     if (possible) PetscCall((*attempts[k].solve)(tao, b, d, verdict));
     if (k == n - 1) PetscCall(ConcludeDirect(tao, verdict));
   }
+  if (*verdict == IP_LINEAR_INDEFINITE && ip->lin->reason == KSP_DIVERGED_INDEFINITE_MAT && !ip->rec->nrefined)
+    PetscCall(SolveSmall(tao, b, d, verdict));
   PetscFunctionReturn(0);
 }
 

@@ -201,9 +201,10 @@ PetscErrorCode IPErrorBoundEnergy(Tao tao, PetscReal *energy, PetscReal *present
   PetscCall(IPErrorBoundTerms(tao, &terms));
   if (ip->first->energy < 0.0) PetscCall(ErrorBoundFirst(tao, terms));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
-  *energy = PetscMax(PetscMax(IP_BOUND_TERMS, IP_BOUND_ROUNDING / (IP_BOUND_MULTIPLE * ip->tol)) * terms,
-    IP_BOUND_FIRST * ip->first->energy);
-  *energy = PetscMax(*energy, PetscAbsReal(ip->at.f));
+  ip->scale->terms = terms;
+  *energy          = PetscMax(PetscMax(IP_BOUND_TERMS, IP_BOUND_ROUNDING / (IP_BOUND_MULTIPLE * ip->tol)) * terms,
+             IP_BOUND_FIRST * ip->first->energy);
+  *energy          = PetscMax(*energy, PetscAbsReal(ip->at.f));
   PetscCall(ErrorBoundRounding(tao, energy));
   *present = PetscMax(IP_BOUND_PRESENT * PetscMax(terms, ip->first->energy), PetscAbsReal(ip->at.f));
   if (ip->first->gradient == 0.0 && gradient == 0.0) *energy = *present = PETSC_INFINITY;
@@ -283,6 +284,14 @@ PetscBool IPErrorBoundWithin(const TAO_IPFILTER *ip, PetscReal gap)
 PetscBool IPErrorBoundRefined(const TAO_IPFILTER *ip)
 {
   return (PetscBool)(ip->kkt->bound <= IP_BOUND_MULTIPLE * ip->tol * ip->scale->present);
+}
+
+/* Returns whether the error bound is within the tolerance relative to the present objective and its terms alone */
+PetscBool IPErrorBoundWithinPresent(const TAO_IPFILTER *ip)
+{
+  const PetscReal present = PetscMax(IP_BOUND_PRESENT * ip->scale->terms, PetscAbsReal(ip->at.f));
+
+  return (PetscBool)(!(ip->scale->energy < PETSC_INFINITY) || ip->kkt->bound <= IP_BOUND_MULTIPLE * ip->tol * present);
 }
 
 /*

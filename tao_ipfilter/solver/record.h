@@ -19,6 +19,14 @@ struct _n_IPRecord {
   PetscReal            last_error;             /* KKT error at the last convergence test */
   PetscInt             nrefined;               /* number of iterations that refined an iterate that had converged */
   PetscReal            last_bound;             /* error bound before the next of these iterations */
+  PetscReal            before, lowest;         /* objective of the iterate before the present one; lowest one of the
+                                                  iterates that nidle counts */
+  PetscBool            falls;                  /* whether the objective may still fall noticeably, though the error is
+                                                  negligible relative to a first value (convergence.c) */
+  PetscInt             nidle, nopen;           /* convergence.c: number of consecutive steps that did not lower the
+                                                  objective, but do not show that it cannot fall; number of consecutive
+                                                  iterates that have converged but for this, with a shift */
+  PetscBool            away;                   /* whether the iterate that had converged before seemed to run away */
   PetscInt             nacceptable;            /* number of consecutive acceptable iterates */
   PetscInt             nstraight;     /* number of consecutive full steps with a shift along which the objective fell
                                          linearly */
@@ -30,6 +38,7 @@ struct _n_IPRecord {
                                              without Newton steps */
   PetscReal            best_error;        /* KKT error of the best iterate */
   PetscReal            best_violation;    /* constraint violation of the best iterate */
+  PetscBool            best_falls;        /* `falls` of the best iterate */
   char                 reason[256];
 };
 

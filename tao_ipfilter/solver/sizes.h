@@ -29,6 +29,7 @@ struct _n_IPScale {
   PetscReal product;        /* length x pressure, the scale of complementarity and mu */
   PetscReal energy;         /* size of the objective; PETSC_INFINITY if the measure does not use it */
   PetscReal present;        /* the same, however large the objective was at the start */
+  PetscReal terms;          /* sum of the magnitudes of the objective's terms at the present point */
 };
 
 #endif

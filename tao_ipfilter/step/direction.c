@@ -11,6 +11,7 @@
 #include "tao_ipfilter/solver/linear.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
@@ -107,12 +108,15 @@ static PetscErrorCode CurvatureAddEqualities(Tao tao, PetscReal *curvature)
 /*
    Tests whether d^T W d + max(lambda+^T M (c - s), 0) + max(-y+^T c_E, 0) >= kappa d^T d, where W is H + Sigma + delta
    M_u for the unknowns and D for the slacks. The test does not use A, which contains J^T D J: for large D, d^T H d
-   would be lost in rounding errors. A step as small as rounding passes.
+   would be lost in rounding errors. A step as small as rounding passes. Where the inertia of A is known to be right, a
+   curvature above the rounding errors is sufficient.
 */
 static PetscErrorCode CurvatureTest(Tao tao, PetscBool *passes)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
-  const PetscReal kappa     = IP_KAPPA_CURVATURE;
+  const PetscReal rounding  = 50.0 * PETSC_MACHINE_EPSILON;
+  const PetscBool proven    = (PetscBool)(ip->direct->F && ip->direct->system == ip->rec->nsystems);
+  const PetscReal kappa     = proven ? rounding : IP_KAPPA_CURVATURE;
   PetscReal       curvature = 0.0, square = 0.0, step, size;
 
   PetscFunctionBegin;
@@ -164,7 +168,8 @@ static PetscReal ForcingTarget(const TAO_IPFILTER *ip, PetscReal last, PetscReal
 {
   PetscReal loose = PetscMin(IP_FORCING_MAX * ip->scale->dual, IP_FORCING_REDUCE * ip->kkt->dual_norm);
 
-  if (!ip->mi && !ip->me) loose = PetscMin(loose, IP_FORCING_MAX * rhs);
+  if ((!ip->mi && !ip->me) || ip->rec->nrefined) loose = PetscMin(loose, IP_FORCING_MAX * rhs);
+  if (ip->rec->nrefined) return loose;
   return PetscMax(loose, last);
 }
 
