@@ -152,9 +152,10 @@ static PetscErrorCode ObserveFall(Tao tao)
   const PetscReal trace = 1e-6, rounding = 1e-3 * PETSC_MACHINE_EPSILON, f = ip->at.f;
   const PetscBool shifted  = (PetscBool)(ip->shift->delta > 0.0);
   const PetscInt  patience = 40;
+  const PetscReal tol      = Converged(ip) ? ip->tol : IP_ACCEPTABLE_TOL;
   const PetscReal some     = PetscMax(trace * PetscAbsReal(f), rounding * ip->scale->terms);
   const PetscBool open     = (PetscBool)(IPAcceptable(ip) && tao->niter && !ip->method->on &&
-                                     !IPErrorBoundWithinPresent(ip) && ip->kkt->unscaled > ip->tol);
+                                     !IPErrorBoundWithinPresent(ip, tol) && ip->kkt->unscaled > ip->tol);
   PetscReal       size;
   PetscBool       cut;
 

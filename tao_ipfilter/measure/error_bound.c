@@ -286,12 +286,12 @@ PetscBool IPErrorBoundRefined(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->kkt->bound <= IP_BOUND_MULTIPLE * ip->tol * ip->scale->present);
 }
 
-/* Returns whether the error bound is within the tolerance relative to the present objective and its terms alone */
-PetscBool IPErrorBoundWithinPresent(const TAO_IPFILTER *ip)
+/* Returns whether the error bound is within a tolerance relative to the present objective and its terms alone */
+PetscBool IPErrorBoundWithinPresent(const TAO_IPFILTER *ip, PetscReal tol)
 {
   const PetscReal present = PetscMax(IP_BOUND_PRESENT * ip->scale->terms, PetscAbsReal(ip->at.f));
 
-  return (PetscBool)(!(ip->scale->energy < PETSC_INFINITY) || ip->kkt->bound <= IP_BOUND_MULTIPLE * ip->tol * present);
+  return (PetscBool)(!(ip->scale->energy < PETSC_INFINITY) || ip->kkt->bound <= IP_BOUND_MULTIPLE * tol * present);
 }
 
 /*

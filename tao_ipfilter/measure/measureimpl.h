@@ -56,7 +56,7 @@ PETSC_INTERN PetscErrorCode IPErrorBoundOfRelaxation(Tao, PetscReal *);
 PETSC_INTERN PetscReal      IPErrorBoundOfWork(const TAO_IPFILTER *, PetscReal work);
 PETSC_INTERN PetscBool      IPErrorBoundWithin(const TAO_IPFILTER *, PetscReal gap);
 PETSC_INTERN PetscBool      IPErrorBoundRefined(const TAO_IPFILTER *);
-PETSC_INTERN PetscBool      IPErrorBoundWithinPresent(const TAO_IPFILTER *);
+PETSC_INTERN PetscBool      IPErrorBoundWithinPresent(const TAO_IPFILTER *, PetscReal tol);
 PETSC_INTERN PetscReal      IPErrorBoundForceUnit(const TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode IPErrorBoundForceUnitAfter(Tao, Vec, PetscReal *);
 PETSC_INTERN PetscReal      IPErrorBoundLeastMu(const TAO_IPFILTER *);
