@@ -154,7 +154,7 @@ static void LevelShiftDiagonal(BlockLevel *level, int *next, int i, PetscScalar 
   }
 }
 
-/* BlockLevelInvert_Private - stores D^-1 of block row i as W^T W, where D becomes scaled */
+/* BlockLevelInvert_Private - scales the diagonal block D of block row i, and stores W with D^-1 = W^T W */
 PetscErrorCode BlockLevelInvert_Private(BlockLevel *level, int i, PetscScalar D[16])
 {
   const int    B     = level->B;

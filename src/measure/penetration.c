@@ -93,7 +93,7 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
       "of the largest displacement: %s",
       pair->name, pair->mortar, pair->nonmortar, (double)its->penetration, 100.0 * (double)(its->penetration / motion),
       SceneBodyIsSurface(SceneFaceBody(sim->scene, pair->mortar))
-        ? "the rigid surface lies between the nonmortar vertices, which do not touch it; refine the nonmortar face"
+        ? "the rigid surface lies between the nonmortar vertices without touching one; refine the nonmortar face"
         : "the mean gap of the nonmortar facets there is open; use gap: node, swap the two faces, or refine them"));
     PetscCall(PenetrationFail(sim, report, reason));
   }
