@@ -107,21 +107,23 @@ PetscErrorCode FollowersSubtract(const StepProblem *p, Vec u, PetscReal *energy,
 
 /*
    Ends a solve in which pressures that follow their faces have no equilibrium, because they exceed a limit load: that
-   of a balloon, for example. The tangent is then indefinite at most iterates, and the objective falls.
+   of a balloon, for example. The objective then falls in steps that are shortened, or whose tangent is indefinite.
 */
 PetscErrorCode FollowersTestLimit(Tao tao, void *ctx)
 {
   StepProblem       *p        = (StepProblem *)ctx;
   const PetscInt     patience = 15;
   PetscInt           its, indefinite;
-  PetscReal          f;
+  PetscReal          f, length;
+  PetscBool          poor;
   TaoConvergedReason reason;
 
   PetscFunctionBegin;
-  PetscCall(TaoGetSolutionStatus(tao, &its, &f, NULL, NULL, NULL, &reason));
+  PetscCall(TaoGetSolutionStatus(tao, &its, &f, NULL, NULL, &length, &reason));
   PetscCall(TaoIPFilterGetRegularizations(tao, &indefinite, NULL, NULL));
+  poor = (PetscBool)(indefinite > p->nindefinite || length < 1.0);
   if (!its) p->nfalls = 0;
-  else p->nfalls = indefinite > p->nindefinite && f < p->last_f ? p->nfalls + 1 : PetscMax(p->nfalls - 1, 0);
+  else p->nfalls = poor && f < p->last_f ? p->nfalls + 1 : PetscMax(p->nfalls - 1, 0);
   p->nindefinite = indefinite;
   p->last_f      = f;
   if (reason != TAO_CONTINUE_ITERATING || p->nfalls < patience) PetscFunctionReturn(0);

@@ -50,43 +50,44 @@ typedef struct {
 } StepFriction;
 
 typedef struct {
-  Simulation  sim;
-  PetscReal   time;
-  Mat         K;
-  Vec         base;
-  Vec         load;   /* dead loads plus follower loads at p->followed [force]; NULL: no loads */
-  Vec         force;  /* gradient at base, zero on prescribed rows [force] */
-  PetscReal   energy; /* objective at base for the quadratic model [force length] */
-  Mat         J;      /* NULL without contact; columns of prescribed rows are zero */
-  Vec         g;
-  Vec         lower, upper;     /* NULL if there are no bounds */
-  Anderson    secants;          /* secants of the follower loads */
-  Vec         followed;         /* centre at which follower loads are linearized [length]; NULL: no follower
+  Simulation sim;
+  PetscReal  time;
+  Mat        K;
+  Vec        base;
+  Vec        load;   /* dead loads plus follower loads at p->followed [force]; NULL: no loads */
+  Vec        force;  /* gradient at base, zero on prescribed rows [force] */
+  PetscReal  energy; /* objective at base for the quadratic model [force length] */
+  Mat        J;      /* NULL without contact; columns of prescribed rows are zero */
+  Vec        g;
+  Vec        lower, upper;     /* NULL if there are no bounds */
+  Anderson   secants;          /* secants of the follower loads */
+  Vec        followed;         /* centre at which follower loads are linearized [length]; NULL: no follower
                                         loads */
-  Vec         meant;            /* displacement at which the mean internal force of a time step is evaluated
+  Vec        meant;            /* displacement at which the mean internal force of a time step is evaluated
                                         [length]; NULL: not needed */
-  Anderson    mean_secants;     /* secants of the displacement `meant` */
-  Vec         centre, proximal; /* proximal.c: centre [length] and diagonal stiffness [force/length] of the
+  Anderson   mean_secants;     /* secants of the displacement `meant` */
+  Vec        centre, proximal; /* proximal.c: centre [length] and diagonal stiffness [force/length] of the
                                         proximal term; NULL: no such term */
-  PetscBool   unsupported;      /* true if it is proven that contact cannot hold the loads with the bodies in
+  PetscBool  unsupported;      /* true if it is proven that contact cannot hold the loads with the bodies in
                                         the positions of the last state */
-  PetscBool   moves_on;         /* true if a body that only friction holds did not come to rest in any solve */
-  char       *failed;           /* reason for which the solve before the proximal term was added failed; NULL:
+  PetscBool  moves_on;         /* true if a body that only friction holds did not come to rest in any solve */
+  char      *failed;           /* reason for which the solve before the proximal term was added failed; NULL:
                                         no such failure */
-  PetscBool   holds_weak;       /* true if the proximal term holds bodies on weak springs */
-  PetscBool   glides;           /* true if this term holds a body in a motion that no contact resists */
-  PetscReal   carried;          /* force of the proximal term after the last solve [force] */
-  PetscReal   tolerance;        /* relative KKT error to which the present linearization is solved; 0: that of
+  PetscBool  holds_weak;       /* true if the proximal term holds bodies on weak springs */
+  PetscBool  glides;           /* true if this term holds a body in a motion that no contact resists */
+  PetscReal  carried;          /* force of the proximal term after the last solve [force] */
+  PetscReal  tolerance;        /* relative KKT error to which the present linearization is solved; 0: that of
                                         the load step */
-  PetscBool   ended_early;      /* true if the last solve stopped at `tolerance`, before the tolerance of the
+  PetscBool  ended_early;      /* true if the last solve stopped at `tolerance`, before the tolerance of the
                                         load step */
-  PetscReal   gap_change;       /* change of the gap in the contact update before the last one [length] */
-  PetscBool   by_newton;        /* true if Newton's method found the point at which the gap is linearized */
-  PetscReal   newton_rtol;      /* relative tolerance to which Newton's method for the last contact update was solved */
-  PetscBool   rough;            /* true if a contact update made no progress, so that Newton's method is not
+  PetscReal  gap_change;       /* change of the gap in the contact update before the last one [length] */
+  PetscBool  by_newton;        /* true if Newton's method found the point at which the gap is linearized */
+  PetscReal  newton_rtol;      /* relative tolerance to which Newton's method for the last contact update was solved */
+  PetscBool  rough;            /* true if a contact update made no progress, so that Newton's method is not
                                         used for now */
-  PetscInt    nflows;           /* number of iterates that show plastic flow */
-  PetscInt    nfalls;       /* number of iterates with an indefinite tangent and a lower objective, less the others */
+  PetscInt   nflows;           /* number of iterates that show plastic flow */
+  PetscInt
+    nfalls; /* number of steps of falling objective that are short or have an indefinite tangent, less the others */
   PetscInt    nindefinite;  /* number of indefinite systems up to the last iterate */
   PetscReal   last_f;       /* objective of the last iterate [force length] */
   PetscBool   beyond_limit; /* true if follower loads seem to exceed a limit load */
