@@ -5,6 +5,7 @@
    with them. If that succeeds, they are used until the end of the run.
 */
 #include "stepimpl.h"
+#include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
 #include "src/state/control.h"
 #include "src/state/path.h"
@@ -37,8 +38,9 @@ static PetscErrorCode DualGapsUndo(Simulation sim, StepReport *report)
 }
 
 /*
-   Collective. Decides, after an attempt has failed, whether the same time is attempted again with dual functions; this
-   is done once in a load step. It is not done if it is proved that no contact forces hold the loads.
+   Collective. Decides, after an attempt has failed, whether the same time is attempted again with dual functions. This
+   is done once in a load step, if there is friction or if a body moves on; but not if it is proved that no contact
+   forces hold the loads.
 */
 PetscErrorCode DualGapsTry(Simulation sim, StepReport *report, PetscBool *again)
 {
@@ -51,8 +53,8 @@ PetscErrorCode DualGapsTry(Simulation sim, StepReport *report, PetscBool *again)
     PetscCall(DualGapsUndo(sim, report));
     PetscFunctionReturn(0);
   }
-  if (!sim->contact || control->interrupted || control->unsupported > 1 || control->dual_tried == report->step)
-    PetscFunctionReturn(0);
+  if (!sim->contact || control->interrupted || control->dual_tried == report->step) PetscFunctionReturn(0);
+  if (control->unsupported ? control->unsupported > 1 : !sim->history->frictional) PetscFunctionReturn(0);
   PetscCall(DualGapsSet(sim, PETSC_TRUE, again));
   if (!*again) PetscFunctionReturn(0);
   control->dual_tried      = report->step;

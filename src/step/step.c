@@ -212,8 +212,8 @@ static PetscErrorCode SimulationWarn(Simulation sim, StepReport *report)
    With linear bodies, or `model: quadratic` in the scene, the step is a quadratic program; otherwise the true energy is
    minimized. A quadratic step without contact pairs is one PCG solve (options prefix -elasticity_).
 
-   A step that fails is attempted again with dual shape functions if contact pairs have gap: auto. If that fails too, it
-   is halved, and repeated from the last converged state. After each success the step size is doubled.
+   A step with friction that fails is attempted again with dual shape functions, if contact pairs have gap: auto. A step
+   that fails is halved, and repeated from the last converged state. After each success the step size is doubled.
    With a tolerance in `dynamics` a step is divided into time steps whose error is below the tolerance.
 
    Errors: PETSC_ERR_ORDER before SimulationSetUp(), or for a step that is not the next one; PETSC_ERR_ARG_OUTOFRANGE

@@ -49,7 +49,8 @@ else:
                                        for run in runs] == [True, True, False], [run["warnings"] for run in runs])
     say("auto, 6 cells: the sentence", "nothing stops it" in runs[2]["reason"], runs[2]["reason"])
     rest, whole = load("auto_rest"), load("auto_three")
-    say("auto, continued from a checkpoint: dual functions from the start", rest["steps"][-1]["converged"]
+    say(
+        "auto, continued from a checkpoint: dual functions from the start", rest["steps"][-1]["converged"]
         and not rest["warnings"] and within(rest["steps"][-1]["energy"], whole["steps"][-1]["energy"], 1e-7),
         (rest["warnings"], rest["steps"][-1]["energy"], whole["steps"][-1]["energy"]))
     for push in 450, 495:
