@@ -1,5 +1,5 @@
-"""A wall of three courses of bricks under its weight, pushed along its top course. python3 friction_wall.py scene prints
-the scene; python3 friction_wall.py judges the run."""
+"""A wall of three courses of bricks under its weight, pushed along its top. python3 friction_wall.py scene prints the
+scene; python3 friction_wall.py judges the run."""
 import sys
 
 from summaries import load, say, within
