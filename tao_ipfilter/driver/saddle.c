@@ -7,21 +7,26 @@
 #include "tao_ipfilter/solver/linear.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/method.h"
+#include "tao_ipfilter/solver/quasinewton.h"
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/relaxation.h"
 #include "tao_ipfilter/solver/terms.h"
 
 /*
-   Finds whether the matrix may be indefinite although no solve has reported it. This is possible in four cases:
+   Finds whether the matrix may be indefinite although no solve has reported it. This is possible in five cases:
    - A factorization that the user has chosen solves with any matrix.
    - After a relaxation of constraints the inertia of factors is not tested.
    - The inertia of the filter's factors is tested only here, until a direction of negative curvature has been found.
    - With equality constraints each step tests the inertia, and shifts an indefinite Hessian. At a stationary point the
      shifted step is zero.
+   - A Krylov method does not see a direction of negative curvature that is orthogonal to all gradients, by symmetry for
+     example. This is tested in small problems, where the test costs little.
 */
 static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  TAO_IPFILTER  *ip  = (TAO_IPFILTER *)tao->data;
+  const PetscInt few = 500;
+  PetscInt       n;
 
   PetscFunctionBegin;
   *unknown = PETSC_FALSE;
@@ -31,7 +36,8 @@ static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
     PetscFunctionReturn(0);
   }
   PetscCall(PetscObjectTypeCompare((PetscObject)tao->ksp, KSPPREONLY, unknown));
-  *unknown = (PetscBool)(*unknown || ip->relax->times);
+  PetscCall(VecGetSize(tao->solution, &n));
+  *unknown = (PetscBool)(*unknown || ip->relax->times || (n <= few && !ip->method->constant && !ip->qn->B));
   if (!*unknown && ip->lin->filtered && !ip->bar->curved) PetscCall(IPKrylovIndefinite(tao, unknown));
   PetscFunctionReturn(0);
 }

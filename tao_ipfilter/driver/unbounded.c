@@ -3,6 +3,7 @@
 #include "tao_ipfilter/solver/barrier.h"
 #include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/kkt.h"
+#include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/search.h"
 #include "tao_ipfilter/solver/sizes.h"
@@ -11,11 +12,14 @@
 
 /*
    Returns the decrease of the objective that counts as unbounded. It is a multiple of the objective's first value, or
-   of the gain of a Newton step at the start.
+   of the gain of a Newton step at the start. A linear objective has no such step. If all unknowns are zero at the start
+   as well, nothing tells their unit, and 1 is taken for it.
 */
 static PetscReal UnboundedFall(const TAO_IPFILTER *ip)
 {
-  return IP_UNBOUNDED_FACTOR * PetscMax(PetscMax(PetscAbsReal(ip->first->f), ip->first->gradient * ip->first->x),
+  const PetscReal x = ip->stiff->flat && ip->first->x == 0.0 ? 1.0 : ip->first->x;
+
+  return IP_UNBOUNDED_FACTOR * PetscMax(PetscMax(PetscAbsReal(ip->first->f), ip->first->gradient * x),
                                  PetscSqr(ip->first->gradient) / ip->stiff->hscale);
 }
 
@@ -78,37 +82,53 @@ static PetscErrorCode UnboundedCount(Tao tao, PetscReal *fall)
   PetscFunctionReturn(0);
 }
 
+#define IP_UNBOUNDED_ROUNDING 1e-9 /* violation that counts as rounding, relative to the terms of a step */
+
 /*
-   Finds whether the trial point, at the distance `far` from the iterate, satisfies bounds and constraints up to
-   rounding at that distance
+   Finds whether no row is violated by more than rounding beside its own terms, those of J along the step `times` d. The
+   terms of other rows, or of the start, may be much larger.
 */
-static PetscErrorCode UnboundedAdmits(Tao tao, PetscReal far, PetscBool *admitted)
+static PetscErrorCode UnboundedRows(Tao tao, IPSpace space, Mat J, Vec d, PetscReal times, Vec violation,
+  PetscBool *admitted)
 {
-  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscReal rounding = 1e-9;
-  PetscReal       least, norm;
-  Vec             violation;
+  PetscReal most;
+  Vec       allowed;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, space, &allowed));
+  PetscCall(IPOwnTerms(J, d, allowed, NULL));
+  PetscCall(VecAbs(violation));
+  PetscCall(VecAXPY(violation, -IP_UNBOUNDED_ROUNDING * times, allowed));
+  PetscCall(VecMax(violation, NULL, &most));
+  PetscCall(IPRestoreWork(tao, space, &allowed));
+  if (!(most <= 0.0)) *admitted = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* Finds whether the trial point, at the end of the step `times` d, satisfies bounds and constraints up to rounding */
+static PetscErrorCode UnboundedAdmits(Tao tao, Vec d, PetscReal times, PetscBool *admitted)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     least, norm;
+  Vec           violation;
 
   PetscFunctionBegin;
   *admitted = PETSC_TRUE;
+  PetscCall(VecNorm(d, NORM_INFINITY, &norm));
   PetscCall(IPBoundsDistance(tao, ip->trial.x, PETSC_TRUE));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++) {
     if (!ip->pair[b].n) continue;
     PetscCall(VecMin(ip->pair[b].trial, NULL, &least));
-    if (!(least >= -rounding * far)) *admitted = PETSC_FALSE;
+    if (!(least >= -IP_UNBOUNDED_ROUNDING * times * norm)) *admitted = PETSC_FALSE;
   }
   PetscCall(IPEvaluateConstraints(tao, ip->trial.x, ip->trial.c, ip->trial.ce));
   if (ip->mi) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &violation));
     PetscCall(IPSlackViolation(tao, ip->trial.c, violation));
-    PetscCall(VecNorm(violation, NORM_INFINITY, &norm));
+    PetscCall(UnboundedRows(tao, IP_INEQUALITIES, ip->jac->inequality, d, times, violation, admitted));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &violation));
-    if (!(norm <= rounding * ip->first->jacobian * far)) *admitted = PETSC_FALSE;
   }
-  if (ip->me) {
-    PetscCall(VecNorm(ip->trial.ce, NORM_INFINITY, &norm));
-    if (!(norm <= rounding * ip->first->equality_jacobian * far)) *admitted = PETSC_FALSE;
-  }
+  if (ip->me) PetscCall(UnboundedRows(tao, IP_EQUALITIES, ip->jac->equality, d, times, ip->trial.ce, admitted));
   PetscFunctionReturn(0);
 }
 
@@ -120,14 +140,12 @@ static PetscErrorCode UnboundedAlong(Tao tao, Vec d, PetscReal fall, PetscReal *
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
   const PetscReal goal = ip->first->f - UnboundedFall(ip), times = 2.0 * (ip->at.f - goal) / fall;
-  PetscReal       norm;
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(d, NORM_INFINITY, &norm));
   PetscCall(VecWAXPY(ip->trial.x, times, d, tao->solution));
   PetscCall(TaoComputeObjective(tao, ip->trial.x, f));
   *unbounded = (PetscBool)(!IPUndefined(*f) && *f < goal);
-  if (*unbounded) PetscCall(UnboundedAdmits(tao, times * norm, unbounded));
+  if (*unbounded) PetscCall(UnboundedAdmits(tao, d, times, unbounded));
   PetscFunctionReturn(0);
 }
 

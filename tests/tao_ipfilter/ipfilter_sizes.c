@@ -90,6 +90,12 @@ static const Case cases[] = {
   {{"cubic valley, unknown of 1e9", "(-2.88-x1)^2+(x2-x1^3)^2+(x3-(2.44))^2",
      "1e9-x1; 1e20+x3; 1e15+x3; 1e20-x3; 1e6*1.12-x1-x2-x3", "", "", "-3992.0 -6569.0 -560.6", 0.0, NLP_REACHED, NULL},
     ""},
+  {{"disc of radius 1e4, from zero", "x1+x2", "1e8-x1^2-x2^2", "", "", "0 0", -14142.13562373, NLP_SOLVED, NULL}, ""},
+  {{"start at a maximum", "-(x1-0.1)^2+x2^2", "", "", "-1:1 -1:1", "0.1 0", -0.81, NLP_SOLVED, NULL}, ""},
+  {{"start where a violated row has no gradient", "0", "x1^2+x2^2+x3^2-2; 3-x1^2-x2^2-x3^2", "", "-1:1.5 -1:1.5 -1:1.5",
+     "0 0 0", 0.0, NLP_SOLVED, NULL},
+    ""},
+  {{"saddle by symmetry", "(x1^2-1)^2+x2^2", "", "", "", "0 0.5", 0.0, NLP_SOLVED, NULL}, ""},
   {{"square row", "x1", "", "x1^2", "", "1", 0.0, NLP_REACHED, NULL}, ""},
   {{"no number in the start", "x1^2+x2^2", "x1+x2-1", "", "", "nan 1", 0.5, NLP_DEGENERATE, NULL}, ""},
 };
