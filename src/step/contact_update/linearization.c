@@ -125,14 +125,14 @@ PetscErrorCode ContactUpdateBegin(StepProblem *p, PetscBool foreseen, Vec u, con
   PetscFunctionReturn(0);
 }
 
-/* Warns that contact updates are damped, but only once in a run. */
+/* Warns that contact updates are damped, but only once in a run, and not if the load step may already end. */
 static PetscErrorCode ContactUpdateWarnDamped(Simulation sim, const StepReport *report)
 {
   PetscInt before = 0;
 
   PetscFunctionBegin;
   for (PetscInt s = 0; s < sim->report.nsteps; ++s) before += sim->report.steps[s].gap_damped;
-  if (!before)
+  if (!before && report->gap_unconverged)
     PetscCall(ReportWarn(sim->comm, &sim->report, NULL,
       "load step %" PetscInt_FMT ": contact iterations do not converge; they are damped from now on. Use smaller load "
       "steps, or swap mortar and nonmortar",
