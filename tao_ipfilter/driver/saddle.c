@@ -7,6 +7,7 @@
 #include "tao_ipfilter/solver/linear.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/method.h"
+#include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/quasinewton.h"
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/relaxation.h"
@@ -20,7 +21,8 @@
    - With equality constraints each step tests the inertia, and shifts an indefinite Hessian. At a stationary point the
      shifted step is zero.
    - A Krylov method does not see a direction of negative curvature that is orthogonal to all gradients, by symmetry for
-     example. This is tested in small problems, where the test costs little.
+     example. This is tested in small problems, where the test costs little, unless the unknowns have weights M_u: those
+     of a body that springs hardly hold have motions that are almost neutral, along which steps would be very long.
 */
 static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
 {
@@ -37,7 +39,8 @@ static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
   }
   PetscCall(PetscObjectTypeCompare((PetscObject)tao->ksp, KSPPREONLY, unknown));
   PetscCall(VecGetSize(tao->solution, &n));
-  *unknown = (PetscBool)(*unknown || ip->relax->times || (n <= few && !ip->method->constant && !ip->qn->B));
+  *unknown = (PetscBool)(*unknown || ip->relax->times ||
+                         (n <= few && !ip->given->primal_mass && !ip->method->constant && !ip->qn->B));
   if (!*unknown && ip->lin->filtered && !ip->bar->curved) PetscCall(IPKrylovIndefinite(tao, unknown));
   PetscFunctionReturn(0);
 }
