@@ -377,8 +377,10 @@ def commits(records):
     named = lambda names: "; ".join(
         f"{TITLES[problem]}, mesh {mesh}, {CYCLES[way] + ' V-cycle' if way in CYCLES else way}"
         for problem, mesh, way in names)  # noqa: E731
-    return f"All runs are of commit {most}" + "".join(f", except those of commit {commit}: {named(names)}"
-                                                      for commit, names in others) + "."
+    if not others:
+        return f"All runs are of commit {most}."
+    return f"All runs are of commit {most}, with these exceptions. " + " ".join(
+        f"Of commit {commit}: {named(names)}." for commit, names in others)
 
 
 def page(cases, records):

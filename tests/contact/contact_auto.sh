@@ -6,10 +6,10 @@ contact=$AMGF_DIR/bin/contact
 for name in found bodies settled tied plates excepted slides tower tools bush loose_bush; do
   echo "$name"
   "$contact" "$name.yaml" -scene_check 2>&1 |
-    sed -n 's/, gap mortar.*//; /^Contact pairs/,/^Load steps/{/^ /p}; /^Ties/,/^Load steps/{/^ /p}; /rror/p' |
+    sed -n 's/, gap auto.*//; /^Contact pairs/,/^Load steps/{/^ /p}; /^Ties/,/^Load steps/{/^ /p}; /rror/p' |
     grep -v "facets of mean" | uniq > one
   mpiexec --oversubscribe -n 3 "$contact" "$name.yaml" -scene_check 2>&1 |
-    sed -n 's/, gap mortar.*//; /^Contact pairs/,/^Load steps/{/^ /p}; /^Ties/,/^Load steps/{/^ /p}; /rror/p' |
+    sed -n 's/, gap auto.*//; /^Contact pairs/,/^Load steps/{/^ /p}; /^Ties/,/^Load steps/{/^ /p}; /rror/p' |
     grep -v "facets of mean" | uniq > three
   cat one
   cmp one three
