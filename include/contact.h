@@ -53,6 +53,7 @@ PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscRe
    leaves open (GAP_AUTO), or all */
 typedef enum { CONTACT_DUAL_NONE, CONTACT_DUAL_AUTO, CONTACT_DUAL_ALL } ContactDualPairs;
 PETSC_EXTERN PetscErrorCode ContactSetDual(Contact, ContactDualPairs, PetscBool *changed);
+PETSC_EXTERN PetscErrorCode ContactGetDual(Contact, ContactDualPairs *);
 /* Collective. Searches, clips and integrates at the global displacement u */
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
 PETSC_EXTERN PetscErrorCode ContactLinearizeForces(Contact, Vec u, ContactLinearization *);

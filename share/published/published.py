@@ -379,8 +379,8 @@ def commits(records):
         for problem, mesh, way in names)  # noqa: E731
     if not others:
         return f"All runs are of commit {most}."
-    return f"All runs are of commit {most}, with these exceptions. " + " ".join(
-        f"Of commit {commit}: {named(names)}." for commit, names in others)
+    return f"All runs are of commit {most}, with these exceptions. " + " ".join(f"Of commit {commit}: {named(names)}."
+                                                                                for commit, names in others)
 
 
 def page(cases, records):

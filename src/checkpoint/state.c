@@ -97,6 +97,20 @@ static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoin
   PetscFunctionReturn(0);
 }
 
+/* Copies which pairs use dual functions to the checkpoint, or from there if `back` */
+static PetscErrorCode CheckpointCopyDualGaps(Simulation sim, Checkpoint checkpoint, PetscBool back)
+{
+  ContactDualPairs dual;
+  PetscBool        changed;
+
+  PetscFunctionBegin;
+  if (!sim->contact) PetscFunctionReturn(0);
+  PetscCall(ContactGetDual(sim->contact, &dual));
+  if (!back) checkpoint->dual_gaps = dual == CONTACT_DUAL_AUTO;
+  else if (checkpoint->dual_gaps > 0.0) PetscCall(ContactSetDual(sim->contact, CONTACT_DUAL_AUTO, &changed));
+  PetscFunctionReturn(0);
+}
+
 /*@C
    SimulationGetCheckpoint - Gets the state of a simulation, after a load step or after an interruption
 
@@ -129,7 +143,7 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
   (*checkpoint)->largest_increment = path->largest_increment;
   (*checkpoint)->work              = path->work;
   (*checkpoint)->contact_work      = path->contact_work;
-  (*checkpoint)->dual_gaps         = sim->control->dual_gaps;
+  PetscCall(CheckpointCopyDualGaps(sim, *checkpoint, PETSC_FALSE));
   PetscCall(PetscMalloc1(sim->bolts.n, &(*checkpoint)->shortening));
   PetscCall(PetscArraycpy((*checkpoint)->shortening, sim->bolts.shortening, sim->bolts.n));
   PetscCall(VecGetLocalSize(path->u, &n));
@@ -147,16 +161,6 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
   }
   PetscCall(CheckpointCopyContact(sim, *checkpoint, PETSC_FALSE));
   PetscCall(CheckpointAddPlastic(sim->scene, sim->elasticity, *checkpoint));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode CheckpointSetDualGaps(Simulation sim, PetscBool dual)
-{
-  PetscBool changed;
-
-  PetscFunctionBegin;
-  sim->control->dual_gaps = dual;
-  if (dual && sim->contact) PetscCall(ContactSetDual(sim->contact, CONTACT_DUAL_AUTO, &changed));
   PetscFunctionReturn(0);
 }
 
@@ -198,7 +202,7 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   path->largest_increment          = checkpoint->largest_increment;
   path->work                       = checkpoint->work;
   path->contact_work               = checkpoint->contact_work;
-  PetscCall(CheckpointSetDualGaps(sim, (PetscBool)(checkpoint->dual_gaps > 0.0)));
+  PetscCall(CheckpointCopyDualGaps(sim, checkpoint, PETSC_TRUE));
   PetscCall(CheckpointGetVec(checkpoint, "displacement", path->u));
   PetscCall(CheckpointGetVec(checkpoint, "previous_displacement", path->previous_u));
   PetscCall(PetscArraycpy(sim->bolts.shortening, checkpoint->shortening, sim->bolts.n));

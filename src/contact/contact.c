@@ -447,7 +447,8 @@ PetscErrorCode ContactSetReach(Contact contact, PetscReal distance, PetscReal de
 PetscErrorCode ContactSetDual(Contact contact, ContactDualPairs which, PetscBool *changed)
 {
   PetscFunctionBegin;
-  *changed = PETSC_FALSE;
+  *changed      = PETSC_FALSE;
+  contact->dual = which;
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     ContactPairData *pair = &contact->pairs[p];
     const PetscBool  dual = (PetscBool)(which == CONTACT_DUAL_ALL || (which == CONTACT_DUAL_AUTO && pair->may_be_dual));
@@ -456,6 +457,14 @@ PetscErrorCode ContactSetDual(Contact contact, ContactDualPairs which, PetscBool
     pair->dual = dual;
     *changed   = PETSC_TRUE;
   }
+  PetscFunctionReturn(0);
+}
+
+/* Not collective. Gets what ContactSetDual() has set */
+PetscErrorCode ContactGetDual(Contact contact, ContactDualPairs *which)
+{
+  PetscFunctionBegin;
+  *which = contact->dual;
   PetscFunctionReturn(0);
 }
 

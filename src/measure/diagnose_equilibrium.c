@@ -9,7 +9,6 @@
    drive. There is then no equilibrium (Farkas' lemma).
 */
 #include "measureimpl.h"
-#include "src/state/control.h"
 #include "src/state/interrupt.h"
 #include "src/state/path.h"
 
@@ -395,12 +394,13 @@ static PetscErrorCode EquilibriumMeasureLoad(Vec load, PetscReal *size)
 */
 static PetscErrorCode EquilibriumLinearize(const FreeMotions *m, ContactLinearization lins[EQUILIBRIUM_ROWS])
 {
-  Simulation             sim  = m->sim;
-  const ContactDualPairs used = sim->control->dual_gaps ? CONTACT_DUAL_AUTO : CONTACT_DUAL_NONE;
-  PetscReal              extent;
-  PetscBool              changed;
+  Simulation       sim = m->sim;
+  ContactDualPairs used;
+  PetscReal        extent;
+  PetscBool        changed;
 
   PetscFunctionBegin;
+  PetscCall(ContactGetDual(sim->contact, &used));
   PetscCall(VecNorm(m->x, NORM_INFINITY, &extent));
   PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &lins[0]));
   PetscCall(ContactSetDual(sim->contact, CONTACT_DUAL_ALL, &changed));

@@ -59,8 +59,8 @@ struct _n_StepControl {
   char           *cause;          /* reason for which the first of these attempts failed; NULL if there was none */
   PetscReal       weak_stiffness; /* stiffness of the proximal term of bodies on weak springs, divided by the stiffness
                                  of the bodies; 0: no such term */
-  PetscBool       dual_gaps;      /* whether pairs with gap: auto use dual shape functions */
-  PetscInt        dual_tried;     /* number of the last load step that was tried with them, from 1; 0: none */
+  PetscInt        dual_tried;     /* number of the last load step that was tried with dual shape functions, from 1;
+                                     0: none */
   StepFailure     failure;        /* the failed attempt that is repeated with them */
   int             interrupted;    /* signal that was caught; 0: none */
 };

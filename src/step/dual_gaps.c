@@ -16,7 +16,6 @@ static PetscErrorCode DualGapsSet(Simulation sim, PetscBool dual, PetscBool *cha
   PetscFunctionBegin;
   PetscCall(ContactSetDual(sim->contact, dual ? CONTACT_DUAL_AUTO : CONTACT_DUAL_NONE, changed));
   if (!*changed) PetscFunctionReturn(0);
-  sim->control->dual_gaps = dual;
   PetscCall(ContactLinearizationDestroy(&sim->solved->upcoming));
   PetscCall(PetscContainerDestroy(&sim->solved->subspace));
   PetscFunctionReturn(0);

@@ -252,29 +252,39 @@ PetscErrorCode IPTermsSum(Tao tao, Vec x, Vec force, PetscReal *sum)
   PetscFunctionReturn(0);
 }
 
+/* Creates the values of the terms at the present point, and the bounds of their forces there */
+static PetscErrorCode TermsEvaluate(Tao tao, Vec *value, Vec *bounds)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           force;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(ip->terms->t, value));
+  PetscCall(VecDuplicate(ip->terms->rho, bounds));
+  PetscCall(IPTermsValue(tao, tao->solution, *value));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(VecPointwiseMult(force, ip->at.lambda, ip->pair[IP_SLACK].w));
+  PetscCall(TermsGetBounds(tao, force, *bounds));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  PetscFunctionReturn(0);
+}
+
 /*
    Computes the largest violation of a term's law, as a length: slip that the term's force does not oppose, or the
    excess of the force over its bound divided by rho
 */
 PetscErrorCode IPTermsViolation(Tao tao, PetscReal *largest)
 {
-  TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
-  IPTerms           *terms = ip->terms;
+  IPTerms           *terms = ((TAO_IPFILTER *)tao->data)->terms;
   const PetscScalar *tau, *value, *rho, *b;
   PetscReal          local = 0.0;
   PetscInt           n;
-  Vec                v, force, bounds;
+  Vec                v, bounds;
 
   PetscFunctionBegin;
   *largest = 0.0;
   if (!terms->n) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(terms->t, &v));
-  PetscCall(VecDuplicate(terms->rho, &bounds));
-  PetscCall(IPTermsValue(tao, tao->solution, v));
-  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-  PetscCall(VecPointwiseMult(force, ip->at.lambda, ip->pair[IP_SLACK].w));
-  PetscCall(TermsGetBounds(tao, force, bounds));
-  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(TermsEvaluate(tao, &v, &bounds));
   PetscCall(VecGetLocalSize(terms->rho, &n));
   PetscCall(VecGetArrayRead(v, &value));
   PetscCall(VecGetArrayRead(bounds, &b));
@@ -300,26 +310,19 @@ PetscErrorCode IPTermsViolation(Tao tao, PetscReal *largest)
 */
 PetscErrorCode IPTermsSetUnmoved(Tao tao)
 {
-  TAO_IPFILTER      *ip      = (TAO_IPFILTER *)tao->data;
-  IPTerms           *terms   = ip->terms;
+  IPTerms           *terms   = ((TAO_IPFILTER *)tao->data)->terms;
   const PetscReal    unmoved = 1e-6; /* smallest motion that counts, relative to the largest motion of all */
   const PetscScalar *v, *rho, *b;
   PetscScalar       *tau;
   PetscReal          sizes[2];
   PetscInt           n;
-  Vec                value, force, bounds;
+  Vec                value, bounds;
 
   PetscFunctionBegin;
   if (!terms->n) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(terms->t, &value));
-  PetscCall(VecDuplicate(terms->rho, &bounds));
-  PetscCall(IPTermsValue(tao, tao->solution, value));
+  PetscCall(TermsEvaluate(tao, &value, &bounds));
   PetscCall(VecNorm(value, NORM_INFINITY, &sizes[0]));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &sizes[1]));
-  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-  PetscCall(VecPointwiseMult(force, ip->at.lambda, ip->pair[IP_SLACK].w));
-  PetscCall(TermsGetBounds(tao, force, bounds));
-  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(VecGetLocalSize(terms->rho, &n));
   PetscCall(VecGetArrayRead(value, &v));
   PetscCall(VecGetArrayRead(bounds, &b));

@@ -42,6 +42,12 @@ static inline PetscBool ContactPairFollows(const ContactPairData *pair)
   return (PetscBool)(pair->mortar.patched && pair->gap != GAP_NODE);
 }
 
+/* Returns whether the mortar gaps of a pair use dual functions */
+static inline PetscBool ContactPairIsDual(const ContactPairData *pair)
+{
+  return (PetscBool)(pair->gap == GAP_DUAL || pair->dual);
+}
+
 /* All possible rows, before any is removed. For each pair in turn, they are the nonmortar vertices that this rank
    owns. */
 typedef struct {
@@ -93,6 +99,7 @@ struct _n_Contact {
   PetscBool        frictional; /* whether any pair has friction */
   PetscBool        self;       /* whether any pair is a face in contact with itself */
   PetscBool        stretches;  /* whether the nonmortar body of any pair has a law of finite strain */
+  ContactDualPairs dual;       /* set by ContactSetDual() */
   ContactRows      rows;
   ContactNormals   normals;
   ContactCyclic    cyclic; /* cuts of sectors; NULL: none */

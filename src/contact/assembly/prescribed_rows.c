@@ -167,7 +167,7 @@ static PetscBool PrescribedRowsMatch(const ContactPairData *pair, const Prescrib
 {
   PrescribedVertex vertex;
 
-  if (pair->gap != GAP_MORTAR || pair->dual) return PETSC_FALSE;
+  if (pair->gap == GAP_NODE || ContactPairIsDual(pair)) return PETSC_FALSE;
   (void)PrescribedVertexGet(&pair->nonmortar, m, i, &vertex);
   for (PetscInt k = 0; k < n; ++k)
     if (PrescribedVertexDistance(&vertex, &list[k]) <= match_tolerance * vertex.size) return PETSC_TRUE;

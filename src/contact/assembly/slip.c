@@ -171,8 +171,7 @@ PetscErrorCode ContactSlipCreate(Contact contact, Mat couplings, const PetscInt 
       lin->slip, &lin->covered[k]));
     /* Dual functions, and the weights of a rigid surface's corners, have negative values. SlipCover(), a sum of
        magnitudes, would therefore be too large. */
-    if (pair->gap == GAP_DUAL || pair->dual || pair->formula)
-      lin->covered[k] = PetscMin(lin->covered[k], PetscRealPart(mass[k]));
+    if (ContactPairIsDual(pair) || pair->formula) lin->covered[k] = PetscMin(lin->covered[k], PetscRealPart(mass[k]));
   }
   PetscCall(VecRestoreArrayRead(lin->mass, &mass));
   PetscCall(MatAssemblyBegin(lin->slip, MAT_FINAL_ASSEMBLY));

@@ -183,7 +183,7 @@ static PetscErrorCode MortarAddFacet(const ContactRule *rule, const ContactPairD
 
   PetscFunctionBegin;
   if (!list->n) PetscFunctionReturn(0);
-  if (pair->gap == GAP_DUAL || pair->dual) {
+  if (ContactPairIsDual(pair)) {
     if (MortarGetDual(&pair->nonmortar.reference[12 * f], MortarMeasureCover(facet.x, list), dual)) facet.dual = dual;
   }
   if (smooth) ContactPatchCreate(facet.x, &pair->nonmortar.patch[12 * f], &facet.patch);
