@@ -75,7 +75,7 @@ PETSC_INTERN PetscErrorCode SpringsMeasureVolumes(const Bodies *, PetscReal volu
 PETSC_INTERN PetscErrorCode SpringsMeasureStiffness(const Bodies *, PetscReal *largest);
 PETSC_INTERN PetscErrorCode SpringsOfSize(const Bodies *, PetscReal share, Vec stiffness);
 PETSC_INTERN PetscErrorCode SpringsCreate(const Bodies *, Springs *);
-PETSC_INTERN PetscErrorCode SpringsMeasure(const Bodies *, const Springs *, Vec u, Vec *force, PetscReal *weak);
+PETSC_INTERN PetscErrorCode SpringsMeasure(const Springs *, Vec u, Vec *force, PetscReal *weak);
 PETSC_INTERN PetscErrorCode SpringsDestroy(Springs *);
 
 /* rotations.c: text for the axis of a rotation that only weak springs resist */

@@ -138,31 +138,21 @@ PetscErrorCode SpringsCreate(const Bodies *bodies, Springs *springs)
 
 /* Collective. Creates `force`, the springs' forces on the nodes, and computes *weak, the sum of the magnitudes of the
    weak springs' forces [force] */
-PetscErrorCode SpringsMeasure(const Bodies *bodies, const Springs *springs, Vec u, Vec *force, PetscReal *weak)
+PetscErrorCode SpringsMeasure(const Springs *springs, Vec u, Vec *force, PetscReal *weak)
 {
-  PetscReal sum = 0.0;
-  Vec       part;
+  Vec part;
 
   PetscFunctionBegin;
+  *weak = 0.0;
   PetscCall(VecDuplicate(u, force));
-  PetscCall(VecDuplicate(u, &part));
   PetscCall(VecPointwiseMult(*force, springs->stiffness, u));
   if (springs->between) PetscCall(MatMultAdd(springs->between, u, *force, *force));
   PetscCall(VecScale(*force, -1.0));
-  if (springs->weak) {
-    const PetscScalar *f;
-    PetscInt           n;
-
-    PetscCall(VecPointwiseMult(part, springs->weak, u));
-    PetscCall(VecGetLocalSize(part, &n));
-    PetscCall(VecGetArrayRead(part, &f));
-    for (PetscInt i = 0; i < n; i += 3)
-      sum += PetscSqrtReal(
-        PetscSqr(PetscRealPart(f[i])) + PetscSqr(PetscRealPart(f[i + 1])) + PetscSqr(PetscRealPart(f[i + 2])));
-    PetscCall(VecRestoreArrayRead(part, &f));
-  }
+  if (!springs->weak) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(u, &part));
+  PetscCall(VecPointwiseMult(part, springs->weak, u));
+  PetscCall(NodalMagnitudesSum(part, weak));
   PetscCall(VecDestroy(&part));
-  PetscCallMPI(MPI_Allreduce(&sum, weak, 1, MPIU_REAL, MPIU_SUM, bodies->comm));
   PetscFunctionReturn(0);
 }
 

@@ -369,24 +369,6 @@ static void ConeSlide(const ContactCone *cone, PetscReal motion[])
   }
 }
 
-/* Computes the sum of the magnitudes of the nodal loads */
-static PetscErrorCode EquilibriumMeasureLoad(Vec load, PetscReal *size)
-{
-  const PetscScalar *f;
-  PetscInt           n;
-
-  PetscFunctionBegin;
-  *size = 0.0;
-  PetscCall(VecGetLocalSize(load, &n));
-  PetscCall(VecGetArrayRead(load, &f));
-  for (PetscInt i = 0; i < n; i += 3)
-    *size += PetscSqrtReal(
-      PetscSqr(PetscRealPart(f[i])) + PetscSqr(PetscRealPart(f[i + 1])) + PetscSqr(PetscRealPart(f[i + 2])));
-  PetscCall(VecRestoreArrayRead(load, &f));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, size, 1, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)load)));
-  PetscFunctionReturn(0);
-}
-
 /*
    Linearizes contact at the last state three times: with the usual search distance; with dual functions, whose forces
    may act at the edges of faces; and with a search distance of the size of the bodies, since a moving body may reach
@@ -464,7 +446,7 @@ PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, St
   PetscCall(InterruptTest(sim, &stop));
   if (stop) PetscFunctionReturn(0);
   PetscCall(EquilibriumTurnBack(sim, time, force));
-  PetscCall(EquilibriumMeasureLoad(force, &size));
+  PetscCall(NodalMagnitudesSum(force, &size));
   PetscCall(FreeMotionsCreate(sim, &motions));
   if (motions.n && size > 0.0) {
     PetscCall(PetscMalloc2(motions.n, &load, motions.n, &left));

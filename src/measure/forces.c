@@ -367,11 +367,10 @@ static PetscErrorCode ForcesAddToBodies(Simulation sim, Vec forces, size_t offse
 
 static PetscErrorCode ForcesSumSprings(Simulation sim, Vec u, StepReport *report)
 {
-  const Bodies bodies = SimulationBodies(sim);
-  Vec          forces;
+  Vec forces;
 
   PetscFunctionBegin;
-  PetscCall(SpringsMeasure(&bodies, &sim->springs, u, &forces, &report->weak_spring_force));
+  PetscCall(SpringsMeasure(&sim->springs, u, &forces, &report->weak_spring_force));
   PetscCall(ForcesMeasureConnectors(sim, u, report));
   PetscCall(ForcesAddToBodies(sim, forces, offsetof(BodyReport, springs), report));
   PetscCall(VecDestroy(&forces));

@@ -43,6 +43,24 @@ PetscErrorCode VertexPlacesCreate(DM dm, VertexPlaces *places)
   PetscFunctionReturn(0);
 }
 
+/* Collective. Computes the sum of the magnitudes of a vector at the nodes of all bodies */
+PetscErrorCode NodalMagnitudesSum(Vec v, PetscReal *sum)
+{
+  const PetscScalar *a;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  *sum = 0.0;
+  PetscCall(VecGetLocalSize(v, &n));
+  PetscCall(VecGetArrayRead(v, &a));
+  for (PetscInt i = 0; i < n; i += 3)
+    *sum += PetscSqrtReal(
+      PetscSqr(PetscRealPart(a[i])) + PetscSqr(PetscRealPart(a[i + 1])) + PetscSqr(PetscRealPart(a[i + 2])));
+  PetscCall(VecRestoreArrayRead(v, &a));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)v)));
+  PetscFunctionReturn(0);
+}
+
 /* Collective. Computes the sum of a vector over the nodes of each body, 3 numbers per body */
 PetscErrorCode VertexPlacesSum(const VertexPlaces *places, Vec v, PetscInt nbodies, PetscReal sums[])
 {
