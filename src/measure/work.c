@@ -52,17 +52,17 @@ static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal take
 }
 
 /*
-   Warns at the end of a load step, once per run, if the energy balance has an error of more than 1 %. The balance shows
-   how well the load steps follow the path on which the work of friction depends. Where friction did not act there is no
-   warning.
+   Warns at the end of a load step if the energy balance has an error of more than 1 %, and of more than twice that of
+   the last warning. The balance shows how well the load steps follow the path on which the work of friction depends.
+   Where friction did not act there is no warning.
 */
 PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
 {
-  const PetscReal allowed = 1e-2;
+  const PetscReal allowed = PetscMax(1e-2, 2.0 * sim->path->told);
 
   PetscFunctionBegin;
-  if (sim->path->warned || !sim->path->pressed || !(report->imbalance > allowed)) PetscFunctionReturn(0);
-  sim->path->warned = PETSC_TRUE;
+  if (!sim->path->pressed || !(report->imbalance > allowed)) PetscFunctionReturn(0);
+  sim->path->told = report->imbalance;
   PetscCall(ReportWarn(sim->comm, &sim->report, NULL,
     "load step %" PetscInt_FMT ": %.2g %% of the work is neither stored nor taken up by friction and contact (%g of "
     "%g); use more load steps",

@@ -31,3 +31,6 @@ contact:
   - press: {mortar: bore.surface, nonmortar: ring.outer, friction: 0.2, interference: 0.25, ramp: load}
 YAML
 "$contact" press.yaml -quiet -error_estimate 0 2>&1 | sed 's/([^)]*)/(...)/'
+# Three load steps, of which the second and the third are too large
+sed 's/ramp: load/ramp: in/; s/^symmetry:/load_steps: 3\nramps:\n  - in: {factors: [0.2, 0.4, 1]}\nsymmetry:/' press.yaml > three.yaml
+"$contact" three.yaml -quiet -error_estimate 0 2>&1 | sed 's/([^)]*)/(...)/'
