@@ -56,6 +56,33 @@ static PetscErrorCode StartMeasure(MPI_Comm comm, ContactLinearization lin, Pets
 }
 
 /*
+   Sets the overlap of pairs with dual shape functions to zero if no vertex of either face is in the other body. These
+   functions have negative values, so that their gap to a curved face may be negative where the faces only touch.
+*/
+static PetscErrorCode StartClearDual(Simulation sim, PairStart starts[])
+{
+  const SceneContactPair *pairs  = sim->scene->pairs;
+  const PetscInt          npairs = sim->scene->npairs;
+  PetscReal              *depth, *rounding;
+  PetscBool              *within, any = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < npairs; ++p)
+    any = (PetscBool)(any || (pairs[p].gap == GAP_DUAL && starts[p].overlap > 0.0));
+  if (!any) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc2(npairs, &depth, npairs, &rounding));
+  PetscCall(PetscCalloc1(npairs, &within));
+  PetscCall(ContactGetPenetration(sim->contact, sim->path->u, within, depth, rounding));
+  for (PetscInt p = 0; p < npairs; ++p) {
+    if (pairs[p].gap == GAP_DUAL && depth[p] <= rounding[p] + START_ROUNDING * PetscSqrtReal(starts[p].area))
+      starts[p].overlap = 0.0;
+  }
+  PetscCall(PetscFree(within));
+  PetscCall(PetscFree2(depth, rounding));
+  PetscFunctionReturn(0);
+}
+
+/*
    Returns a text that says how the overlap differs from what the scene declares; NULL: it does not differ. The surfaces
    through the facets of curved faces have an error of less than 1 % of the overlap.
 */
@@ -153,6 +180,7 @@ PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(scene->npairs, &starts));
   PetscCall(StartMeasure(sim->comm, lin, scene->npairs, starts));
+  PetscCall(StartClearDual(sim, starts));
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *pair   = &scene->pairs[p];
     const char             *wanted = StartJudge(pair, &starts[p]);

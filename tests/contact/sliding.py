@@ -21,7 +21,7 @@ displacements:
   - slide: {{face: die.inner, value: [{slide}, free, free], ramp: along}}
 symmetry: [flat.ymin, flat.ymax, die.lmin, die.lmax]
 contact:
-  - pair: {{mortar: {sides[0]}, nonmortar: {sides[1]}}}
+  - pair: {{mortar: {sides[0]}, nonmortar: {sides[1]}{gap}}}
 load: {{factors: [{whole}]}}
 ramps:
   - along: {{factors: [{along}]}}
@@ -53,10 +53,11 @@ def write():
     times = [i / STEPS for i in range(STEPS + 1)]
     angles = [math.radians(50 * t - 25) for t in times]
     sides = ("flat.zmax", "die.outer")
-    for name, around, pair in (("die", 16, sides), ("flat", 24, sides[::-1])):
+    for name, around, pair, gap in (("die", 16, sides, ""), ("flat", 24, sides[::-1], ""),
+                                    ("dual", 24, sides[::-1], ", gap: dual")):
         with open(name + ".yaml", "w") as file:
             file.write(
-                FLAT.format(radius=DIE, inner=DIE - 1.5, around=around, press=-PRESS, slide=SLIDE, sides=pair,
+                FLAT.format(radius=DIE, inner=DIE - 1.5, around=around, press=-PRESS, slide=SLIDE, sides=pair, gap=gap,
                             whole=numbers([1] * len(times)), along=numbers(times)))
     with open("pin.yaml", "w") as file:
         file.write(
@@ -65,7 +66,7 @@ def write():
 
 
 def judge():
-    for name, limit in (("die", 0.1), ("pin", 0.5), ("flat", 1.1)):
+    for name, limit in (("die", 0.1), ("pin", 0.5), ("flat", 1.1), ("dual", 1.1)):
         run = load(name)
         force = np.array([np.linalg.norm(step["pairs"][0]["force"]) for step in run["steps"]])
         x = np.linspace(-1, 1, len(force))

@@ -4,7 +4,7 @@
 contact=$AMGF_DIR/bin/contact
 
 "$PYTHON" "$AMGF_DIR/tests/contact/sliding.py" write
-for name in die flat pin; do
+for name in die flat dual pin; do
   "$contact" $name.yaml -quiet -error_estimate 0 -summary $name.json || echo "$name: exit code $?"
 done
 "$PYTHON" "$AMGF_DIR/tests/contact/sliding.py" judge
