@@ -64,7 +64,8 @@ static PetscErrorCode CycleApplyAMG(PC pc, PetscBool adjoint, Vec r, Vec z)
     PetscCall(PetscObjectTypeCompare((PetscObject)amgf->amg, PCHYPRE, &hypre));
     if (hypre) adjoint = PETSC_FALSE;
   }
-  if (amgf->factor.on) PetscCall(MatSolve(amgf->factor.F, r, z));
+  if (amgf->factor.on && !amgf->factor.F) PetscCall(VecSet(z, 0.0)); /* the factorization failed */
+  else if (amgf->factor.on) PetscCall(MatSolve(amgf->factor.F, r, z));
   else if (adjoint && amgf->lag.built) {
     PetscCall(CycleConjugate(r));
     PetscCall(PCApplyTranspose(amgf->amg, r, z));
@@ -127,16 +128,18 @@ static PetscErrorCode CycleApplyBFB(PC pc, PetscBool adjoint, Vec r, Vec z)
   PC_AMGF  *amgf     = (PC_AMGF *)pc->data;
   Vec       residual = amgf->w[0], work = amgf->w[1];
   const Mat A = pc->useAmat ? pc->mat : pc->pmat;
+  AMGFStamp now;
 
   PetscFunctionBegin;
+  PetscCall(MatGetStamp_AMGF(A, &now));
   PetscCall(CycleApplyAMG(pc, adjoint, r, z));
   PetscCall(MatMult(A, z, work));
   PetscCall(VecWAXPY(residual, -1.0, work, r));
   PetscCall(CycleRestrict(amgf, residual, amgf->rc));
   PetscCall(CycleSolveFilter(pc, adjoint));
   PetscCall(CycleProlongAdd(amgf, amgf->ec, z));
-  if (A == pc->pmat) PetscCall(CycleSubtractFiltered(amgf, work, residual));
-  else { /* R was computed from the Pmat. With another matrix as A, R^H ec would make the cycle unsymmetric. */
+  if (AMGFStampSameValues(&now, &amgf->galerkin)) PetscCall(CycleSubtractFiltered(amgf, work, residual));
+  else { /* R was computed from another matrix, or from older values. R^H ec would make the cycle unsymmetric. */
     PetscCall(MatMult(A, z, work));
     PetscCall(VecWAXPY(residual, -1.0, work, r));
   }
@@ -183,7 +186,7 @@ static PetscErrorCode CycleApplyAdditive(PC pc, PetscBool adjoint, Vec r, Vec z)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CycleApply(PC pc, PetscBool adjoint, Vec r, Vec z)
+static PetscErrorCode CycleApplyChosen(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
 
@@ -195,13 +198,21 @@ static PetscErrorCode CycleApply(PC pc, PetscBool adjoint, Vec r, Vec z)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PCApply_AMGF(PC pc, Vec r, Vec z)
+/* Applies the cycle or its adjoint. The set-up is repeated if the subspace has changed since. */
+static PetscErrorCode CycleApply(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PetscBool stale;
 
   PetscFunctionBegin;
   PetscCall(PCAMGFSubspaceIsStale_Private(pc, &stale));
   if (stale) PetscCall(PCSetUp_AMGF(pc));
+  PetscCall(CycleApplyChosen(pc, adjoint, r, z));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCApply_AMGF(PC pc, Vec r, Vec z)
+{
+  PetscFunctionBegin;
   PetscCall(CycleApply(pc, PETSC_FALSE, r, z));
   PetscCall(VecFlag(z, pc->failedreason)); /* makes the KSP look at the reason of the failure */
   PetscFunctionReturn(0);
@@ -223,14 +234,16 @@ PetscErrorCode PCApplyTranspose_AMGF(PC pc, Vec r, Vec z)
   PetscFunctionReturn(0);
 }
 
-/* Finds the function by which the AMG computes B r and A B r at once; NULL if it has none, or belongs to another A */
+/* Finds the function by which the AMG computes B r and A B r at once; NULL if it has none, or if A is not the matrix
+   from which the AMG was built */
 static PetscErrorCode CycleFindProduct(PC pc, PetscErrorCode (**apply)(PC, Vec, Vec, Vec))
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
 
   PetscFunctionBegin;
   *apply = NULL;
-  if (amgf->factor.on || !amgf->lag.built || amgf->lag.age || (amgf->active && amgf->sub.n)) PetscFunctionReturn(0);
+  if (amgf->factor.on || !amgf->lag.built || amgf->lag.age || (amgf->active && amgf->sub.n) || pc->mat != pc->pmat)
+    PetscFunctionReturn(0);
   PetscCall(PetscObjectQueryFunction((PetscObject)amgf->amg, "PCBlockAMGApplyProduct_C", apply));
   PetscFunctionReturn(0);
 }

@@ -326,6 +326,7 @@ PetscErrorCode PCAMGFFactorSetUp_Private(PC pc)
   if (f->flops < PETSC_INFINITY) PetscCall(FactorNumerically(f->F, A, &error));
   PetscCall(PetscInfo(pc, "Cholesky factorization instead of the AMG failed with error %d\n", (int)error));
   f->failed = (PetscBool)(error != MAT_FACTOR_NOERROR);
+  if (f->failed) PetscCall(MatDestroy(&f->F)); /* MUMPS does not factor again after it has failed */
   PetscCall(MatDestroy(&A));
   PetscFunctionReturn(0);
 }
@@ -335,6 +336,9 @@ PetscErrorCode PCAMGFSetFactor_AMGF(PC pc, PCAMGFFactorUse use)
   AMGFFactor *f = &((PC_AMGF *)pc->data)->factor;
 
   PetscFunctionBegin;
+  PetscCheck(use >= PC_AMGF_FACTOR_FALSE && use <= PC_AMGF_FACTOR_AUTO, PetscObjectComm((PetscObject)pc),
+    PETSC_ERR_ARG_OUTOFRANGE, "%d is not a value of PCAMGFFactorUse", (int)use);
+  if (use != PC_AMGF_FACTOR_AUTO) f->why[0] = '\0';
   if (f->on && use == PC_AMGF_FACTOR_FALSE) {
     PetscCall(PCAMGFFactorReset_Private(f));
     ((PC_AMGF *)pc->data)->lag.built = PETSC_FALSE;
@@ -352,6 +356,8 @@ PetscErrorCode PCAMGFExpect_AMGF(PC pc, PetscReal applications, PetscReal solves
   PetscFunctionBegin;
   PetscCheck(pc->pmat, PetscObjectComm((PetscObject)pc), PETSC_ERR_ORDER,
     "Call PCSetOperators() or KSPSetOperators() before PCAMGFExpect(), which estimates the time of a factorization");
+  PetscCheck(applications >= 0.0 && solves >= 0.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
+    "The expected numbers of applications must not be negative: %g and %g", (double)applications, (double)solves);
   PetscCall(PCAMGFConfigureInner_Private(pc)); /* The costs depend on which AMG would be used. */
   PetscCall(FactorExpect(pc, applications, solves));
   if (f->on != on) pc->setupcalled = 0;

@@ -10,11 +10,14 @@ static PetscErrorCode LagFromString(PC pc, const char string[])
   PetscFunctionBegin;
   PetscCall(PetscStrcasecmp(string, "auto", &automatic));
   if (!automatic) {
-    char *end;
+    char      *end;
+    const long number = strtol(string, &end, 10);
 
-    lag = (PetscInt)strtol(string, &end, 10);
-    PetscCheck(end != string && !*end, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_WRONG,
-      "-pc_amgf_amg_lag takes a whole number or auto, not \"%s\"", string);
+    PetscCheck(end != string && !*end && number >= AMGF_LAG_NEVER && number <= PETSC_MAX_INT,
+      PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_WRONG,
+      "-pc_amgf_amg_lag takes a whole number from %d to %" PetscInt_FMT " or auto, not \"%s\"", AMGF_LAG_NEVER,
+      PETSC_MAX_INT, string);
+    lag = (PetscInt)number;
   }
   PetscCall(PCAMGFSetAMGLag(pc, lag));
   PetscFunctionReturn(0);

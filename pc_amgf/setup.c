@@ -40,11 +40,36 @@ static PetscErrorCode SetUpWarn(PC pc)
   PetscFunctionReturn(0);
 }
 
+/* Sets up the solver of the filtered system. MUMPS does not factor again after it has failed, so that a solver that
+   failed is created anew. same: the filtered system has the same rows as before */
+static PetscErrorCode SetUpFilterSolver(PC pc, PetscBool same)
+{
+  PC_AMGF       *amgf = (PC_AMGF *)pc->data;
+  PCFailedReason reason;
+  PC             inner;
+
+  PetscFunctionBegin;
+  PetscCall(KSPSetErrorIfNotConverged(amgf->filter, pc->erroriffailure));
+  /* A matrix of another size needs a new factorization object. */
+  if (!same || amgf->filter_failed) {
+    PetscCall(KSPReset(amgf->filter));
+    PetscCall(PCAMGFFewRanksReset_Private(&amgf->few));
+  }
+  PetscCall(KSPSetOperators(amgf->filter, amgf->Aw, amgf->Aw));
+  PetscCall(KSPSetUp(amgf->filter));
+  PetscCall(KSPGetPC(amgf->filter, &inner));
+  PetscCall(PCGetFailedReason(inner, &reason));
+  amgf->filter_failed = reason ? PETSC_TRUE : PETSC_FALSE;
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, &amgf->filter_failed, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)pc)));
+  PetscCall(SetUpCheckInner(pc, inner));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SetUpFilter(PC pc)
 {
   PC_AMGF  *amgf = (PC_AMGF *)pc->data;
   PetscBool same;
-  PC        inner;
 
   PetscFunctionBegin;
   if (!amgf->active) PetscFunctionReturn(0);
@@ -52,16 +77,7 @@ static PetscErrorCode SetUpFilter(PC pc)
   PetscCall(PCAMGFUpdateSubspace_Private(pc, &same));
   if (amgf->sub.n) {
     PetscCall(PCAMGFUpdateGalerkin_Private(pc, same));
-    PetscCall(KSPSetErrorIfNotConverged(amgf->filter, pc->erroriffailure));
-    /* A matrix of another size needs a new factorization object. */
-    if (!same) {
-      PetscCall(KSPReset(amgf->filter));
-      PetscCall(PCAMGFFewRanksReset_Private(&amgf->few));
-    }
-    PetscCall(KSPSetOperators(amgf->filter, amgf->Aw, amgf->Aw));
-    PetscCall(KSPSetUp(amgf->filter));
-    PetscCall(KSPGetPC(amgf->filter, &inner));
-    PetscCall(SetUpCheckInner(pc, inner));
+    PetscCall(SetUpFilterSolver(pc, same));
     amgf->counts.filter_setups++;
   } else {
     PetscCall(SetUpWarn(pc));

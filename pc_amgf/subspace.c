@@ -37,8 +37,9 @@ static PetscErrorCode SubspaceGetComposed(PC pc, PetscObject *composed, PetscObj
 }
 
 /*
-   PCAMGFSubspaceIsStale_Private - finds whether the object composed on the operator was replaced or changed since the
-   last set-up. PETSc does not repeat the set-up while the operator is unchanged.
+   PCAMGFSubspaceIsStale_Private - finds whether the interpolation of the subspace, or the object composed on the
+   operator, was replaced or changed since the last set-up. PETSc does not repeat the set-up while the operator is
+   unchanged.
 */
 PetscErrorCode PCAMGFSubspaceIsStale_Private(PC pc, PetscBool *stale)
 {
@@ -47,10 +48,16 @@ PetscErrorCode PCAMGFSubspaceIsStale_Private(PC pc, PetscBool *stale)
   PetscObject         composed;
   PetscObjectId       id;
   PetscObjectState    state;
+  AMGFStamp           now;
 
   PetscFunctionBegin;
   *stale = PETSC_FALSE;
-  if (!amgf->active || amgf->set_is || amgf->set_P || pc->reusepreconditioner) PetscFunctionReturn(0);
+  if (!amgf->active || amgf->set_is || pc->reusepreconditioner) PetscFunctionReturn(0);
+  if (amgf->set_P) {
+    PetscCall(MatGetStamp_AMGF(amgf->set_P, &now));
+    *stale = (PetscBool)!AMGFStampSameValues(&now, &sub->stamp);
+    PetscFunctionReturn(0);
+  }
   PetscCall(SubspaceGetComposed(pc, &composed, &id, &state));
   *stale = (PetscBool)(id != sub->composed_id || state != sub->composed_state);
   PetscFunctionReturn(0);
@@ -96,18 +103,18 @@ static PetscErrorCode SubspaceFindSource(PC pc, AMGFSource *source, IS *is, Mat 
 
 static PetscErrorCode SubspaceCheckRange(PC pc, PetscInt n, const PetscInt idx[])
 {
-  PetscInt N, extreme[2] = {0, 0}; /* minus the smallest row number; the largest row number */
+  PetscInt N, extreme[2] = {-1, -1}; /* -1 minus the smallest row number; the largest row number */
 
   PetscFunctionBegin;
   PetscCall(MatGetSize(pc->pmat, &N, NULL));
   for (PetscInt i = 0; i < n; i++) {
-    extreme[0] = PetscMax(extreme[0], -idx[i]);
+    extreme[0] = PetscMax(extreme[0], -1 - idx[i]);
     extreme[1] = PetscMax(extreme[1], idx[i]);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, extreme, 2, MPIU_INT, MPI_MAX, PetscObjectComm((PetscObject)pc)));
-  PetscCheck(extreme[0] == 0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
-    "Filter row %" PetscInt_FMT " is negative", -extreme[0]);
-  PetscCheck(extreme[1] == 0 || extreme[1] < N, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
+  PetscCheck(extreme[0] < 0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
+    "Filter row %" PetscInt_FMT " is negative", -1 - extreme[0]);
+  PetscCheck(extreme[1] < N, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
     "Filter row %" PetscInt_FMT " is not among the %" PetscInt_FMT " rows of the operator", extreme[1], N);
   PetscFunctionReturn(0);
 }

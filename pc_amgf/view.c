@@ -38,7 +38,7 @@ static PetscErrorCode ViewFilter(PC pc, PetscViewer viewer)
       "  filter: switched off, only the AMG is used; last dimension %" PetscInt_FMT "\n", amgf->sub.n));
   else
     PetscCall(PetscViewerASCIIPrintf(viewer, "  filter: %s, dimension %" PetscInt_FMT "%s\n", sources[amgf->sub.source],
-      amgf->sub.n, amgf->sub.n ? "" : ", only the AMG is used"));
+      amgf->sub.n, amgf->sub.n || amgf->factor.on ? "" : ", only the AMG is used"));
   if (amgf->sub.source == AMGF_SOURCE_FILE)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  filter file: %s\n", amgf->file));
   if (amgf->sub.source == AMGF_SOURCE_DETECT)
@@ -68,7 +68,11 @@ PetscErrorCode PCView_AMGF(PC pc, PetscViewer viewer)
     PetscViewerASCIIPrintf(viewer, amgf->factor.on ? "  a factorization is used instead of the AMG:\n" : "  AMG:\n"));
   PetscCall(PetscViewerASCIIPushTab(viewer));
   if (!amgf->factor.on) PetscCall(PCView(amgf->amg, viewer));
-  else if (amgf->factor.F) PetscCall(MatView(amgf->factor.F, viewer));
+  else if (amgf->factor.F) {
+    PetscCall(PetscViewerPushFormat(viewer, PETSC_VIEWER_ASCII_INFO)); /* matrices of factors have no other format */
+    PetscCall(MatView(amgf->factor.F, viewer));
+    PetscCall(PetscViewerPopFormat(viewer));
+  }
   PetscCall(PetscViewerASCIIPopTab(viewer));
   if (amgf->active && amgf->sub.n) {
     PetscCall(PetscViewerASCIIPrintf(viewer, "  filter solver:\n"));

@@ -47,14 +47,16 @@ static PetscErrorCode PCDestroy_BlockAMG(PC pc)
    max(a/4, (a - 0.9 g)/2) is added to the diagonal entry.
 
    The preconditioner is symmetric to the rounding errors of single precision, and positive definite. `KSPCG` with it
-   attains the same residuals as with one in double precision. Matrices and vectors are scaled by powers of 2, so units
-   have no influence. If coupled rows differ in stiffness by a factor of 1e7, the contribution of the soft rows is lost
-   in rounding: use `PCHYPRE` for such operators. Only the lower triangle is used on each rank.
+   attains the same residuals as with one in double precision. Pipelined methods, such as `KSPPIPECG` and `KSPGROPPCG`,
+   do not: they replace applications by recurrences, which hold for a linear preconditioner only, and this one is linear
+   to 1e-7. Use `PCHYPRE` with them. Matrices and vectors are scaled by powers of 2, so units have no influence. If
+   coupled rows differ in stiffness by a factor of 1e7, the contribution of the soft rows is lost in rounding: use
+   `PCHYPRE` for such operators. Only the lower triangle is used on each rank.
 
-   For an indefinite operator, negative eigenvalues of diagonal blocks are replaced by their absolute values: the
-   preconditioner stays positive definite, and `KSPCG` ends with `KSP_DIVERGED_INDEFINITE_MAT`. A diagonal entry of
-   zero, or one that is not finite, makes the set-up fail: `KSP_DIVERGED_PC_FAILED`, or an error under
-   `-ksp_error_if_not_converged`.
+   For an indefinite operator, negative eigenvalues of diagonal blocks are replaced by their absolute values: `KSPCG`
+   then ends with `KSP_DIVERGED_INDEFINITE_MAT`, or with `KSP_DIVERGED_NANORINF` if the cycle diverges beyond the range
+   of single precision. A diagonal entry of zero, or one that is not finite, makes the set-up fail:
+   `KSP_DIVERGED_PC_FAILED`, or an error under `-ksp_error_if_not_converged`.
 
 .seealso: `PCAMGF`, `PCHYPRE`, `PCGAMG`, `KSPCG`
 M*/

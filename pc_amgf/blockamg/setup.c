@@ -63,6 +63,21 @@ static PetscErrorCode SetUpConvertOperator(PC pc, Mat *matrix, PetscBool *later)
   PetscFunctionReturn(0);
 }
 
+/* Checks that no option has selected another preconditioner of hypre, which has no hierarchy */
+static PetscErrorCode SetUpCheckType(PC pc)
+{
+  PC          hypre = ((PC_BlockAMG *)pc->data)->hypre;
+  PetscBool   boomeramg;
+  const char *type;
+
+  PetscFunctionBegin;
+  PetscCall(PCHYPREGetType(hypre, &type));
+  PetscCall(PetscStrcmp(type, "boomeramg", &boomeramg));
+  PetscCheck(boomeramg, PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP,
+    "PCBLOCKAMG needs the hierarchy of hypre's BoomerAMG, but -pc_hypre_type is %s", type);
+  PetscFunctionReturn(0);
+}
+
 /* Lets hypre set up its hierarchy. *failed: hypre reported an error on some rank. later: see SetUpConvertOperator(). */
 static PetscErrorCode SetUpHypre(PC pc, PetscBool *later, PetscBool *failed)
 {
@@ -84,6 +99,7 @@ static PetscErrorCode SetUpHypre(PC pc, PetscBool *later, PetscBool *failed)
                                                                 does not */
   PetscCall(MatDestroy(&matrix));
   PetscCall(PCAMGFConfigureBoomerAMG_Private(amg->hypre, bs, PETSC_FALSE));
+  PetscCall(SetUpCheckType(pc));
   PetscCall(PCAMGFGuardBegin_Private(&guard, NULL));
   error = PCSetUp(amg->hypre);
   PetscCall(PCAMGFGuardEnd_Private(&guard, error, failed));

@@ -67,8 +67,7 @@ static PetscErrorCode StartClearDual(Simulation sim, PairStart starts[])
   PetscBool              *within, any = PETSC_FALSE;
 
   PetscFunctionBegin;
-  for (PetscInt p = 0; p < npairs; ++p)
-    any = (PetscBool)(any || (pairs[p].gap == GAP_DUAL && starts[p].overlap > 0.0));
+  for (PetscInt p = 0; p < npairs; ++p) any = (PetscBool)(any || (pairs[p].gap == GAP_DUAL && starts[p].overlap > 0.0));
   if (!any) PetscFunctionReturn(0);
   PetscCall(PetscMalloc2(npairs, &depth, npairs, &rounding));
   PetscCall(PetscCalloc1(npairs, &within));

@@ -32,5 +32,6 @@ contact:
 YAML
 "$contact" press.yaml -quiet -error_estimate 0 2>&1 | sed 's/([^)]*)/(...)/'
 # Three load steps, of which the second and the third are too large
-sed 's/ramp: load/ramp: in/; s/^symmetry:/load_steps: 3\nramps:\n  - in: {factors: [0.2, 0.4, 1]}\nsymmetry:/' press.yaml > three.yaml
+sed 's/ramp: load/ramp: in/' press.yaml > three.yaml
+printf 'load_steps: 3\nramps:\n  - in: {factors: [0.2, 0.4, 1]}\n' >> three.yaml
 "$contact" three.yaml -quiet -error_estimate 0 2>&1 | sed 's/([^)]*)/(...)/'
