@@ -85,9 +85,9 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    sweep of Gauss-Seidel, forward on the way down and backward on the way up. With real scalars and an operator of type
    AIJ, BAIJ or SBAIJ this is `PCBLOCKAMG`, in single precision. hypre's own cycle, in double precision and with l1
    Gauss-Seidel, is used instead in four cases: with other matrix types; if positive diagonal entries of coupled rows
-   differ by a factor of more than 1e7 (`bfb`: 1e4), which is too large for single precision; with `-amgf_amg_pc_type
-   hypre`, which pipelined Krylov methods need; and if an option of hypre's own cycle is given, for example
-   `-amgf_amg_pc_hypre_boomeramg_relax_type_all`.
+   differ by a factor of more than 1e7 (`bfb`: 1e4), which is too large for single precision; with
+   `-amgf_amg_pc_type hypre`, for example because the Krylov method is pipelined; and if an option of hypre's own cycle
+   is given, for example `-amgf_amg_pc_hypre_boomeramg_relax_type_all`.
 
    Without hypre the default AMG is `PCGAMG`. With complex scalars its interpolation is not smoothed: the restriction of
    `PCGAMG` is the transpose without conjugation, and B would not be Hermitian.
