@@ -213,6 +213,8 @@ typedef struct {
   PetscBool   inclined;    /* an inclined symmetry plane: the displacement along `normal` is zero, and no single
                             component is prescribed */
   PetscReal   normal[3];   /* normal of the plane; its length has no influence */
+  PetscBool   symmetry;    /* a symmetry plane */
+  PetscBool   unnamed;     /* a symmetry plane of which the scene has only the face; `name` is made from it */
   DisplacementPlace at;
   PetscInt          body;           /* body of the point or edge */
   PetscReal         from[3], to[3]; /* ends of the edge; for a point both are the same [length] */
