@@ -87,6 +87,7 @@ static PetscErrorCode AppRunScene(const AppOptions *app, RunEnd *end)
   PetscFunctionBeginUser;
   if (!app->quiet) PetscCall(AppShowProgress());
   PetscCall(SceneLoad(PETSC_COMM_WORLD, app->scene, &scene));
+  PetscCall(SceneCheckOptions(PETSC_COMM_WORLD, scene));
   PetscCall(OptionsCheck(PETSC_COMM_WORLD));
   PetscCall(ContactDetect(PETSC_COMM_WORLD, scene));
   PetscCall(AppLeaveUnusedOptions());

@@ -374,9 +374,11 @@ typedef struct {
 
 /* A PETSc option, without its leading dash */
 typedef struct {
-  char     *name, *value;
-  PetscBool set; /* whether the scene's value is used, because neither the command line nor an options file sets the
-                    option */
+  char       *name;
+  const char *place;
+  char       *value;
+  PetscBool   set; /* whether the scene's value is used, because neither the command line nor an options file sets the
+                      option */
 } SceneOption;
 
 /* The keys of a scene file, and their places "FILE: line N: " */

@@ -30,6 +30,7 @@ static const Mistake mistakes[] = {
   {"malformed: bracket", "[0, 0, 0], upper", "[0, 0, 0, upper"},
   {"malformed: no mapping", sound, "just a sentence\n"},
   {"malformed: tab", "  - slab", "\t- slab"},
+  {"malformed: alias of nothing", "value: [0, 0, 0]", "value: *zero"},
   {"malformed: no UTF-8", "press", "pr\xffss"},
   {"sound: a mark of UTF-8", "problem", "\xef\xbb\xbfproblem"},
   {"sound: keys of two entries alike", "top: {face", "bottom_face: {face"},
