@@ -87,6 +87,7 @@ static PetscErrorCode AppRunScene(const AppOptions *app, RunEnd *end)
   PetscFunctionBeginUser;
   if (!app->quiet) PetscCall(AppShowProgress());
   PetscCall(SceneLoad(PETSC_COMM_WORLD, app->scene, &scene));
+  PetscCall(SceneCheckOptions(PETSC_COMM_WORLD, scene));
   PetscCall(OptionsCheck(PETSC_COMM_WORLD));
   PetscCall(ContactDetect(PETSC_COMM_WORLD, scene));
   PetscCall(AppLeaveUnusedOptions());
@@ -104,14 +105,12 @@ static PetscErrorCode AppRun(int argc, char **argv, AppError *error, ReportPage 
   AppOptions app;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscPushErrorHandler(AppHandleError, error));
   PetscCall(OptionsCheckValues(PETSC_COMM_WORLD));
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-traceback", &error->traceback, NULL));
   PetscCall(AppGetOptions(argc, argv, &app));
   PetscCall(AppCheckWords(argc, argv));
   if (app.scene[0]) PetscCall(AppRunScene(&app, end));
   if (app.scene[0] && !app.check) PetscCall(AppDescribePage(&app, argc, argv, page));
-  PetscCall(PetscPopErrorHandler());
   PetscFunctionReturn(0);
 }
 
@@ -158,7 +157,8 @@ int main(int argc, char **argv)
 
   AppLimitHeap();
   if (word) argc = 1;
-  ierr = AppInitialize(&argc, &argv);
+  ierr = PetscPushErrorHandler(AppHandleError, &error); /* also for errors in files of options */
+  if (!ierr) ierr = AppInitialize(&argc, &argv);
   if (ierr) return RUN_REFUSED;
   error.said = dup(STDERR_FILENO);
   ierr       = PetscPushSignalHandler(AppCrash, &error);
@@ -168,6 +168,7 @@ int main(int argc, char **argv)
   ierr = PetscLogDefaultBegin();
   if (!ierr) ierr = word ? AppSayText(word) : AppRun(argc, argv, &error, &page, &end);
   if (ierr) AppLeave(&error);
+  (void)PetscPopErrorHandler();
   MPI_Comm_free(&error.meeting);
   if (fflush(stdout) || ferror(stdout)) {
     fprintf(stderr, "contact: error: cannot print: %s\n", strerror(errno));

@@ -50,7 +50,7 @@ static PetscErrorCode AppReport(const AppOptions *app, const RunReport *report)
   if (app->summarize) PetscCall(ReportWriteJSON(PETSC_COMM_WORLD, report, app->summary));
   if (!report->converged)
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, stderr, "contact: load step %" PetscInt_FMT " failed: %s\n",
-      report->nsteps, report->reason));
+      report->steps[report->nsteps - 1].step, report->reason));
   else if (report->exit_code == RUN_ACCURACY_MISSED)
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, stderr, "contact: accuracy %g: %s\n", (double)report->accuracy->target,
       report->accuracy->end));

@@ -213,6 +213,8 @@ typedef struct {
   PetscBool   inclined;    /* an inclined symmetry plane: the displacement along `normal` is zero, and no single
                             component is prescribed */
   PetscReal   normal[3];   /* normal of the plane; its length has no influence */
+  PetscBool   symmetry;    /* a symmetry plane */
+  PetscBool   unnamed;     /* a symmetry plane of which the scene has only the face; `name` is made from it */
   DisplacementPlace at;
   PetscInt          body;           /* body of the point or edge */
   PetscReal         from[3], to[3]; /* ends of the edge; for a point both are the same [length] */
@@ -372,9 +374,11 @@ typedef struct {
 
 /* A PETSc option, without its leading dash */
 typedef struct {
-  char     *name, *value;
-  PetscBool set; /* whether the scene's value is used, because neither the command line nor an options file sets the
-                    option */
+  char       *name;
+  const char *place;
+  char       *value;
+  PetscBool   set; /* whether the scene's value is used, because neither the command line nor an options file sets the
+                      option */
 } SceneOption;
 
 /* The keys of a scene file, and their places "FILE: line N: " */

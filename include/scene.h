@@ -19,6 +19,7 @@ PETSC_EXTERN PetscErrorCode SceneCompare(Scene, const char text[], char differen
 PETSC_EXTERN PetscErrorCode SceneChooseElements(Scene, DM dm, ElementType elements[], const char *reasons[]);
 /* Prints what will be simulated on the mesh dm */
 PETSC_EXTERN PetscErrorCode SceneDescribe(Scene, DM dm, PetscViewer);
+PETSC_EXTERN PetscErrorCode SceneCheckOptions(MPI_Comm, Scene);
 PETSC_EXTERN PetscErrorCode SceneReportUnusedOptions(MPI_Comm, Scene);
 PETSC_EXTERN PetscErrorCode SceneDestroy(Scene *);
 

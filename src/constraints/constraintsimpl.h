@@ -159,4 +159,7 @@ PETSC_INTERN PetscErrorCode TiesSet(const Ties *, PetscReal value, Vec);
 PETSC_INTERN PetscErrorCode TiesGetForces(const Constraints *, Vec force, Vec *ties, Vec *rigid);
 PETSC_INTERN PetscErrorCode TiesDestroy(Ties *);
 
+/* face_forces.c: how the reaction at a node is divided among the faces of the node */
+PETSC_INTERN PetscErrorCode FaceForcesDivide(const Constraints *, Vec reaction, Vec ties, Vec *m);
+
 #endif

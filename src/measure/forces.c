@@ -36,11 +36,10 @@ static PetscErrorCode ForceFieldRestore(Simulation sim, Vec u, Vec force, ForceF
   PetscFunctionReturn(0);
 }
 
-/* Adds the force of one row, divided by the number of faces that share the row */
-static void ForceSumAddRow(const ForceField *field, PetscInt row, PetscInt sharers, ForceSum *sum)
+/* Adds the force f in one row of this rank */
+static void ForceSumAddRow(const ForceField *field, PetscInt i, PetscReal f, ForceSum *sum)
 {
-  const PetscInt  i = row - field->rstart, c = i % 3, d = (c + 1) % 3, e = (c + 2) % 3, v = i - c;
-  const PetscReal f = PetscRealPart(field->force[i]) / (PetscReal)sharers;
+  const PetscInt c = i % 3, d = (c + 1) % 3, e = (c + 2) % 3, v = i - c;
 
   sum->force[c] += f;
   sum->size += PetscAbsReal(f);
@@ -48,12 +47,9 @@ static void ForceSumAddRow(const ForceField *field, PetscInt row, PetscInt share
   sum->moment[e] -= PetscRealPart(field->x[v + d] + field->u[v + d]) * f;
 }
 
-/*
-   Adds the forces on a face, for the components that are true in component[]. sharers: number of faces that share each
-   row of this rank; NULL: one.
-*/
+/* Adds the forces on a face, for the components that are true in component[] */
 static PetscErrorCode ForceSumAddFace(Simulation sim, const ForceField *field, const char face[],
-  const PetscBool component[3], const PetscInt sharers[], ForceSum *sum)
+  const PetscBool component[3], ForceSum *sum)
 {
   PetscFunctionBegin;
   for (PetscInt c = 0; c < 3; ++c) {
@@ -65,11 +61,41 @@ static PetscErrorCode ForceSumAddFace(Simulation sim, const ForceField *field, c
     PetscCall(MeshGetFaceDofs(sim->dm, face, c, &is));
     PetscCall(ISGetLocalSize(is, &n));
     PetscCall(ISGetIndices(is, &rows));
-    for (PetscInt k = 0; k < n; ++k)
-      ForceSumAddRow(field, rows[k], sharers ? sharers[rows[k] - field->rstart] : 1, sum);
+    for (PetscInt k = 0; k < n; ++k) {
+      const PetscInt i = rows[k] - field->rstart;
+
+      ForceSumAddRow(field, i, PetscRealPart(field->force[i]), sum);
+    }
     PetscCall(ISRestoreIndices(is, &rows));
     PetscCall(ISDestroy(&is));
   }
+  PetscFunctionReturn(0);
+}
+
+/* Adds the components of the forces on a face along a normal */
+static PetscErrorCode ForceSumAddPlane(Simulation sim, const ForceField *field, const char face[],
+  const PetscReal normal[3], ForceSum *sum)
+{
+  PetscReal       d[3];
+  IS              is;
+  const PetscInt *rows;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(d, normal, 3));
+  VectorScaleToUnit(d);
+  PetscCall(MeshGetFaceDofs(sim->dm, face, 0, &is));
+  PetscCall(ISGetLocalSize(is, &n));
+  PetscCall(ISGetIndices(is, &rows));
+  for (PetscInt k = 0; k < n; ++k) {
+    const PetscInt  i    = rows[k] - field->rstart;
+    const PetscReal f[3] = {PetscRealPart(field->force[i]), PetscRealPart(field->force[i + 1]),
+      PetscRealPart(field->force[i + 2])};
+
+    for (PetscInt c = 0; c < 3; ++c) ForceSumAddRow(field, i + c, VectorDot(d, f) * d[c], sum);
+  }
+  PetscCall(ISRestoreIndices(is, &rows));
+  PetscCall(ISDestroy(&is));
   PetscFunctionReturn(0);
 }
 
@@ -129,7 +155,7 @@ static PetscErrorCode ForcesAddFace(Simulation sim, const char face[], Vec u, Ve
 
   PetscFunctionBegin;
   PetscCall(ForceFieldGet(sim, u, force, &field));
-  PetscCall(ForceSumAddFace(sim, &field, face, all, NULL, sum));
+  PetscCall(ForceSumAddFace(sim, &field, face, all, sum));
   PetscCall(ForceFieldRestore(sim, u, force, &field));
   PetscFunctionReturn(0);
 }
@@ -216,38 +242,11 @@ PetscErrorCode ForcesMeasurePairs(Simulation sim, Vec u, Vec weighted, Vec shear
   PetscFunctionReturn(0);
 }
 
-/* Counts the faces that prescribe each row */
-static PetscErrorCode ForcesCountSharers(Simulation sim, PetscInt rstart, PetscInt sharers[])
+/* Adds the forces at all nodes of a rigid body that forces drive to *sum, and sets them to zero in `rigid` */
+static PetscErrorCode ForcesTakeAll(Simulation sim, Vec u, Vec rigid, const char face[], ForceSum *sum)
 {
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < sim->scene->ndisplacements; ++i) {
-    const SceneDisplacement *d = &sim->scene->displacements[i];
-
-    for (PetscInt c = 0; c < 3; ++c) {
-      IS              is;
-      const PetscInt *rows;
-      PetscInt        n;
-
-      if (!d->fixed[c]) continue;
-      PetscCall(MeshGetFaceDofs(sim->dm, d->face, c, &is));
-      PetscCall(ISGetLocalSize(is, &n));
-      PetscCall(ISGetIndices(is, &rows));
-      for (PetscInt k = 0; k < n; ++k) ++sharers[rows[k] - rstart];
-      PetscCall(ISRestoreIndices(is, &rows));
-      PetscCall(ISDestroy(&is));
-    }
-  }
-  PetscFunctionReturn(0);
-}
-
-/*
-   Adds the forces at all nodes of a face to *sum, and sets them to zero in `ties`. Used for the face of an inclined
-   symmetry plane, or of a rigid body that is driven by forces.
-*/
-static PetscErrorCode ForcesTakeAll(Simulation sim, Vec u, Vec ties, const char face[], ForceSum *sum)
-{
-  PetscFunctionBegin;
-  PetscCall(ForcesAddFace(sim, face, u, ties, sum));
+  PetscCall(ForcesAddFace(sim, face, u, rigid, sum));
   for (PetscInt c = 0; c < 3; ++c) {
     IS              is;
     const PetscInt *rows;
@@ -256,50 +255,63 @@ static PetscErrorCode ForcesTakeAll(Simulation sim, Vec u, Vec ties, const char 
     PetscCall(MeshGetFaceDofs(sim->dm, face, c, &is));
     PetscCall(ISGetLocalSize(is, &n));
     PetscCall(ISGetIndices(is, &rows));
-    for (PetscInt k = 0; k < n; ++k) PetscCall(VecSetValue(ties, rows[k], 0.0, INSERT_VALUES));
+    for (PetscInt k = 0; k < n; ++k) PetscCall(VecSetValue(rigid, rows[k], 0.0, INSERT_VALUES));
     PetscCall(ISRestoreIndices(is, &rows));
     PetscCall(ISDestroy(&is));
   }
-  PetscCall(VecAssemblyBegin(ties));
-  PetscCall(VecAssemblyEnd(ties));
+  PetscCall(VecAssemblyBegin(rigid));
+  PetscCall(VecAssemblyEnd(rigid));
+  PetscFunctionReturn(0);
+}
+
+/* Adds the reactions of each face to its sum, see ForcesMeasureFaces() */
+static PetscErrorCode ForcesSumFaces(Simulation sim, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *report,
+  ForceSum sums[])
+{
+  const Constraints constraints = SimulationConstraints(sim);
+  Vec               shares;
+  ForceField        field;
+
+  PetscFunctionBegin;
+  PetscCall(FaceForcesDivide(&constraints, reaction, ties, &shares));
+  PetscCall(ForceFieldGet(sim, u, shares, &field));
+  for (PetscInt i = 0; i < sim->scene->ndisplacements; ++i) {
+    const SceneDisplacement *d   = &sim->scene->displacements[i];
+    ForceSum                *sum = &sums[ForcesFindFace(report, d->face)];
+
+    PetscCall(ForceSumAddFace(sim, &field, d->face, d->fixed, sum));
+    if (d->inclined) PetscCall(ForceSumAddPlane(sim, &field, d->face, d->normal, sum));
+  }
+  PetscCall(ForceFieldRestore(sim, u, shares, &field));
+  PetscCall(VecDestroy(&shares));
+  for (PetscInt i = 0; rigid && i < sim->scene->ndisplacements; ++i) {
+    const SceneDisplacement *d = &sim->scene->displacements[i];
+
+    if (d->moves) PetscCall(ForcesTakeAll(sim, u, rigid, d->face, &sums[ForcesFindFace(report, d->face)]));
+  }
   PetscFunctionReturn(0);
 }
 
 /*
-   Computes the reactions of all faces. reaction: forces in prescribed rows; ties: forces of ties on the bodies, of
-   which those that remain belong to joints; rigid: forces on the rigid bodies. ties and rigid may be NULL.
+   Computes the reactions of all faces. reaction: forces in prescribed rows; ties: forces of ties and inclined planes on
+   the bodies, on exit without those of the planes; rigid: forces on the rigid bodies, on exit without those of the
+   faces. ties and rigid may be NULL.
 */
 PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *report)
 {
-  ForceSum  *sums;
-  ForceField field;
-  PetscInt  *sharers;
+  ForceSum *sums;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
-  PetscCall(ForceFieldGet(sim, u, reaction, &field));
-  PetscCall(PetscCalloc2(report->nfaces, &sums, field.n, &sharers));
-  PetscCall(ForcesCountSharers(sim, field.rstart, sharers));
-  for (PetscInt i = 0; i < sim->scene->ndisplacements; ++i) {
-    const SceneDisplacement *d = &sim->scene->displacements[i];
-
-    PetscCall(ForceSumAddFace(sim, &field, d->face, d->fixed, sharers, &sums[ForcesFindFace(report, d->face)]));
-  }
-  PetscCall(ForceFieldRestore(sim, u, reaction, &field));
-  for (PetscInt i = 0; ties && i < sim->scene->ndisplacements; ++i) {
-    const SceneDisplacement *d = &sim->scene->displacements[i];
-
-    if (d->inclined) PetscCall(ForcesTakeAll(sim, u, ties, d->face, &sums[ForcesFindFace(report, d->face)]));
-    else if (rigid && d->moves)
-      PetscCall(ForcesTakeAll(sim, u, rigid, d->face, &sums[ForcesFindFace(report, d->face)]));
-  }
+  PetscCall(PetscCalloc1(report->nfaces, &sums));
+  PetscCall(ForcesSumFaces(sim, u, reaction, ties, rigid, report, sums));
   PetscCall(ForceSumReduce(sim->comm, report->nfaces, sums));
   for (PetscInt f = 0; f < report->nfaces; ++f) {
     PetscCall(PetscArraycpy(report->faces[f].reaction, sums[f].force, 3));
     report->faces[f].size = sums[f].size;
     PetscCall(PetscArraycpy(report->faces[f].moment, sums[f].moment, 3));
   }
-  PetscCall(PetscFree2(sums, sharers));
+  PetscCall(PetscFree(sums));
   PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

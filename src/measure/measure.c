@@ -121,15 +121,21 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
 }
 
 /*
-   Scales the reactions. In the impact scheme they are only a part of the unbalanced forces. ties and rigid may be NULL.
+   Scales the reactions. In the impact scheme they are only a part of the unbalanced forces; the rest is added to
+   `applied`, the loads with the forces of inertia. ties and rigid may be NULL.
 */
-static PetscErrorCode MeasureShareForces(Simulation sim, Vec force, Vec ties, Vec rigid)
+static PetscErrorCode MeasureShareForces(Simulation sim, Vec force, Vec ties, Vec rigid, Vec applied)
 {
-  const Vec forces[] = {force, ties, rigid};
+  const PetscReal share    = SchemeShare(&sim->scene->dynamics);
+  const Vec       forces[] = {force, ties, rigid};
 
   PetscFunctionBegin;
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(forces); ++k)
-    if (forces[k]) PetscCall(VecScale(forces[k], SchemeShare(&sim->scene->dynamics)));
+  if (share == 1.0) PetscFunctionReturn(0);
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(forces); ++k) {
+    if (!forces[k]) continue;
+    PetscCall(VecAXPY(applied, 1.0 - share, forces[k]));
+    PetscCall(VecScale(forces[k], share));
+  }
   PetscFunctionReturn(0);
 }
 
@@ -216,12 +222,9 @@ static PetscErrorCode MeasureForces(Simulation sim, PetscReal time, Vec load, Ve
   PetscCall(TiesGetForces(&constraints, force, &ties, &rigid));
   PetscCall(WorkAdd(sim, load, u, force, rigid, &contact, late, report));
   if (inertia) PetscCall(MotionMeasure(sim, u, report));
+  PetscCall(MeasureShareForces(sim, force, ties, rigid, applied));
   PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
   PetscCall(ForcesMeasureBodies(sim, u, applied, ties, rounding, report)); /* needs all forces on faces */
-  if (SchemeIsImpact(&sim->scene->dynamics)) {
-    PetscCall(MeasureShareForces(sim, force, ties, rigid));
-    PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
-  }
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
   PetscCall(VecDestroy(&ties));
   PetscCall(VecDestroy(&rigid));

@@ -57,6 +57,16 @@ static PetscReal PenetrationMotion(const RunReport *run)
   return motion;
 }
 
+/* Writes which part of the largest displacement a depth is; nothing if no point has moved */
+static PetscErrorCode PenetrationSayShare(PetscReal depth, PetscReal motion, size_t size, char text[])
+{
+  PetscFunctionBegin;
+  text[0] = 0;
+  if (motion > 0.0)
+    PetscCall(PetscSNPrintf(text, size, ", %.3g %% of the largest displacement", 100.0 * (double)(depth / motion)));
+  PetscFunctionReturn(0);
+}
+
 /* Fails a load step because bodies penetrate each other in its solution */
 PetscErrorCode PenetrationFail(Simulation sim, StepReport *report, const char reason[])
 {
@@ -77,7 +87,7 @@ PetscErrorCode PenetrationFail(Simulation sim, StepReport *report, const char re
 PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
 {
   const PetscReal motion = PenetrationMotion(&sim->report);
-  char            reason[512];
+  char            reason[512], share[64];
 
   PetscFunctionBegin;
   if (PenetrationIsAllowed(sim) || SimulationIsDynamic(sim) || motion == 0.0) PetscFunctionReturn(0);
@@ -88,10 +98,10 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
 
     if (PenetrationHasForce(report, p) || PenetrationIsMeant(pair, report)) continue;
     if (its->penetration <= PetscMax(PENETRATION_SHARE * motion, its->penetration_rounding)) continue;
+    PetscCall(PenetrationSayShare(its->penetration, motion, sizeof(share), share));
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
-      "contact pair \"%s\" carries no force, although a point of %s or %s penetrates the other body by %.3g, %.3g %% "
-      "of the largest displacement: %s",
-      pair->name, pair->mortar, pair->nonmortar, (double)its->penetration, 100.0 * (double)(its->penetration / motion),
+      "contact pair \"%s\" carries no force, although a point of %s or %s penetrates the other body by %.3g%s: %s",
+      pair->name, pair->mortar, pair->nonmortar, (double)its->penetration, share,
       SceneBodyIsSurface(SceneFaceBody(sim->scene, pair->mortar))
         ? "the rigid surface lies between the nonmortar vertices without touching one; refine the nonmortar face"
         : "the mean gap of the nonmortar facets there is open; use gap: node, swap the two faces, or refine them"));
@@ -111,6 +121,7 @@ static PetscErrorCode PenetrationWarnOfCoarse(Simulation sim, PetscInt p)
   const SceneContactPair *pair   = &sim->scene->pairs[p];
   const PetscReal         motion = PenetrationMotion(run), most = 0.5;
   const PairReport       *its;
+  char                    share[64];
 
   PetscFunctionBegin;
   if (p >= report->npairs || pair->self || PenetrationIsMeant(pair, report)) PetscFunctionReturn(0);
@@ -118,11 +129,11 @@ static PetscErrorCode PenetrationWarnOfCoarse(Simulation sim, PetscInt p)
   if (PenetrationHasForce(report, p) || its->penetration <= most * motion ||
       its->penetration > its->penetration_rounding)
     PetscFunctionReturn(0);
+  PetscCall(PenetrationSayShare(its->penetration, motion, sizeof(share), share));
   PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
-    "contact pair \"%s\" carries no force, although a point of %s or %s penetrates the other body by %.3g, %.3g %% of "
-    "the largest displacement; the error of the curved faces there may be as large: refine them if the bodies are to "
-    "touch",
-    pair->name, pair->mortar, pair->nonmortar, (double)its->penetration, 100.0 * (double)(its->penetration / motion)));
+    "contact pair \"%s\" carries no force, although a point of %s or %s penetrates the other body by %.3g%s; the error "
+    "of the curved faces there may be as large: refine them if the bodies are to touch",
+    pair->name, pair->mortar, pair->nonmortar, (double)its->penetration, share));
   PetscFunctionReturn(0);
 }
 
@@ -143,6 +154,7 @@ PetscErrorCode PenetrationWarn(Simulation sim)
     PetscInt                step  = 0;
     PetscBool               open  = PETSC_FALSE;
     const PetscBool         node  = (PetscBool)(pair->gap == GAP_NODE);
+    char                    share[64];
 
     for (PetscInt s = 0; s < run->nsteps; ++s) {
       const StepReport *report = &run->steps[s];
@@ -155,16 +167,17 @@ PetscErrorCode PenetrationWarn(Simulation sim)
     }
     if (run->nsteps) PetscCall(PenetrationWarnOfCoarse(sim, p));
     if (depth <= PENETRATION_SHARE * motion) continue;
+    PetscCall(PenetrationSayShare(depth, motion, sizeof(share), share));
     if (pair->self)
       PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
         "contact pair \"%s\": a vertex of %s penetrates its own body by %.3g at the end of load step %" PetscInt_FMT
-        ", %.3g %% of the largest displacement, although the mean gap is closed: refine the surface there",
-        pair->name, pair->self, (double)depth, step, 100.0 * (double)(depth / motion)));
+        "%s, although the mean gap is closed: refine the surface there",
+        pair->name, pair->self, (double)depth, step, share));
     else
       PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
         "contact pair \"%s\": a point of %s or %s penetrates the other body by %.3g at the end of load step "
-        "%" PetscInt_FMT ", %.3g %% of the largest displacement, although the %s is %s: %s",
-        pair->name, pair->mortar, pair->nonmortar, (double)depth, step, 100.0 * (double)(depth / motion),
+        "%" PetscInt_FMT "%s, although the %s is %s: %s",
+        pair->name, pair->mortar, pair->nonmortar, (double)depth, step, share,
         node ? "gap at the nonmortar vertices" : "mean gap", open ? "open" : "closed",
         node ? "swap the two faces, or refine the nonmortar one there" : "use gap: node, or refine the faces there"));
   }

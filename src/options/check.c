@@ -39,7 +39,7 @@ static PetscErrorCode OptionValueIsGood(OptionKind kind, const char value[], Pet
 }
 
 /* Checks that the value is one of the words that the option allows, if it allows a few words only */
-static PetscErrorCode OptionCheckChoice(MPI_Comm comm, const char name[], const char value[])
+static PetscErrorCode OptionCheckChoice(MPI_Comm comm, const char place[], const char name[], const char value[])
 {
   const char *const *words;
   char               all[128] = "";
@@ -52,11 +52,11 @@ static PetscErrorCode OptionCheckChoice(MPI_Comm comm, const char name[], const 
     if (k) PetscCall(PetscStrlcat(all, words[k + 1] ? ", " : " or ", sizeof(all)));
     PetscCall(PetscStrlcat(all, words[k], sizeof(all)));
   }
-  PetscCheck(found, comm, PETSC_ERR_USER_INPUT, "-%s has the value \"%s\", but needs %s", name, value, all);
+  PetscCheck(found, comm, PETSC_ERR_USER_INPUT, "%s-%s has the value \"%s\", but needs %s", place, name, value, all);
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode OptionCheckValue(MPI_Comm comm, const char name[], const char value[])
+static PetscErrorCode OptionCheckValue(MPI_Comm comm, const char place[], const char name[], const char value[])
 {
   static const char *const needs[OPTION_KINDS] = {
     [OPTION_SWITCH] = "none, or true or false; a scene file comes first: contact SCENE.yaml [options]",
@@ -70,14 +70,50 @@ static PetscErrorCode OptionCheckValue(MPI_Comm comm, const char name[], const c
 
   PetscFunctionBegin;
   if (!OptionGetKind(name, &kind)) PetscFunctionReturn(0);
-  PetscCheck(!missing || kind == OPTION_SWITCH, comm, PETSC_ERR_USER_INPUT, "-%s has no value, but needs %s", name,
-    needs[kind]);
+  PetscCheck(!missing || kind == OPTION_SWITCH, comm, PETSC_ERR_USER_INPUT, "%s-%s has no value, but needs %s", place,
+    name, needs[kind]);
   if (missing) PetscFunctionReturn(0);
   PetscCall(OptionValueIsGood(kind, value, &good));
-  PetscCheck(good, comm, PETSC_ERR_USER_INPUT, "-%s has the value \"%s\", but needs %s", name, value, needs[kind]);
+  PetscCheck(good, comm, PETSC_ERR_USER_INPUT, "%s-%s has the value \"%s\", but needs %s", place, name, value,
+    needs[kind]);
   PetscCheck(kind != OPTION_COUNT || PetscAbsReal(strtod(value, NULL)) <= PETSC_MAX_INT, comm, PETSC_ERR_USER_INPUT,
-    "-%s has the value \"%s\", which PETSc's integer type cannot hold", name, value);
-  PetscCall(OptionCheckChoice(comm, name, value));
+    "%s-%s has the value \"%s\", which PETSc's integer type cannot hold", place, name, value);
+  PetscCall(OptionCheckChoice(comm, place, name, value));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode OptionCheckName(MPI_Comm comm, const char place[], const char name[])
+{
+  char guess[PETSC_MAX_OPTION_NAME];
+
+  PetscFunctionBegin;
+  if (OptionIsKnown(name)) PetscFunctionReturn(0);
+  PetscCall(OptionsGuess(name, sizeof(guess), guess));
+  SETERRQ(comm, PETSC_ERR_USER_INPUT, "%sthere is no option -%s; the nearest known one is -%s", place, name, guess);
+}
+
+/*@C
+   OptionsCheckOne - Raises an error if an option is unknown or has a wrong value
+
+   Collective
+
+   Input Parameters:
++  comm  - the communicator
+.  place - with which the message begins, as "FILE: line 3: "
+.  name  - the name, without its leading dash
+-  value - the value; "" if it has none
+
+   Level: developer
+
+   Error: PETSC_ERR_USER_INPUT
+
+.seealso: `OptionsCheck()`
+@*/
+PetscErrorCode OptionsCheckOne(MPI_Comm comm, const char place[], const char name[], const char value[])
+{
+  PetscFunctionBegin;
+  PetscCall(OptionCheckName(comm, place, name));
+  PetscCall(OptionCheckValue(comm, place, name, value));
   PetscFunctionReturn(0);
 }
 
@@ -106,7 +142,7 @@ PetscErrorCode OptionsCheckValues(MPI_Comm comm)
 
   PetscFunctionBegin;
   PetscCall(PetscOptionsLeftGet(NULL, &n, &names, &values));
-  for (PetscInt i = 0; i < n; ++i) PetscCall(OptionCheckValue(comm, names[i], values[i]));
+  for (PetscInt i = 0; i < n; ++i) PetscCall(OptionCheckValue(comm, "", names[i], values[i]));
   PetscCall(PetscOptionsLeftRestore(NULL, &n, &names, &values));
   PetscFunctionReturn(0);
 }
@@ -133,7 +169,7 @@ PetscErrorCode OptionsCheckValues(MPI_Comm comm)
 @*/
 PetscErrorCode OptionsCheck(MPI_Comm comm)
 {
-  char   **names, **values, unknown[PETSC_MAX_OPTION_NAME] = "", guess[PETSC_MAX_OPTION_NAME];
+  char   **names, **values, unknown[PETSC_MAX_OPTION_NAME] = "";
   PetscInt n;
 
   PetscFunctionBegin;
@@ -142,10 +178,7 @@ PetscErrorCode OptionsCheck(MPI_Comm comm)
     if (!OptionIsKnown(names[i])) PetscCall(PetscStrncpy(unknown, names[i], sizeof(unknown)));
   }
   PetscCall(PetscOptionsLeftRestore(NULL, &n, &names, &values));
-  if (unknown[0]) {
-    PetscCall(OptionsGuess(unknown, sizeof(guess), guess));
-    SETERRQ(comm, PETSC_ERR_USER_INPUT, "there is no option -%s; the nearest known one is -%s", unknown, guess);
-  }
+  if (unknown[0]) PetscCall(OptionCheckName(comm, "", unknown));
   PetscCall(OptionsCheckValues(comm));
   PetscFunctionReturn(0);
 }

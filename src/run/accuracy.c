@@ -25,6 +25,25 @@
 enum { ACCURACY_ENERGY, ACCURACY_FORCE, ACCURACY_PRESSURE, ACCURACY_DISPLACEMENT };
 static const char *const AccuracyTargets[] = {"energy", "force", "pressure", "displacement"};
 
+/* It is an error to set how -accuracy works without -accuracy */
+static PetscErrorCode AccuracyCheckAlone(MPI_Comm comm, PetscBool set)
+{
+  static const char *const options[] = {"-accuracy_of", "-accuracy_adaptive", "-accuracy_share", "-accuracy_max_dofs",
+    "-accuracy_order"};
+
+  PetscFunctionBegin;
+  for (size_t k = 0; !set && k < PETSC_STATIC_ARRAY_LENGTH(options); ++k) {
+    PetscBool given;
+
+    PetscCall(PetscOptionsHasName(NULL, NULL, options[k], &given));
+    PetscCheck(!given, comm, PETSC_ERR_USER_INPUT,
+      "%s has no effect without -accuracy: add it, for example "
+      "-accuracy 0.01",
+      options[k]);
+  }
+  PetscFunctionReturn(0);
+}
+
 /*@C
    AccuracySetFromOptions - Reads the required accuracy of a run from the options
 
@@ -76,6 +95,7 @@ PetscErrorCode AccuracySetFromOptions(MPI_Comm comm, Accuracy *acc)
     "Element order of all bodies from the second mesh on, 2; default: the order of the scene", "AccuracyAssess",
     acc->order, &acc->order, &ordered));
   PetscOptionsEnd();
+  PetscCall(AccuracyCheckAlone(comm, set));
   PetscCheck(!ordered || acc->order == 2, comm, PETSC_ERR_USER_INPUT,
     "-accuracy_order must be 2, not %" PetscInt_FMT ": without the option the order is that of the scene", acc->order);
   PetscCheck(!acc->order || !acc->adaptive, comm, PETSC_ERR_SUP,

@@ -7,13 +7,28 @@
 
 #define INCOMPRESSIBLE 0.4 /* Poisson's ratio above which bbar is chosen instead of full */
 
-/* Computes Poisson's ratio of the isotropic part of a material law. */
+/* Sets bulk and shear modulus to the means of a stiffness over all directions (Voigt) */
+static void ModuliSetMeans(MaterialModuli *m)
+{
+  PetscReal axial = 0, lateral = 0, shear = 0;
+
+  for (int i = 0; i < 3; ++i) {
+    axial += m->stiffness[7 * i];
+    lateral += m->stiffness[6 * i + (i + 1) % 3];
+    shear += m->stiffness[7 * (3 + i)];
+  }
+  m->bulk = (axial + 2 * lateral) / 9;
+  m->mu   = (axial - lateral + 3 * shear) / 15;
+}
+
+/* Computes Poisson's ratio of the isotropic part of a material law, or of the mean of an orthotropic one */
 static PetscErrorCode MaterialPoisson(const Material *material, PetscReal *poisson)
 {
   MaterialModuli m;
 
   PetscFunctionBegin;
   PetscCall(MaterialGetModuli(material, &m, NULL));
+  if (material->type == MATERIAL_ORTHOTROPIC) ModuliSetMeans(&m);
   *poisson = (3 * m.bulk - 2 * m.mu) / (6 * m.bulk + 2 * m.mu);
   PetscFunctionReturn(0);
 }

@@ -65,6 +65,23 @@ static PetscErrorCode SceneValidateRigidMass(MPI_Comm comm, Scene scene, const S
   PetscFunctionReturn(0);
 }
 
+/* Checks one displacement. In messages it has the name that the scene gives it. */
+static PetscErrorCode SceneValidateDisplacement(MPI_Comm comm, Scene scene, const SceneDisplacement *d)
+{
+  const char      *what = d->symmetry ? "symmetry plane" : "displacement";
+  const SceneEntry said = {.name = d->unnamed ? d->face : d->name, .place = d->place};
+
+  PetscFunctionBegin;
+  if (!SceneIsWholeBody(d->face) && d->at == DISPLACEMENT_FACE)
+    PetscCall(SceneValidateFace(comm, scene, what, &said, d->face));
+  SceneRequire(d->inclined || SceneIsWholeBody(d->face) || d->fixed[0] || d->fixed[1] || d->fixed[2], d,
+    "%s \"%s\" prescribes nothing on the face \"%s\"; if the name of a symmetry face does not determine its normal, "
+    "write - cut: {face: %s, normal: x}",
+    what, said.name, d->face, d->face);
+  PetscCall(SceneValidateRigidMass(comm, scene, d));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SceneValidateDisplacements(MPI_Comm comm, Scene scene)
 {
   PetscBool same;
@@ -73,14 +90,7 @@ static PetscErrorCode SceneValidateDisplacements(MPI_Comm comm, Scene scene)
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
     const SceneDisplacement *here = &scene->displacements[d];
 
-    if (!SceneIsWholeBody(here->face) && here->at == DISPLACEMENT_FACE)
-      PetscCall(SceneValidateFace(comm, scene, "displacement", here, here->face));
-    SceneRequire(here->inclined || SceneIsWholeBody(here->face) || here->fixed[0] || here->fixed[1] || here->fixed[2],
-      here,
-      "displacement \"%s\" prescribes nothing on the face \"%s\"; if the name of a symmetry face does not "
-      "determine its normal, write - cut: {face: %s, normal: x}",
-      here->name, here->face, here->face);
-    PetscCall(SceneValidateRigidMass(comm, scene, here));
+    PetscCall(SceneValidateDisplacement(comm, scene, here));
     for (PetscInt e = 0; e < d; ++e) {
       const SceneDisplacement *other = &scene->displacements[e];
 
@@ -89,7 +99,8 @@ static PetscErrorCode SceneValidateDisplacements(MPI_Comm comm, Scene scene)
       else
         for (PetscInt i = 0; i < 3; ++i)
           SceneRequire(!same || !here->fixed[i] || !other->fixed[i], other,
-            "displacements \"%s\" and \"%s\" both prescribe %c on the face \"%s\"", other->name, here->name, "xyz"[i],
+            "displacements \"%s\" and \"%s\" both prescribe %c on the face \"%s\"",
+            other->unnamed ? other->face : other->name, here->unnamed ? here->face : here->name, "xyz"[i],
             here -> face);
     }
   }

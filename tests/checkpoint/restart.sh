@@ -208,3 +208,15 @@ for part in $parts; do echo "of another run" > $part; done
 "$contact" linear.yaml -quiet -load_steps 1 -output busy -checkpoint_every 1 -checkpoint busy_state.h5 \
   -summary busy.json
 cat $parts
+# The load step that fails after a restart has its number in the scene
+cat > fails.yaml <<'YAML'
+bodies:
+  - cube: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [1, 1, 1], material: neohookean, young: 1, poisson: 0.3}
+displacements:
+  - foot: {face: cube.zmin, value: [0, 0, 0]}
+  - head: {face: cube.zmax, value: [0, 0, -1]}
+load: {factors: [0.05, 0.1, 2]}
+YAML
+for from in '-checkpoint_every 1 -checkpoint' -restart; do
+  "$contact" fails.yaml -quiet -load_max_cuts 0 $from fails.h5 2>&1 | grep -o 'load step . failed'
+done

@@ -52,10 +52,51 @@ HALF, QUARTER = wedge("z", (0, 45)).replace("    - arc_outer", "#"), wedge("z", 
 ONE_SIDED = "pressures:\n  - arc_inner: {face: arc.inner, value: 0.5}\n"
 SCENES["half"] = HALF.split("pressures:")[0] + ONE_SIDED
 SCENES["quarter"] = QUARTER.replace("cells: [3, 4, 2]", "cells: [3, 8, 2]").split("pressures:")[0] + ONE_SIDED
+SCENES["oblique"] = """bodies:
+  - w: {shape: wedge, axis: y, corners: [0, 0, 4, 1, 1, 3], extent: [0, 2], side_cells: 2, length_cells: 2,
+        material: neohookean, young: 1000, poisson: 0.3}
+symmetry: [s1: {face: w.side1, normal: [-4, 0, 1]}, s2: {face: w.side2, normal: [3, 0, 2]}, w.lmin, w.lmax]
+pressures: [p: {face: w.side3, value: 10}]
+"""
+SCENES["tubes"] = """bodies:
+  - i: {shape: tube_arc, axis: z, radii: [1, 1.5], angles: [15, 105], extent: [0, 0.3], cells: [2, 4, 1], young: 1000,
+        poisson: 0.3}
+  - o: {shape: tube_arc, axis: z, radii: [1.5, 2], angles: [15, 105], extent: [0, 0.3], cells: [2, 4, 1], young: 3000,
+        poisson: 0.3}
+symmetry: [i.amin, i.amax, i.lmin, i.lmax, o.amin, o.amax, o.lmin, o.lmax]
+pressures: [p: {face: i.inner, value: 5}]
+ties: [t: {mortar: o.inner, nonmortar: i.outer}]
+"""
+for angle in 0, 20:
+    SCENES["clamped_%d" % angle] = wedge("z", (angle, angle + 45), symmetry="[arc.amin, arc.amax]") + (
+        "displacements: [foot: {face: arc.lmin, value: [0, 0, 0]}]\n")
 
 
 def near(a, b, size, within=1e-6):
     return bool(np.linalg.norm(np.subtract(a, b)) <= within * size)
+
+
+def judge_forces(title, steps):
+    """Reactions of planes at edges that they share, with each other, with ties and with a clamped face"""
+    faces = {name: {face["name"]: face["reaction"] for face in step["faces"]} for name, step in steps.items()}
+    oblique = faces["oblique"]
+    say(title + "oblique: the forces of two planes with a common edge are those of statics",
+        near(oblique["w.side1"], [80, 0, -20], 100) and near(oblique["w.side2"], [-60, 0, -40], 100), oblique)
+    tubes, planes = faces["tubes"], {15: "amin", 105: "amax"}
+    along = [
+        np.dot(tubes[body + planes[angle]],
+               [math.cos(math.radians(angle)), math.sin(math.radians(angle)), 0]) for body in ("i.", "o.")
+        for angle in planes
+    ]
+    say(title + "tubes: no force of a plane along it", max(map(abs, along)) < 1e-9, along)
+    sizes = [np.linalg.norm(tubes["i." + face]) + np.linalg.norm(tubes["o." + face]) for face in ("amin", "amax")]
+    say(title + "tubes: the forces across the planes are the pressure's", near(sizes, [1.5, 1.5], 1.5, 1e-9), sizes)
+    sizes = [np.linalg.norm(faces["clamped_%d" % a]["arc." + face]) for a in (0, 20) for face in ("amin", "amax")]
+    say(title + "clamped: the forces of both ends are equal, in any direction",
+        near(sizes, sizes[0], sizes[0], 1e-9), sizes)
+    say(title + "oblique, tubes, clamped: in balance",
+        all(steps[name]["balance"] < 1e-8 for name in ("oblique", "tubes", "clamped_0", "clamped_20")),
+        [steps[name]["balance"] for name in ("oblique", "tubes", "clamped_0", "clamped_20")])
 
 
 def judge(title, end):
@@ -83,6 +124,7 @@ def judge(title, end):
     say(title + "half of a quarter under pressure from inside: half of its energy",
         near(2 * steps["half"]["energy"], steps["quarter"]["energy"], steps["quarter"]["energy"], 1e-10),
         (steps["half"]["energy"], steps["quarter"]["energy"]))
+    judge_forces(title, steps)
 
 
 if sys.argv[1] == "write":

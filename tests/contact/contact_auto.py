@@ -90,6 +90,7 @@ def write():
     scenes["far"] = base.replace(
         "head: {face: block.zmax, value: [0.01, 0, -0.05]}", "head: {face: block.zmax, value: [0, 0, 0]}").replace(
             "lower: [-1, -1, 0]", "lower: [-1, -1, 0.9]") + "contact:\n  - auto: {distance: 0.5}\n"
+    scenes["all_excepted"] = base + "contact:\n  - auto: {except: [slab]}\n"
     # facets of a bush and of its bore that are turned against each other, and a bush with a clearance
     bush = """bodies:
   - plate: {{shape: tube_arc, axis: z, radii: [1, 2], angles: [0, 360], extent: [0, 1], cells: [2, 18, 2], young: 1,

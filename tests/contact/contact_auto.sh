@@ -18,6 +18,6 @@ for name in found listed friction friction_listed tied tied_listed tower slides 
   "$contact" "$name.yaml" -quiet -summary "$name.json" || echo "$name: exit code $?"
 done
 "$PYTHON" -B "$AMGF_DIR/tests/contact/contact_auto.py" judge
-for name in wrong_body wrong_face wrong_side wrong_key no_side far partly_tied untied wrong_tool; do
+for name in wrong_body wrong_face wrong_side wrong_key no_side far all_excepted partly_tied untied wrong_tool; do
   "$contact" "$name.yaml" -quiet 2>&1 || echo "exit code $?"
 done

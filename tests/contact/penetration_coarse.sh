@@ -70,3 +70,7 @@ YAML
 ball 0.25 8
 ball 0 8
 ball 0 24
+# Nothing moves: no share of the largest displacement
+sed -e 's/cells: \[24, 24/cells: [7, 7/; s/value: \[0, 0, -0.1\]/value: [0, 0, 0]/; s/0.5\], radius/0.495], radius/' \
+  -e 's/block.zmax}/block.zmax, gap: node}/' ball.yaml > still.yaml
+"$contact" still.yaml -quiet -error_estimate 0 2>&1 | grep -o 'penetrates.*open'

@@ -53,5 +53,8 @@ try -elasticity_mat_type xyz
 try -load_steps 1 -traceback maybe
 sed 's/^solver:.*//' "$scene" > solver.yaml
 echo 'solver: {tao_ipfilter_tol: tight}' >> solver.yaml
+sed 's/tao_ipfilter_tol: tight/tao_ipfilter_tl: 1/' solver.yaml > misspelt.yaml
 scene=solver.yaml
+try -refine 0
+scene=misspelt.yaml
 try -refine 0

@@ -59,9 +59,9 @@ displacements:
 load: {expression: "sin(6*t)^2"}
 dynamics: {time_step: 0.005, end_time: 0.5}
 YAML
-for scheme in impact generalized_alpha; do
-  sed "s/end_time: 0.5/end_time: 0.5, scheme: $scheme, spectral_radius: 1/" pull.yaml > $scheme.yaml;
-  run $scheme.yaml -output $scheme; done
+cp pull.yaml impact.yaml
+sed 's/end_time: 0.5/&, scheme: generalized_alpha, spectral_radius: 1/' pull.yaml > generalized_alpha.yaml
+for scheme in impact generalized_alpha; do run $scheme.yaml -output $scheme; done
 "$PYTHON" -c "
 from histories import history
 from summaries import say

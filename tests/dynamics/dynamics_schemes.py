@@ -22,7 +22,7 @@ tractions:
 load: {{expression: "{load}"}}
 probes:
   - tip: {{point: [1, 0, 0]}}
-dynamics: {{time_step: {step}, end_time: 3.6, scheme: {scheme}, spectral_radius: {radius}, mass: {mass}}}
+dynamics: {{time_step: {step}, end_time: 3.6, scheme: {scheme}, mass: {mass}}}
 """
 WALL = """bodies:
   - wall: {{lower: [-0.01, -0.02, -0.02], upper: [0, 0.04, 0.04], cells: [1, 1, 1], material: rigid, density: 1}}
@@ -34,25 +34,28 @@ displacements:
   - z: {{face: bar.zmin, value: [free, free, 0]}}
 contact:
   - hit: {{mortar: wall.xmax, nonmortar: bar.xmin}}
-dynamics: {{time_step: 2e-6, end_time: 140e-6, scheme: {scheme}, spectral_radius: {radius}, mass: {mass}}}
+dynamics: {{time_step: 2e-6, end_time: 140e-6, scheme: {scheme}, mass: {mass}}}
 """
 DAMPED = VIBRATION.replace("density: 1}}", "density: 1, initial_velocity: [0.01, 0, 0]}}").replace(
     "[0.01, 0, 0]}}\nload: {{expression: \"{load}\"}}", "[0, 0, 0]}}").replace("mass: {mass}",
                                                                                "mass: {mass}, damping_stiffness: 0.1")
 STEPS = {"coarse": 0.1, "middle": 0.05, "fine": 0.025}
-SCHEMES = {"alpha_10": ("generalized_alpha", 1.0), "alpha_08": ("generalized_alpha", 0.8), "impact": ("impact", 0.8)}
+SCHEMES = {
+    "alpha_10": "generalized_alpha, spectral_radius: 1", "alpha_08": "generalized_alpha, spectral_radius: 0.8",
+    "impact": "impact"
+}
 LOADS = {"smooth": ("sin(t)^4", "lumped"), "sudden": ("1", "consistent")}
 SCENES = {
     f"vibration_{load}_{name}_{step}": VIBRATION.format(load=LOADS[load][0], mass=LOADS[load][1], step=STEPS[step],
-                                                        scheme=scheme[0], radius=scheme[1])
+                                                        scheme=scheme)
     for load in LOADS for name, scheme in SCHEMES.items() for step in STEPS if load == "smooth" or (step == "coarse")
 }
 SCENES |= {
-    f"damped_{name}": DAMPED.format(mass="lumped", step=0.02, scheme=SCHEMES[name][0], radius=1)
+    f"damped_{name}": DAMPED.format(mass="lumped", step=0.02, scheme=SCHEMES[name])
     for name in ("alpha_10", "impact")
 }
 SCENES |= {
-    f"wall_{name}_{mass}": WALL.format(scheme=scheme[0], radius=scheme[1], mass=mass)
+    f"wall_{name}_{mass}": WALL.format(scheme=scheme, mass=mass)
     for name, scheme, mass in (("alpha", SCHEMES["alpha_08"], "redistributed"), ("impact", SCHEMES["impact"],
                                                                                  "redistributed"),
                                ("impact", SCHEMES["impact"], "lumped"), ("impact", SCHEMES["impact"], "consistent"))
@@ -65,7 +68,8 @@ REFUSED = {
                                                                                "time_step: -1, end_time: 2"),
     "end": (", density: 1", "time_step: 1, end_time: 0.5"), "scheme": (", density: 1",
                                                                        "time_step: 1, end_time: 2, scheme: newmark"),
-    "radius": (", density: 1", "time_step: 1, end_time: 2, spectral_radius: 1.5"), "no_end": (", density: 1",
+    "radius": (", density: 1", "time_step: 1, end_time: 2, scheme: generalized_alpha, spectral_radius: 1.5"),
+    "radius_impact": (", density: 1", "time_step: 1, end_time: 2, spectral_radius: 0.5"), "no_end": (", density: 1",
                                                                                               "time_step: 1"),
     "synonym": (", density: 1", "dt: 1, end_time: 2"), "many": (", density: 1", "time_step: 1e-9, end_time: 2"),
     "damping": (", density: 1", "time_step: 1, end_time: 2, damping_mass: -1"),
@@ -95,7 +99,7 @@ if sys.argv[1:] == ["scenes"]:
         open(f"refused_{name}.yaml", "w").write(BODY.format(body=body, dynamics=dynamics))
     open("refused_static.yaml",
          "w").write(BODY.format(body=", initial_velocity: [1, 0, 0]", dynamics="").replace("dynamics: {}\n", ""))
-    open("refused_mass.yaml", "w").write(WALL.format(scheme="generalized_alpha", radius=0.8, mass="lumped"))
+    open("refused_mass.yaml", "w").write(WALL.format(scheme="generalized_alpha", mass="lumped"))
     open("refused_steps.yaml",
          "w").write(BODY.format(body=", density: 1", dynamics="time_step: 1, end_time: 2") + "load: {steps: 3}\n")
 else:

@@ -13,6 +13,10 @@ bodies:
   - forged2: {lower: [20, 0, 0], upper: [21, 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.3, material: j2_finite,
               yield: 1, order: 2}
   - fine: {lower: [12, 0, 0], upper: [13, 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.45, order: 2}
+  - wood: {lower: [24, 0, 0], upper: [25, 1, 1], cells: [1, 1, 1], order: 2, material: orthotropic, young: [10, 2, 1],
+           poisson: [0.4, 0.3, 0.03], shear: [0.7, 0.4, 0.8], first_axis: [1, 1, 0], second_axis: [-1, 1, 1]}
+  - gel: {lower: [26, 0, 0], upper: [27, 1, 1], cells: [1, 1, 1], order: 2, material: orthotropic, young: [10, 10, 10],
+          poisson: [0.45, 0.45, 0.45], shear: [3.4, 3.4, 3.4]}
   - named: {lower: [14, 0, 0], upper: [15, 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.3, element: full}
   - balloon: {lower: [22, 0, 0], upper: [23, 1, 1], cells: [1, 1, 1], young: 10, poisson: 0.3, material: neohookean}
   - tool: {lower: [16, 0, 0], upper: [17, 1, 1], cells: [1, 1, 1], material: rigid}
@@ -23,7 +27,7 @@ pressures:
 weak_springs: true
 SCENE
 "$AMGF_DIR/bin/contact" bodies.yaml -scene_check | sed -n 's/^  \([a-z0-9]*\): .*/\1/p; s/.*; element/  element/p' |
-  sed '/problem/d' | head -23
+  sed '/problem/d' | head -27
 beam() { # name, keys of the beam
   cat > "$1.yaml" <<SCENE
 bodies:

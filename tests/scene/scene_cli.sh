@@ -32,6 +32,14 @@ change 's/mortar: slab/mortar: slob/' && try "pair with an unknown body" changed
 change '/bottom:/d' && try "body held by contact alone" changed.yaml
 change 's/upper: \[4.5/upper: [-5/' && try "negative box" changed.yaml
 try "refine -1" "$sound" -refine -1
+echo 'refine 1' > word.opts
+for file in nowhere.opts . word.opts; do # PETSc's own sentences
+  try "-options_file $file" "$sound" -options_file $file | sed 's/\(contact: error: \).*/\1.../'
+done
+try "how -accuracy works without it" "$sound" -accuracy_adaptive
+RANKS=1 try "the same, of" "$sound" -accuracy_of pressure
+RANKS=1 try "the same, order" "$sound" -accuracy_order 2
+RANKS=1 try "the same, unknowns" "$sound" -accuracy_max_dofs 1e5
 try "no load steps" "$sound" -load_steps 0
 try "output that is a folder" "$sound" -output ./
 try "unwritable output" "$sound" -output nowhere/results -refine 0

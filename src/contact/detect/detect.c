@@ -248,6 +248,30 @@ static PetscErrorCode RulesDestroy(Scene scene)
   PetscFunctionReturn(0);
 }
 
+/* Raises the error that no surfaces face each other. If only exceptions hide them, it names the exceptions. */
+static PetscErrorCode DetectRaiseNone(MPI_Comm comm, const DetectModel *model, Scene scene)
+{
+  const char *except = NULL;
+  DetectPair *found;
+  PetscInt    n;
+
+  PetscFunctionBegin;
+  for (PetscInt r = 0; r < scene->nrules; ++r) {
+    if (!scene->rules[r].except) continue;
+    except                 = scene->rules[r].except;
+    scene->rules[r].except = NULL;
+  }
+  PetscCall(DetectFacing(model, scene, &n, &found));
+  PetscCheck(!except || !n, comm, PETSC_ERR_USER_INPUT,
+    "contact: auto finds no two surfaces of the scene \"%s\" that face each other, except those that the key except "
+    "excludes, [%s]: shorten the list, or list the contact pairs",
+    scene->name, except);
+  SETERRQ(comm, PETSC_ERR_USER_INPUT,
+    "contact: auto finds no two surfaces of the scene \"%s\" that face each other within the search distance: increase "
+    "the key distance, or list the contact pairs",
+    scene->name);
+}
+
 /*@
   ContactDetect - Finds the contact pairs and ties that a scene's rules leave open (`contact: auto`), and adds them to
   the scene
@@ -292,10 +316,7 @@ PetscErrorCode ContactDetect(MPI_Comm comm, Scene scene)
   PetscCall(ModelCreate(comm, scene, &model));
   PetscCall(DetectFacing(&model, scene, &n, &found));
   for (PetscInt r = 0; r < scene->nrules; ++r) self = (PetscBool)(self || scene->rules[r].self);
-  PetscCheck(n || self || scene->npairs || scene->nties, comm, PETSC_ERR_USER_INPUT,
-    "contact: auto finds no two surfaces of the scene \"%s\" that face each other within the search distance: increase "
-    "the key distance, or list the contact pairs",
-    scene->name);
+  if (!n && !self && !scene->npairs && !scene->nties) PetscCall(DetectRaiseNone(comm, &model, scene));
   PetscCall(PetscMalloc3(n, &rules, n, &pairs, n, &tied));
   /* All rules are looked up before pairs are added, because bodies with a listed pair have no rule. */
   for (PetscInt i = 0; i < n; ++i) rules[i] = DetectFindRule(&model, scene, found[i].surface[0], found[i].surface[1]);

@@ -182,8 +182,13 @@ PetscErrorCode SceneValuesRead(const char text[], SceneValues *v)
   yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
   while (more && !ierr) {
     if (!yaml_parser_load(&parser, &doc)) {
-      yaml_parser_delete(&parser);
-      SETERRQ(PETSC_COMM_SELF, PETSC_ERR_LIB, "YAML parser loading error");
+      const PetscBool undefined = (PetscBool)(parser.problem && !strcmp(parser.problem, "found undefined alias"));
+      const size_t    line      = parser.problem_mark.line + 1;
+      const char     *problem   = parser.problem ? parser.problem : "it cannot be read";
+
+      yaml_parser_delete(&parser); /* the problem is a text of the library */
+      SETERRQ(PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "line %zu: %s", line,
+        undefined ? "the alias (*name) has no anchor (&name) before it; quote a value that begins with *" : problem);
     }
     more = (PetscBool)(yaml_document_get_root_node(&doc) != NULL);
     if (more) ierr = ValuesReadMapping(v, &doc, yaml_document_get_root_node(&doc), 0, "");

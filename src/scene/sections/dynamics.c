@@ -43,6 +43,9 @@ PetscErrorCode SceneReadDynamics(SceneKeys keys, Scene scene, const SceneList *l
   *d = *(const SceneDynamics *)list->initial;
   PetscCall(SceneReadRows(keys, scene, list->name, list->rows, NULL, d));
   PetscCall(DynamicsCheck(keys, d));
+  PetscCall(SceneHasKey(keys, list->name, "spectral_radius", &has));
+  DynamicsRequire(!has || d->scheme == SCHEME_GENERALIZED_ALPHA, keys, list->name, "spectral_radius",
+    "is only for scheme: generalized_alpha");
   if (keys->error[0])
     d->time_step = d->end_time = 1.0; /* the values are valid, but nothing is simulated after an
                                                            error */

@@ -300,7 +300,7 @@ static const SceneKey dynamics_rows[] = {
   NAMED("scheme", NULL, CHOICE, SceneDynamics, scheme, SHOWN, DynamicsSchemes, "`impact`",
     "`impact`: trapezoidal rule with implicit contact forces, which never add energy. `generalized_alpha`: dissipates "
     "high frequencies; `spectral_radius` sets how much"),
-  REALS("spectral_radius", NULL, 1, SceneDynamics, spectral_radius, SHOWN, ANY, "", "0.8",
+  REALS("spectral_radius", NULL, 1, SceneDynamics, spectral_radius, OPTIONAL, ANY, "", "0.8",
     "for `generalized_alpha`: fraction of the highest frequencies that remains after a time step, from 0 to 1; 1: "
     "nothing is dissipated"),
   NAMED("mass", NULL, CHOICE, SceneDynamics, mass, SHOWN, MassTypes, "`redistributed`",

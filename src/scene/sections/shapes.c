@@ -40,6 +40,21 @@ static PetscErrorCode SceneReadNumbers(SceneKeys keys, const char name[], const 
   PetscFunctionReturn(0);
 }
 
+/* Rejects a zero in values that must be above 0. The zero of these keys means that the scene does not have them. Other
+   wrong values are found with the rest of the shape. */
+static PetscErrorCode SceneCheckAboveZero(SceneKeys keys, const char name[], const ShapeKey *key,
+  const PetscReal values[])
+{
+  static const char *const above[] = {"grading", "layer_grading", "scale", "size"};
+
+  PetscFunctionBegin;
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(above); ++k) {
+    for (PetscInt i = 0; !strcmp(key->name, above[k]) && i < key->n; ++i)
+      if (values[i] == 0) PetscCall(SceneKeysError(keys, name, NULL, "is 0, which must be above 0"));
+  }
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const char owner[], const ShapeKey *key, SceneBody *body)
 {
   char        name[SCENE_KEY_LENGTH];
@@ -51,7 +66,10 @@ static PetscErrorCode SceneReadShapeKey(SceneKeys keys, const char owner[], cons
   PetscCall(SceneKeysGet(keys, key->required, &text, "%s", name));
   if (!text) PetscFunctionReturn(0);
   switch (key->type) {
-  case KEY_REALS: PetscCall(SceneParseReals(keys, name, text, key->n, (PetscReal *)value)); break;
+  case KEY_REALS:
+    PetscCall(SceneParseReals(keys, name, text, key->n, (PetscReal *)value));
+    PetscCall(SceneCheckAboveZero(keys, name, key, (const PetscReal *)value));
+    break;
   case KEY_INTS: PetscCall(SceneParseInts(keys, name, text, key->n, (PetscInt *)value)); break;
   case KEY_AXIS: PetscCall(SceneParseEnum(keys, name, text, Axes, (PetscInt *)value)); break;
   case KEY_DIRECTION: PetscCall(SceneParseEnum(keys, name, text, Directions, (PetscInt *)value)); break;

@@ -4,17 +4,19 @@
    end of the run.
 */
 #include "sectionsimpl.h"
+#include <options.h>
 
 #define SOLVER_PREFIX "solver_"
 
-static PetscErrorCode SceneAddOption(Scene scene, const char name[], const char value[])
+static PetscErrorCode SceneAddOption(Scene scene, const char place[], const char name[], const char value[])
 {
   SceneOption *option;
 
   PetscFunctionBegin;
   PetscCall(PetscRealloc((size_t)(scene->noptions + 1) * sizeof(*scene->options), &scene->options));
-  option      = &scene->options[scene->noptions++];
-  option->set = PETSC_FALSE;
+  option        = &scene->options[scene->noptions++];
+  option->set   = PETSC_FALSE;
+  option->place = place;
   PetscCall(PetscStrallocpy(name, &option->name));
   PetscCall(PetscStrallocpy(value ? value : "", &option->value));
   PetscFunctionReturn(0);
@@ -40,7 +42,7 @@ PetscErrorCode SceneReadSolver(SceneKeys keys, Scene scene)
     PetscCall(PetscSNPrintf(option, sizeof(option), "-%s", name));
     PetscCall(PetscOptionsValidKey(option, &valid));
     if (!valid) PetscCall(SceneKeysError(keys, "solver", name, "is not the name of an option"));
-    PetscCall(SceneAddOption(scene, name, value->text));
+    PetscCall(SceneAddOption(scene, SceneGetPlace(&keys->places, value->key), name, value->text));
     PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", value->key));
   }
   PetscFunctionReturn(0);
@@ -74,6 +76,35 @@ PetscErrorCode SceneDestroyOptions(Scene scene)
     PetscCall(PetscFree(scene->options[i].value));
   }
   PetscCall(PetscFree(scene->options));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SceneCheckOptions - Raises an error for a solver option of a scene that is unknown or has a wrong value
+
+   Collective
+
+   Input Parameters:
++  comm  - the communicator
+-  scene - the scene
+
+   Level: intermediate
+
+   Notes:
+   The error names the place of the option in the file. Options that the command line overrides are not checked.
+
+   Error: PETSC_ERR_USER_INPUT
+
+.seealso: `SceneLoad()`, `OptionsCheck()`
+@*/
+PetscErrorCode SceneCheckOptions(MPI_Comm comm, Scene scene)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < scene->noptions; ++i) {
+    const SceneOption *option = &scene->options[i];
+
+    if (option->set) PetscCall(OptionsCheckOne(comm, ScenePlace(option), option->name, option->value));
+  }
   PetscFunctionReturn(0);
 }
 

@@ -162,9 +162,11 @@ PetscErrorCode SceneReadSymmetry(SceneKeys keys, Scene scene)
     SceneDisplacement *displacement = &scene->displacements[scene->ndisplacements++];
     PetscBool          same;
 
-    displacement->body  = PETSC_DECIDE;
-    displacement->place = SceneGetPlace(&keys->places, "symmetry");
-    if (strchr(words[i], '.')) PetscCall(SceneReadSymmetryFace(scene, words[i], displacement));
+    displacement->body     = PETSC_DECIDE;
+    displacement->place    = SceneGetPlace(&keys->places, "symmetry");
+    displacement->symmetry = PETSC_TRUE;
+    displacement->unnamed  = (PetscBool)(strchr(words[i], '.') != NULL);
+    if (displacement->unnamed) PetscCall(SceneReadSymmetryFace(scene, words[i], displacement));
     else PetscCall(SceneReadSymmetryNamed(keys, words[i], displacement));
     for (PetscInt d = 0; d < scene->ndisplacements - 1; ++d) {
       PetscCall(PetscStrcasecmp(scene->displacements[d].name, displacement->name, &same));
