@@ -17,6 +17,8 @@ typedef struct {
   Vec inert;                  /* 1 in rows with mass whose displacement is not prescribed, else 0 */
   Vec residual; /* impact scheme: internal plus damping minus dead forces at the last state [force]; NULL for other
                      schemes */
+  Vec sliding;  /* impact scheme: 1 in free rows of nodes without mass that touch elastic bodies, else 0; NULL for other
+                     schemes and without such nodes */
   Vec turn;     /* impact scheme: forces of turn.c [force]; NULL if no rigid body has finite free rotations */
   Vec excess;   /* impact scheme: twice the excess of the energy-conserving mean internal force of the step over the
                        mean of the forces at its ends (ElasticityExcess()), at the last iterate [force]; NULL if all
@@ -51,6 +53,8 @@ PETSC_INTERN PetscErrorCode MassGetCentres(const Constraints *, const Dynamics *
 PETSC_INTERN PetscErrorCode MassMeasure(const Constraints *, const Dynamics *, Vec u, PetscReal *kinetic,
   PetscReal momentum[3], PetscReal spin[3]);
 
+PETSC_INTERN PetscErrorCode MassMarkSliding(const Constraints *, Dynamics *);
+
 /* start.c: velocities and accelerations at time 0 */
 PETSC_INTERN PetscErrorCode DynamicsCreate(const Constraints *, const DeadLoads *, Springs *, Dynamics *);
 PETSC_INTERN PetscErrorCode DynamicsSetRest(const Constraints *, const DeadLoads *, PetscReal time, Vec u, Dynamics *);
@@ -63,6 +67,7 @@ PETSC_INTERN PetscErrorCode SchemeAddForce(const Dynamics *, Vec u, PetscReal *e
 PETSC_INTERN PetscErrorCode SchemeGetDamping(const SceneDynamics *, const Dynamics *, Vec velocity, Vec force);
 PETSC_INTERN PetscErrorCode SchemeEstimate(const SceneDynamics *, PetscReal dt, PetscReal before, PetscBool smooth,
   Vec from, Vec u, Dynamics *, PetscReal *error);
+PETSC_INTERN PetscErrorCode SchemeRelease(Vec contact, Dynamics *);
 PETSC_INTERN PetscErrorCode SchemeAdvance(const SceneDynamics *, PetscReal dt, Vec before, Vec u, Dynamics *);
 
 /* turn.c: forces that conserve the energy of rotating rigid bodies */

@@ -165,6 +165,7 @@ static PetscErrorCode AttemptAccept(StepProblem *p, Vec *u, ContactSolution *sol
   PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscCall(MeasureState(sim, p->time, p->load, inertia, *u, sol, report));
   PetscCall(VecDestroy(&inertia));
+  PetscCall(SchemeRelease(sim->path->contact, &sim->dynamics)); /* MeasureState() has set these contact forces */
   if (sim->contact) PetscCall(AttemptKeepSurface(sim, sol));
   if (sim->contact) PetscCall(FrictionSettle(sim, p->time, *u, sol));
   PetscCall(PathAdvance(sim->path, p->time, u));
