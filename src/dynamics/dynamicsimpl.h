@@ -23,17 +23,20 @@ typedef struct {
   Vec excess;   /* impact scheme: twice the excess of the energy-conserving mean internal force of the step over the
                        mean of the forces at its ends (ElasticityExcess()), at the last iterate [force]; NULL if all
                        bodies have a quadratic energy */
-  PetscReal  inertia;    /* c in the current time step [1/time^2] */
-  Vec        centre;     /* displacement at which the mass term of the current time step is zero [length] */
-  PetscReal  viscosity;  /* factor of the elastic energy of u - viscous in the current time step, for damping in
+  PetscReal inertia;   /* c in the current time step [1/time^2] */
+  Vec       centre;    /* displacement at which the mass term of the current time step is zero [length] */
+  PetscReal viscosity; /* factor of the elastic energy of u - viscous in the current time step, for damping in
                           proportion to stiffness; 0 without such damping */
-  Vec        viscous;    /* displacement at which that damping, and that of dampers, vanishes [length]; NULL without
+  Vec       viscous;   /* displacement at which that damping, and that of dampers, vanishes [length]; NULL without
                             such damping */
-  Springs   *springs;    /* springs and dampers; their `rate` is set here; owned by the caller */
-  Elasticity elasticity; /* owned by the caller */
-  PetscReal  kinetic;    /* kinetic energy at time 0 [force length] */
-  PetscReal  damped;     /* energy that damping has dissipated [force length] */
-  PetscReal  fastest;    /* controlled time steps: largest norm of the velocity so far, with the mass */
+  Vec driven; /* velocity at the end of the current time step in rows with prescribed displacements (drive.c); other
+                 rows are not used [length/time] */
+  const Prescribed *prescribed; /* owned by the caller */
+  Springs          *springs;    /* springs and dampers; their `rate` is set here; owned by the caller */
+  Elasticity        elasticity; /* owned by the caller */
+  PetscReal         kinetic;    /* kinetic energy at time 0 [force length] */
+  PetscReal         damped;     /* energy that damping has dissipated [force length] */
+  PetscReal         fastest;    /* controlled time steps: largest norm of the velocity so far, with the mass */
 } Dynamics;
 
 static inline PetscBool SchemeIsImpact(const SceneDynamics *scene)
@@ -54,6 +57,12 @@ PETSC_INTERN PetscErrorCode MassMeasure(const Constraints *, const Dynamics *, V
   PetscReal momentum[3], PetscReal spin[3]);
 
 PETSC_INTERN PetscErrorCode MassMarkSliding(const Constraints *, Dynamics *);
+
+/* drive.c: velocities and accelerations in rows with prescribed displacements */
+PETSC_INTERN PetscErrorCode DriveStart(const Constraints *, PetscInt order, Vec rate);
+PETSC_INTERN PetscErrorCode DriveBegin(const Constraints *, PetscReal time, PetscReal dt, PetscReal before, Vec u,
+  Vec previous, Dynamics *);
+PETSC_INTERN PetscErrorCode DriveEnd(const Dynamics *, Vec velocity);
 
 /* start.c: velocities and accelerations at time 0 */
 PETSC_INTERN PetscErrorCode DynamicsCreate(const Constraints *, const DeadLoads *, Springs *, Dynamics *);

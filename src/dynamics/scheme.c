@@ -220,6 +220,7 @@ PetscErrorCode SchemeAdvance(const SceneDynamics *scene, PetscReal dt, Vec befor
   PetscCall(VecDuplicate(u, &v));
   PetscCall(SchemeNewmark(scene, dt, before, u, d, a, v));
   PetscCall(SchemeFollow(d, dt, before, u, v));
+  PetscCall(DriveEnd(d, v));
   PetscCall(SchemeFollow(d, dt, d->velocity, v, a));
   if (d->residual) PetscCall(VecZeroEntries(a));
   else {
