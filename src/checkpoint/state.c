@@ -46,8 +46,8 @@ static PetscErrorCode CheckpointGetForce(Checkpoint checkpoint, const char name[
 }
 
 /*
-   Restores velocities and accelerations, and computes the forces at rest. path.u, path.time and the plastic strains
-   must have been restored, since these forces depend on them and on the temperatures at that time.
+   Restores velocities and accelerations, and computes the forces at rest. path.u, path.time, path.contact and the
+   plastic strains must have been restored, since these forces depend on them and on the temperatures at that time.
 */
 static PetscErrorCode CheckpointGetMotion(Simulation sim, Checkpoint checkpoint)
 {
@@ -62,6 +62,7 @@ static PetscErrorCode CheckpointGetMotion(Simulation sim, Checkpoint checkpoint)
   PetscCall(CheckpointGetVec(checkpoint, "auxiliary_acceleration", d->auxiliary));
   PetscCall(TemperaturesApply(&sim->temperatures, sim->path->time));
   PetscCall(DynamicsSetRest(&constraints, &sim->loads, sim->path->time, sim->path->u, d));
+  PetscCall(SchemeRelease(sim->path->contact, d));
   PetscFunctionReturn(0);
 }
 

@@ -17,21 +17,26 @@ typedef struct {
   Vec inert;                  /* 1 in rows with mass whose displacement is not prescribed, else 0 */
   Vec residual; /* impact scheme: internal plus damping minus dead forces at the last state [force]; NULL for other
                      schemes */
+  Vec sliding;  /* impact scheme: 1 in free rows of nodes without mass that touch elastic bodies, else 0; NULL for other
+                     schemes and without such nodes */
   Vec turn;     /* impact scheme: forces of turn.c [force]; NULL if no rigid body has finite free rotations */
   Vec excess;   /* impact scheme: twice the excess of the energy-conserving mean internal force of the step over the
                        mean of the forces at its ends (ElasticityExcess()), at the last iterate [force]; NULL if all
                        bodies have a quadratic energy */
-  PetscReal  inertia;    /* c in the current time step [1/time^2] */
-  Vec        centre;     /* displacement at which the mass term of the current time step is zero [length] */
-  PetscReal  viscosity;  /* factor of the elastic energy of u - viscous in the current time step, for damping in
+  PetscReal inertia;   /* c in the current time step [1/time^2] */
+  Vec       centre;    /* displacement at which the mass term of the current time step is zero [length] */
+  PetscReal viscosity; /* factor of the elastic energy of u - viscous in the current time step, for damping in
                           proportion to stiffness; 0 without such damping */
-  Vec        viscous;    /* displacement at which that damping, and that of dampers, vanishes [length]; NULL without
+  Vec       viscous;   /* displacement at which that damping, and that of dampers, vanishes [length]; NULL without
                             such damping */
-  Springs   *springs;    /* springs and dampers; their `rate` is set here; owned by the caller */
-  Elasticity elasticity; /* owned by the caller */
-  PetscReal  kinetic;    /* kinetic energy at time 0 [force length] */
-  PetscReal  damped;     /* energy that damping has dissipated [force length] */
-  PetscReal  fastest;    /* controlled time steps: largest norm of the velocity so far, with the mass */
+  Vec driven; /* velocity at the end of the current time step in rows with prescribed displacements (drive.c); other
+                 rows are not used [length/time] */
+  const Prescribed *prescribed; /* owned by the caller */
+  Springs          *springs;    /* springs and dampers; their `rate` is set here; owned by the caller */
+  Elasticity        elasticity; /* owned by the caller */
+  PetscReal         kinetic;    /* kinetic energy at time 0 [force length] */
+  PetscReal         damped;     /* energy that damping has dissipated [force length] */
+  PetscReal         fastest;    /* controlled time steps: largest norm of the velocity so far, with the mass */
 } Dynamics;
 
 static inline PetscBool SchemeIsImpact(const SceneDynamics *scene)
@@ -51,6 +56,14 @@ PETSC_INTERN PetscErrorCode MassGetCentres(const Constraints *, const Dynamics *
 PETSC_INTERN PetscErrorCode MassMeasure(const Constraints *, const Dynamics *, Vec u, PetscReal *kinetic,
   PetscReal momentum[3], PetscReal spin[3]);
 
+PETSC_INTERN PetscErrorCode MassMarkSliding(const Constraints *, Dynamics *);
+
+/* drive.c: velocities and accelerations in rows with prescribed displacements */
+PETSC_INTERN PetscErrorCode DriveStart(const Constraints *, PetscInt order, Vec rate);
+PETSC_INTERN PetscErrorCode DriveBegin(const Constraints *, PetscReal time, PetscReal dt, PetscReal before, Vec u,
+  Vec previous, Dynamics *);
+PETSC_INTERN PetscErrorCode DriveEnd(const Dynamics *, Vec velocity);
+
 /* start.c: velocities and accelerations at time 0 */
 PETSC_INTERN PetscErrorCode DynamicsCreate(const Constraints *, const DeadLoads *, Springs *, Dynamics *);
 PETSC_INTERN PetscErrorCode DynamicsSetRest(const Constraints *, const DeadLoads *, PetscReal time, Vec u, Dynamics *);
@@ -63,6 +76,7 @@ PETSC_INTERN PetscErrorCode SchemeAddForce(const Dynamics *, Vec u, PetscReal *e
 PETSC_INTERN PetscErrorCode SchemeGetDamping(const SceneDynamics *, const Dynamics *, Vec velocity, Vec force);
 PETSC_INTERN PetscErrorCode SchemeEstimate(const SceneDynamics *, PetscReal dt, PetscReal before, PetscBool smooth,
   Vec from, Vec u, Dynamics *, PetscReal *error);
+PETSC_INTERN PetscErrorCode SchemeRelease(Vec contact, Dynamics *);
 PETSC_INTERN PetscErrorCode SchemeAdvance(const SceneDynamics *, PetscReal dt, Vec before, Vec u, Dynamics *);
 
 /* turn.c: forces that conserve the energy of rotating rigid bodies */

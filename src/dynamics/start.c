@@ -2,7 +2,7 @@
 #include "dynamicsimpl.h"
 
 /* Computes the velocity v + w x (X - centre of mass) from the velocity v and the spin w of each body, as far as
-   supports and ties permit */
+   ties permit. Prescribed displacements have their own velocity. */
 static PetscErrorCode StartVelocity(const Constraints *c, Dynamics *d)
 {
   Scene              scene = c->bodies.scene;
@@ -27,7 +27,7 @@ static PetscErrorCode StartVelocity(const Constraints *c, Dynamics *d)
   PetscCall(VecRestoreArrayWrite(d->velocity, &v));
   PetscCall(VecRestoreArrayRead(c->bodies.places.x, &x));
   PetscCall(PetscFree(centres));
-  PetscCall(PrescribedSet(c->prescribed, 0.0, d->velocity));
+  PetscCall(DriveStart(c, 1, d->velocity));
   if (c->ties->C) {
     PetscCall(VecCopy(d->velocity, c->ties->work));
     PetscCall(MatMult(c->ties->C, c->ties->work, d->velocity));
@@ -58,7 +58,8 @@ static PetscErrorCode StartGetMass(const Constraints *c, const Dynamics *d, Mat 
   PetscFunctionReturn(0);
 }
 
-/* Computes the accelerations at time 0: M a = f - dE/du - damping. They are zero in rows without mass. */
+/* Computes the accelerations at time 0: M a = f - dE/du - damping. They are zero in rows without mass, and given in
+   rows with prescribed displacements. */
 static PetscErrorCode StartAcceleration(const Constraints *c, const DeadLoads *loads, Dynamics *d)
 {
   PetscReal size;
@@ -75,6 +76,8 @@ static PetscErrorCode StartAcceleration(const Constraints *c, const DeadLoads *l
   PetscCall(ElasticityForce(c->bodies.elasticity, zero, force));
   PetscCall(SchemeGetDamping(&c->bodies.scene->dynamics, d, d->velocity, zero));
   PetscCall(VecAXPY(force, 1.0, zero));
+  PetscCall(DriveStart(c, 2, d->acceleration));
+  PetscCall(MatMultAdd(d->mass, d->acceleration, force, force));
   PetscCall(VecScale(force, -1.0));
   PetscCall(DeadLoadsGet(loads, 0.0, &load));
   if (load) PetscCall(VecAXPY(force, 1.0, load));
@@ -100,6 +103,7 @@ static PetscErrorCode StartAcceleration(const Constraints *c, const DeadLoads *l
     PetscCall(KSPDestroy(&ksp));
     PetscCall(MatDestroy(&A));
   }
+  PetscCall(DriveStart(c, 2, d->acceleration));
   PetscCall(VecCopy(d->acceleration, d->auxiliary));
   PetscCall(VecDestroy(&force));
   PetscCall(VecDestroy(&zero));
@@ -141,9 +145,11 @@ PetscErrorCode DynamicsCreate(const Constraints *c, const DeadLoads *loads, Spri
   PetscCall(VecDuplicate(c->bodies.mass, &d->auxiliary));
   PetscCall(VecDuplicate(c->bodies.mass, &d->centre));
   d->elasticity = c->bodies.elasticity;
+  d->prescribed = c->prescribed;
   d->springs    = springs;
   if (scene->damping_stiffness > 0.0 || springs->dampers) PetscCall(VecDuplicate(c->bodies.mass, &d->viscous));
   if (scene->scheme == SCHEME_IMPACT) PetscCall(VecDuplicate(c->bodies.mass, &d->residual));
+  PetscCall(MassMarkSliding(c, d));
   PetscCall(StartVelocity(c, d));
   PetscCall(StartAcceleration(c, loads, d));
   if (d->residual) PetscCall(VecZeroEntries(d->auxiliary));
@@ -166,8 +172,10 @@ PetscErrorCode DynamicsDestroy(Dynamics *d)
   PetscCall(VecDestroy(&d->auxiliary));
   PetscCall(VecDestroy(&d->inert));
   PetscCall(VecDestroy(&d->centre));
+  PetscCall(VecDestroy(&d->driven));
   PetscCall(VecDestroy(&d->viscous));
   PetscCall(VecDestroy(&d->residual));
+  PetscCall(VecDestroy(&d->sliding));
   PetscCall(VecDestroy(&d->turn));
   PetscCall(VecDestroy(&d->excess));
   PetscFunctionReturn(0);

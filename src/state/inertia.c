@@ -7,16 +7,25 @@ static PetscReal InertiaStep(Simulation sim, PetscReal time)
   return (time - sim->path->time) * SceneTimeStep(sim->scene);
 }
 
+/* Returns the length of the previous time step; 0 in the first time step [time] */
+static PetscReal InertiaPreviousStep(Simulation sim)
+{
+  return (sim->path->time - sim->path->previous_time) * SceneTimeStep(sim->scene);
+}
+
 /*
    Sets the inertia term for the time step that ends at `time`. *changed: true if the tangent of the term differs from
    that of the previous time step.
 */
 PetscErrorCode InertiaBegin(Simulation sim, PetscReal time, PetscBool *changed)
 {
-  Dynamics *d = &sim->dynamics;
+  const Constraints constraints = SimulationConstraints(sim);
+  Dynamics         *d           = &sim->dynamics;
 
   PetscFunctionBegin;
   PetscCall(SchemeBegin(&sim->scene->dynamics, InertiaStep(sim, time), sim->path->u, d));
+  PetscCall(DriveBegin(&constraints, time, InertiaStep(sim, time), InertiaPreviousStep(sim), sim->path->u,
+    sim->path->previous_u, d));
   PetscCall(ElasticitySetInertia(sim->elasticity, d->inertia, d->viscosity, changed));
   PetscFunctionReturn(0);
 }
@@ -124,10 +133,8 @@ PetscErrorCode InertiaAdvance(Simulation sim, PetscReal time, Vec u)
    this time step */
 PetscErrorCode InertiaEstimate(Simulation sim, PetscReal time, PetscBool smooth, Vec u, PetscReal *error)
 {
-  const PetscReal before = (sim->path->time - sim->path->previous_time) * SceneTimeStep(sim->scene);
-
   PetscFunctionBegin;
-  PetscCall(SchemeEstimate(&sim->scene->dynamics, InertiaStep(sim, time), before, smooth, sim->path->u, u,
-    &sim->dynamics, error));
+  PetscCall(SchemeEstimate(&sim->scene->dynamics, InertiaStep(sim, time), InertiaPreviousStep(sim), smooth,
+    sim->path->u, u, &sim->dynamics, error));
   PetscFunctionReturn(0);
 }
