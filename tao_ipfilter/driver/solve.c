@@ -147,8 +147,15 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   PetscReal     lowest;
 
   PetscFunctionBegin;
+  PetscCall(IPTestNumbers(tao));
+  if (tao->reason == TAO_DIVERGED_NAN) PetscFunctionReturn(0);
   if (solved && !infeasible && !violated) PetscCall(IPTestUnboundedRays(tao, &lowest, &unbounded));
-  if (infeasible)
+  if (solved && ip->search->ntrials && !ip->search->ndefined)
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN,
+      "the objective or a constraint is not a number at all points that were tried after iteration %" PetscInt_FMT
+      ", at KKT error %g",
+      tao->niter, (double)IPBothErrors(ip)));
+  else if (infeasible)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
       "the constraints seem infeasible: their violation has a local minimum of %g", (double)ip->kkt->inf_pr));
   else if (!solved && ip->lin->failed) PetscCall(EndLinear(tao));
