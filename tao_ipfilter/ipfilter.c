@@ -258,7 +258,8 @@ static PetscErrorCode SolverCreate(Tao tao)
   `TaoIPFilterGetReason()` gives a sentence.
 
   Errors: equality constraints that are not condensed need MUMPS, but PETSc has none; a matrix cannot be read; a lower
-  bound exceeds an upper one; the sizes of the masses do not match. Scalars must be real.
+  bound exceeds an upper one; a mass, a bound or a starting value is not laid out as the unknowns or constraints to
+  which it belongs. Scalars must be real.
 
   References:
 + * - A. Waechter and L. T. Biegler, "On the implementation of an interior-point filter line-search algorithm for

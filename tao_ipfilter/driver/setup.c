@@ -22,23 +22,15 @@ static PetscErrorCode DuplicateAfresh(Vec layout, Vec *v)
 
 static PetscErrorCode SetUpInequalities(Tao tao)
 {
-  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
-  MPI_Comm      comm = PetscObjectComm((PetscObject)tao);
-  Vec           c    = tao->constraints_inequality;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           c  = tao->constraints_inequality;
 
   PetscFunctionBegin;
   PetscCall(VecGetSize(c, &ip->mi));
   PetscCall(DuplicateAfresh(c, &tao->DI));
   if (!ip->mi) PetscFunctionReturn(0);
-  PetscCheck(tao->jacobian_inequality, comm, PETSC_ERR_ARG_WRONGSTATE,
+  PetscCheck(tao->jacobian_inequality, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE,
     "Must call TaoSetJacobianInequalityRoutine() before TaoSolve()");
-  if (ip->given->slack_mass) {
-    PetscInt n;
-
-    PetscCall(VecGetSize(ip->given->slack_mass, &n));
-    PetscCheck(n == ip->mi, comm, PETSC_ERR_ARG_SIZ,
-      "Slack mass has %" PetscInt_FMT " entries for %" PetscInt_FMT " constraints", n, ip->mi);
-  }
   PetscCall(DuplicateAfresh(c, &ip->rc));
   PetscCall(DuplicateAfresh(c, &ip->at.lambda));
   PetscCall(DuplicateAfresh(c, &ip->best.lambda));
@@ -139,6 +131,7 @@ PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   Vec           x  = tao->solution, c, ce;
 
   PetscFunctionBegin;
+  PetscCall(IPGivenCheck(tao));
   PetscCall(FreeSizes(tao));
   ip->mi = ip->me = 0;
   if (!tao->gradient) PetscCall(VecDuplicate(x, &tao->gradient));
@@ -216,6 +209,7 @@ PetscErrorCode IPSetUpSizes(Tao tao)
   PetscBool     same = PETSC_TRUE;
 
   PetscFunctionBegin;
+  PetscCall(IPGivenCheck(tao));
   PetscCall(SetUpSides(tao));
   PetscCall(SameLayout(tao, ip->rx, tao->solution, 0, &same));
   PetscCall(SameLayout(tao, ip->at.c, tao->ineq_constrained ? tao->constraints_inequality : NULL, 0, &same));

@@ -18,8 +18,12 @@ PETSC_INTERN PetscErrorCode IPRestoreWork(Tao, IPSpace, Vec *);
 PETSC_INTERN PetscErrorCode IPWorkTrim(IPWork *);
 PETSC_INTERN PetscErrorCode IPWorkDestroy(IPWork *);
 
+/* given.c */
+PETSC_INTERN PetscErrorCode IPGivenCheck(Tao);
+
 /* pairs.c */
 PETSC_INTERN PetscErrorCode IPPairCreate(Vec, Vec, PetscReal sign, IPPair *);
+PETSC_INTERN PetscErrorCode IPPairSetWeights(Vec, IPPair *);
 PETSC_INTERN PetscErrorCode IPPairDestroy(IPPair *);
 PETSC_INTERN PetscErrorCode IPPairSetTarget(IPPair *, PetscReal mu, PetscReal corrector_max);
 PETSC_INTERN PetscErrorCode IPPairCenter(IPPair *, PetscReal mu);

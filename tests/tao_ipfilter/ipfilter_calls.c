@@ -560,6 +560,128 @@ static PetscErrorCode TestCrossedSides(void)
   PetscFunctionReturn(0);
 }
 
+typedef PetscErrorCode (*Setter)(Tao, Vec);
+
+static PetscErrorCode SetLower(Tao tao, Vec v)
+{
+  PetscFunctionBeginUser;
+  PetscCall(TaoSetVariableBounds(tao, v, NULL));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetUpper(Tao tao, Vec v)
+{
+  PetscFunctionBeginUser;
+  PetscCall(TaoSetVariableBounds(tao, NULL, v));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetRows(Tao tao, Vec v)
+{
+  PetscFunctionBeginUser;
+  PetscCall(TaoSetInequalityBounds(tao, v, v));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetPairs(Tao tao, Vec v)
+{
+  PetscFunctionBeginUser;
+  PetscCall(TaoIPFilterSetWarmStart(tao, v, v));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetBounds(Tao tao, Vec v)
+{
+  PetscFunctionBeginUser;
+  PetscCall(TaoIPFilterSetWarmStartBounds(tao, v, v));
+  PetscFunctionReturn(0);
+}
+
+/* Vectors of another layout than what they belong to, before the first solve and after one */
+static PetscErrorCode TestLayouts(void)
+{
+  const Setter setters[] = {TaoIPFilterSetSlackMass, TaoIPFilterSetPrimalMass, SetLower, SetUpper, SetRows, SetPairs,
+    TaoIPFilterSetWarmStartEquality, SetBounds};
+  Chain        chain;
+  Vec          x, other;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(20, &chain));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, 2 * chain.n, &other));
+  PetscCall(VecSet(other, 1.0));
+  for (PetscInt k = 0; k < 2 * (PetscInt)PETSC_STATIC_ARRAY_LENGTH(setters); k++) {
+    PetscErrorCode ierr;
+    Tao            tao;
+
+    PetscCall(CreateChainSolver(&chain, PETSC_TRUE, PETSC_TRUE, PETSC_FALSE, x, &tao));
+    if (k % 2) PetscCall(TaoSolve(tao));
+    PetscCall(setters[k / 2](tao, other));
+    PetscCall(AttemptBegin());
+    ierr = TaoSolve(tao);
+    PetscCall(AttemptEnd());
+    PetscCall(AttemptCompareRanks("layouts", ierr));
+    attempt_sentence[strcspn(attempt_sentence, ":")] = '\0';
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "another layout%s: %s\n", k % 2 ? ", after a solve" : "",
+      ierr == PETSC_ERR_ARG_SIZ ? attempt_sentence : "NOT REFUSED"));
+    PetscCall(TaoDestroy(&tao));
+  }
+  PetscCall(VecDestroy(&other));
+  PetscCall(VecDestroy(&x));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
+/* Solves, and compares the multipliers z with DI / m */
+static PetscErrorCode SolveWithMass(Tao tao, PetscReal m, const char name[])
+{
+  Vec       z, DI, difference;
+  PetscReal norm, size;
+
+  PetscFunctionBeginUser;
+  PetscCall(TaoSolve(tao));
+  PetscCall(TaoIPFilterGetMultiplier(tao, &z));
+  PetscCall(TaoGetDualVariables(tao, NULL, &DI));
+  PetscCall(VecDuplicate(z, &difference));
+  PetscCall(VecWAXPY(difference, -1.0 / m, DI, z));
+  PetscCall(VecNorm(difference, NORM_INFINITY, &norm));
+  PetscCall(VecNorm(z, NORM_INFINITY, &size));
+  PetscCall(ProblemVerdict(name, norm / size, 1e-6));
+  PetscCall(VecDestroy(&difference));
+  PetscFunctionReturn(0);
+}
+
+/* A slack mass that is set, changed and removed between solves, of rows with one bound or two */
+static PetscErrorCode TestSlackMass(PetscBool two)
+{
+  Chain chain;
+  Tao   tao;
+  Vec   x, mass;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(20, &chain));
+  PetscCall(FillVec(chain.q.g, 1.2, 0.15));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(VecDuplicate(chain.q.g, &mass));
+  PetscCall(VecSet(mass, 2.0));
+  PetscCall(CreateChainSolver(&chain, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE, x, &tao));
+  if (two) PetscCall(FillSides(&chain, 2, -1.0));
+  if (two) PetscCall(TaoSetInequalityBounds(tao, chain.row_lower, chain.row_upper));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "multipliers of rows with %s\n", two ? "two sides" : "one side"));
+  PetscCall(SolveWithMass(tao, 1.0, "  no mass"));
+  PetscCall(TaoIPFilterSetSlackMass(tao, mass));
+  PetscCall(SolveWithMass(tao, 2.0, "  mass 2"));
+  PetscCall(VecSet(mass, 5.0));
+  PetscCall(SolveWithMass(tao, 5.0, "  mass 5"));
+  PetscCall(TaoIPFilterSetSlackMass(tao, NULL));
+  PetscCall(SolveWithMass(tao, 1.0, "  no mass again"));
+  PetscCall(VecDestroy(&mass));
+  PetscCall(VecDestroy(&x));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   PetscFunctionBeginUser;
@@ -577,6 +699,9 @@ int main(int argc, char **argv)
   PetscCall(TestSides(2, "two sides or an upper one"));
   PetscCall(TestSides(5, "bounds of all kinds"));
   PetscCall(TestCrossedSides());
+  PetscCall(TestLayouts());
+  PetscCall(TestSlackMass(PETSC_FALSE));
+  PetscCall(TestSlackMass(PETSC_TRUE));
   PetscCall(PetscFinalize());
   return 0;
 }
