@@ -113,7 +113,7 @@ static PetscErrorCode SetUpHessian(Tao tao)
   PetscInt       n;
 
   PetscFunctionBegin;
-  if (tao->hessian && !ip->qn->B) PetscFunctionReturn(0);
+  if (tao->hessian && !IPDifferenceInUse(tao) && !IPQuasiNewtonInUse(tao)) PetscFunctionReturn(0);
   PetscCall(VecGetSize(tao->solution, &n));
   PetscCheck(n <= large || !ip->me, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE,
     "TAOIPFILTER needs TaoSetHessian() for a problem with equality constraints and %" PetscInt_FMT
@@ -210,6 +210,7 @@ PetscErrorCode IPSetUpSizes(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPGivenCheck(tao));
+  if (!IPQuasiNewtonInUse(tao)) PetscCall(IPQuasiNewtonDestroy(ip->qn)); /* the caller may have set a Hessian since */
   PetscCall(SetUpSides(tao));
   PetscCall(SameLayout(tao, ip->rx, tao->solution, 0, &same));
   PetscCall(SameLayout(tao, ip->at.c, tao->ineq_constrained ? tao->constraints_inequality : NULL, 0, &same));

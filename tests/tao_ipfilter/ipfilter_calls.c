@@ -682,6 +682,63 @@ static PetscErrorCode TestSlackMass(PetscBool two)
   PetscFunctionReturn(0);
 }
 
+/* Residual of the chain without constraints, and how the solve ended */
+static PetscErrorCode CheckFree(Tao tao, Chain *chain, Vec x, const char name[])
+{
+  Vec       r;
+  PetscReal norm, size;
+
+  PetscFunctionBeginUser;
+  PetscCall(AttemptBegin());
+  (void)TaoSolve(tao);
+  PetscCall(AttemptEnd());
+  PetscCall(VecDuplicate(x, &r));
+  PetscCall(MatMult(chain->q.H, x, r));
+  PetscCall(VecAXPY(r, -1.0, chain->q.b));
+  PetscCall(VecNorm(r, NORM_2, &norm));
+  PetscCall(VecNorm(chain->q.b, NORM_2, &size));
+  PetscCall(ProblemVerdict(name, norm / size, 1e-6));
+  if (attempt_sentence[0]) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s\n", attempt_sentence));
+  PetscCall(VecDestroy(&r));
+  PetscFunctionReturn(0);
+}
+
+/* One solver without TaoSetHessian() for numbers of unknowns with differences and with a limited-memory matrix; at last
+   it gets a Hessian, which takes one step */
+static PetscErrorCode TestOwnHessian(void)
+{
+  const PetscInt sizes[] = {8, 12, 1500, 1200, 5, 1500};
+  PetscInt       its;
+  Chain          chain;
+  Tao            tao;
+  Vec            x;
+
+  PetscFunctionBeginUser;
+  PetscCall(TaoCreate(PETSC_COMM_WORLD, &tao));
+  PetscCall(TaoSetType(tao, TAOIPFILTER));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(sizes); k++) {
+    char name[64];
+
+    PetscCall(CreateChain(sizes[k], &chain));
+    PetscCall(VecDuplicate(chain.q.b, &x));
+    PetscCall(TaoSetSolution(tao, x));
+    PetscCall(TaoSetObjectiveAndGradient(tao, NULL, ProblemObjectiveAndGradient, &chain.q));
+    PetscCall(PetscSNPrintf(name, sizeof(name), "no Hessian, %" PetscInt_FMT " unknowns: residual", sizes[k]));
+    PetscCall(CheckFree(tao, &chain, x, name));
+    if (k + 1 == PETSC_STATIC_ARRAY_LENGTH(sizes)) {
+      PetscCall(VecSet(x, 0.0));
+      PetscCall(TaoSetHessian(tao, chain.q.H, chain.q.H, ProblemConstant, NULL));
+      PetscCall(CheckFree(tao, &chain, x, "then a Hessian: residual"));
+      PetscCall(TaoGetIterationNumber(tao, &its));
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s\n", its == 1 ? "one step" : "MORE THAN ONE STEP"));
+    }
+    PetscCall(VecDestroy(&x));
+    PetscCall(DestroyChain(&chain));
+  }
+  PetscCall(TaoDestroy(&tao));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   PetscFunctionBeginUser;
@@ -702,6 +759,7 @@ int main(int argc, char **argv)
   PetscCall(TestLayouts());
   PetscCall(TestSlackMass(PETSC_FALSE));
   PetscCall(TestSlackMass(PETSC_TRUE));
+  PetscCall(TestOwnHessian());
   PetscCall(PetscFinalize());
   return 0;
 }
