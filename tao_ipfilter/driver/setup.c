@@ -167,21 +167,27 @@ PetscErrorCode IPSetUpIteration(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Sets *all to false unless `here` holds on all ranks */
+static PetscErrorCode OnAllRanks(Tao tao, PetscBool here, PetscBool *all)
+{
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &here, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)tao)));
+  *all = (PetscBool)(*all && here);
+  PetscFunctionReturn(0);
+}
+
 /*
    Sets *same to false unless v, created in TaoSetUp(), has as many local entries as `model` plus `more`, on all ranks.
    v and model may be NULL for no entries.
 */
 static PetscErrorCode SameLayout(Tao tao, Vec v, Vec model, PetscInt more, PetscBool *same)
 {
-  PetscInt  local[2] = {0, 0};
-  PetscBool equal;
+  PetscInt local[2] = {0, 0};
 
   PetscFunctionBegin;
   if (v) PetscCall(VecGetLocalSize(v, &local[0]));
   if (model) PetscCall(VecGetLocalSize(model, &local[1]));
-  equal = (PetscBool)(local[0] == local[1] + more);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &equal, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)tao)));
-  *same = (PetscBool)(*same && equal);
+  PetscCall(OnAllRanks(tao, (PetscBool)(local[0] == local[1] + more), same));
   PetscFunctionReturn(0);
 }
 
@@ -202,6 +208,29 @@ static PetscErrorCode SetUpSides(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/*
+   Resets the Krylov solver if its preconditioner was set up for another number of unknowns: it may be that of another
+   solver, from TaoIPFilterSetSubspace()
+*/
+static PetscErrorCode FitPreconditioner(Tao tao)
+{
+  PC        pc;
+  PetscBool set, fits = PETSC_TRUE;
+  PetscInt  rows, n;
+  Mat       A;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(PCGetOperatorsSet(pc, &set, NULL));
+  if (!set) PetscFunctionReturn(0);
+  PetscCall(PCGetOperators(pc, &A, NULL));
+  PetscCall(MatGetLocalSize(A, &rows, NULL));
+  PetscCall(VecGetLocalSize(tao->solution, &n));
+  PetscCall(OnAllRanks(tao, (PetscBool)(rows == n), &fits));
+  if (!fits) PetscCall(IPKSPReset(tao->ksp));
+  PetscFunctionReturn(0);
+}
+
 /* Sets up the solver again if the caller has replaced the solution or the constraints by vectors of another size */
 PetscErrorCode IPSetUpSizes(Tao tao)
 {
@@ -212,6 +241,7 @@ PetscErrorCode IPSetUpSizes(Tao tao)
   PetscCall(IPGivenCheck(tao));
   if (!IPQuasiNewtonInUse(tao)) PetscCall(IPQuasiNewtonDestroy(ip->qn)); /* the caller may have set a Hessian since */
   PetscCall(SetUpSides(tao));
+  PetscCall(FitPreconditioner(tao));
   PetscCall(SameLayout(tao, ip->rx, tao->solution, 0, &same));
   PetscCall(SameLayout(tao, ip->at.c, tao->ineq_constrained ? tao->constraints_inequality : NULL, 0, &same));
   PetscCall(
