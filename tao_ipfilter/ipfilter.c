@@ -135,13 +135,16 @@ static PetscErrorCode SolverCreate(Tao tao)
 . -tao_ipfilter_direct_memory <2000>                        - if the Krylov method fails: largest memory of MUMPS for
                                                               the whole matrix, over all ranks [MB]; 0: MUMPS is not
                                                               used
-. -tao_ipfilter_ksp_type <cg>, -tao_ipfilter_pc_type <amgf> - solver of the condensed system
+. -tao_ipfilter_ksp_type <cg>, -tao_ipfilter_pc_type <amgf> - solver of the condensed system; convergence is tested with
+                                                              the norm of the true residual, unless the type does not
+                                                              compute it (`KSPMINRES`, `KSPSYMMLQ`)
 . -tao_ipfilter_equality <auto> (auto,augmented,condensed)  - equality constraints: `augmented`: in an augmented system,
                                                               factored by MUMPS; `condensed`: eliminated, with proximal
                                                               updates of the multipliers
 . -tao_ipfilter_proximal <1e-5>                             - condensed equality constraints: stiffness of the Hessian
                                                               in their direction, as a fraction of their weights
-- -tao_ipfilter_augmented_pc_type <cholesky>                - solver of the augmented system; the default ordering of
+- -tao_ipfilter_augmented_pc_type <cholesky> (cholesky)     - solver of the augmented system, whose inertia only a
+                                                              Cholesky factorization gives; the default ordering of
                                                               `MATSOLVERMUMPS` is approximate minimum fill
                                                               (-mat_mumps_icntl_7 2)
 
