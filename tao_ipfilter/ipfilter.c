@@ -26,8 +26,7 @@ static PetscErrorCode CreateKSP(Tao tao)
   PetscFunctionBegin;
   PetscCall(KSPCreate(PetscObjectComm((PetscObject)tao), &tao->ksp));
   PetscCall(PetscObjectIncrementTabLevel((PetscObject)tao->ksp, (PetscObject)tao, 1));
-  PetscCall(KSPSetOptionsPrefix(tao->ksp, ((PetscObject)tao)->prefix));
-  PetscCall(KSPAppendOptionsPrefix(tao->ksp, "tao_ipfilter_"));
+  PetscCall(IPOptionsSetPrefix(tao));
   PetscCall(KSPSetType(tao->ksp, KSPCG));
   PetscCall(KSPSetNormType(tao->ksp, KSP_NORM_UNPRECONDITIONED));
   PetscCall(KSPGetPC(tao->ksp, &pc));
@@ -108,7 +107,7 @@ static PetscErrorCode SolverCreate(Tao tao)
                                                               those of `TaoIPFilterSetWarmStart()`, if given, else as
                                                               `predict`
 . -tao_ipfilter_mu_init <1>                                 - cold start: barrier parameter
-. -tao_ipfilter_slack_init <1>                              - cold start: slacks
+. -tao_ipfilter_slack_init <1>                              - cold start: slacks; positive
 . -tao_ipfilter_dual_init <10>                              - cold start: multipliers of the slacks
 . -tao_ipfilter_barrier <mehrotra> (monotone,mehrotra)      - update of the barrier parameter
 . -tao_ipfilter_mu_reductions_first <10>                    - monotone: largest number of reductions of mu at the first
@@ -142,7 +141,8 @@ static PetscErrorCode SolverCreate(Tao tao)
                                                               factored by MUMPS; `condensed`: eliminated, with proximal
                                                               updates of the multipliers
 . -tao_ipfilter_proximal <1e-5>                             - condensed equality constraints: stiffness of the Hessian
-                                                              in their direction, as a fraction of their weights
+                                                              in their direction, as a fraction of their weights;
+                                                              positive
 - -tao_ipfilter_augmented_pc_type <cholesky> (cholesky)     - solver of the augmented system, whose inertia only a
                                                               Cholesky factorization gives; the default ordering of
                                                               `MATSOLVERMUMPS` is approximate minimum fill

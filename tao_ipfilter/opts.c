@@ -19,22 +19,25 @@ typedef struct {
   const char *option, *text;
   size_t      offset;
   PetscReal   value;
+  PetscBool   positive; /* zero and negative values are refused */
 } RealOption;
 
-#define IP_REAL(name, member, value, text) \
+#define IP_ANY_REAL(name, member, value, positive, text) \
   { \
-    "-tao_ipfilter_" name, text, offsetof(IPOptions, member), value \
+    "-tao_ipfilter_" name, text, offsetof(IPOptions, member), value, positive \
   }
+#define IP_REAL(name, member, value, text)     IP_ANY_REAL(name, member, value, PETSC_FALSE, text)
+#define IP_POSITIVE(name, member, value, text) IP_ANY_REAL(name, member, value, PETSC_TRUE, text)
 
 static const RealOption real_options[] = {
   IP_REAL("mu_init", mu0, 1.0, "barrier parameter at a cold start"),
-  IP_REAL("slack_init", s0, 1.0, "slacks at a cold start"),
+  IP_POSITIVE("slack_init", s0, 1.0, "slacks at a cold start"),
   IP_REAL("dual_init", z0, 10.0, "multipliers of the slacks at a cold start"),
   IP_REAL("gamma_phi", gamma_phi, 1e-8,
     "fraction of the violation by which an accepted step must reduce the barrier function"),
   IP_REAL("eta_phi", eta_phi, 1e-8, "fraction of the predicted decrease that a step must reach (Armijo)"),
   IP_REAL("delta_max", delta_max, 1e20, "largest shift of an indefinite Hessian"),
-  IP_REAL("proximal", proximal, 1e-5,
+  IP_POSITIVE("proximal", proximal, 1e-5,
     "for condensed equality constraints: size of the proximal term relative to the weights of the constraints"),
   IP_REAL("filter_switch", filter_switch, 10.0,
     "the filter is used if (J^T D J)_ii exceeds this many times H_ii for some i; 0: always"),
@@ -64,6 +67,18 @@ PetscErrorCode IPOptionsInitialize(IPOptions *opt)
   PetscFunctionReturn(0);
 }
 
+/*
+   Sets the options prefix of the Krylov solver: that of the Tao and tao_ipfilter_. TaoSetOptionsPrefix() gives it that
+   of the Tao alone.
+*/
+PetscErrorCode IPOptionsSetPrefix(Tao tao)
+{
+  PetscFunctionBegin;
+  PetscCall(KSPSetOptionsPrefix(tao->ksp, ((PetscObject)tao)->prefix));
+  PetscCall(KSPAppendOptionsPrefix(tao->ksp, "tao_ipfilter_"));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsObject)
 {
   const PetscInt fewest = 4; /* least number of directions with which the basis can be compressed */
@@ -75,6 +90,8 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
     PetscReal *value = (PetscReal *)((char *)opt + real_options[k].offset);
 
     PetscCall(PetscOptionsReal(real_options[k].option, real_options[k].text, TAOIPFILTER, *value, value, NULL));
+    PetscCheck(*value > 0.0 || !real_options[k].positive, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
+      "%s must be positive, not %g", real_options[k].option, (double)*value);
   }
   PetscCall(PetscOptionsReal("-tao_ipfilter_tol", "KKT error at which the solver has converged; the same as -tao_gatol",
     TAOIPFILTER, tao->gatol, &tao->gatol, NULL));
@@ -113,6 +130,7 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
   PetscCall(PetscOptionsBool("-tao_ipfilter_monitor", "Print one line per iteration", TAOIPFILTER, opt->monitor,
     &opt->monitor, NULL));
   PetscOptionsHeadEnd();
+  PetscCall(IPOptionsSetPrefix(tao));
   PetscCall(KSPSetFromOptions(tao->ksp));
   PetscFunctionReturn(0);
 }

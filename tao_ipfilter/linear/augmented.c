@@ -244,6 +244,19 @@ static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PCFailedReason *fa
   PetscFunctionReturn(0);
 }
 
+/* Finds whether an entry of K is infinite or NaN, from the row sums. MatNorm() ignores NaN. */
+static PetscErrorCode AugmentedUndefined(IPAugmented *aug, PetscBool *undefined)
+{
+  PetscReal norm;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(aug->correction, 1.0));
+  PetscCall(MatMult(aug->K, aug->correction, aug->residual));
+  PetscCall(VecNorm(aug->residual, NORM_1, &norm));
+  *undefined = (PetscBool)PetscIsInfOrNanReal(norm);
+  PetscFunctionReturn(0);
+}
+
 /*
    Factors K. *inertia: K has the inertia of a minimum; *singular: K is singular. If MUMPS fails for lack of memory or
    another reason that tells nothing about the matrix, ip->lin->failed is set.
@@ -256,12 +269,12 @@ static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *si
   PCFailedReason failed;
   Mat            F;
   PetscInt       negative, zero, positive, n;
-  PetscReal      norm;
+  PetscBool      undefined = PETSC_TRUE;
 
   PetscFunctionBegin;
   *singular = *inertia = PETSC_FALSE;
-  PetscCall(MatNorm(aug->K, NORM_INFINITY, &norm));
-  if (PetscIsInfOrNanReal(norm)) { /* MUMPS does not accept infinite entries or NaN */
+  PetscCall(AugmentedUndefined(aug, &undefined));
+  if (undefined) { /* MUMPS does not accept infinite entries or NaN */
     PetscCall(IPResidualNotANumber(tao));
     PetscFunctionReturn(0);
   }

@@ -768,11 +768,98 @@ static PetscErrorCode TestAugmentedTypes(void)
   PetscFunctionReturn(0);
 }
 
+/* Options that need a positive value */
+static PetscErrorCode TestPositiveOptions(void)
+{
+  const char *const names[] = {"-tao_ipfilter_slack_init", "-tao_ipfilter_proximal"}, *const values[] = {"0", "-1"};
+
+  PetscFunctionBeginUser;
+  for (PetscInt k = 0; k < 4; k++) {
+    Tao            tao;
+    PetscErrorCode ierr;
+
+    PetscCall(PetscOptionsSetValue(NULL, names[k / 2], values[k % 2]));
+    PetscCall(TaoCreate(PETSC_COMM_WORLD, &tao));
+    PetscCall(TaoSetType(tao, TAOIPFILTER));
+    PetscCall(AttemptBegin());
+    ierr = TaoSetFromOptions(tao);
+    PetscCall(AttemptEnd());
+    PetscCall(AttemptCompareRanks(names[k / 2], ierr));
+    PetscCall(AttemptPrint(ierr));
+    PetscCall(TaoDestroy(&tao));
+    PetscCall(PetscOptionsClearValue(NULL, names[k / 2]));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* An options prefix that is set after the type */
+static PetscErrorCode TestPrefix(void)
+{
+  Tao         tao;
+  KSP         ksp;
+  const char *prefix;
+  PetscBool   gmres;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsSetValue(NULL, "-own_tao_ipfilter_ksp_type", "gmres"));
+  PetscCall(TaoCreate(PETSC_COMM_WORLD, &tao));
+  PetscCall(TaoSetType(tao, TAOIPFILTER));
+  PetscCall(TaoSetOptionsPrefix(tao, "own_"));
+  PetscCall(TaoSetFromOptions(tao));
+  PetscCall(TaoGetKSP(tao, &ksp));
+  PetscCall(KSPGetOptionsPrefix(ksp, &prefix));
+  PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPGMRES, &gmres));
+  PetscCall(
+    PetscPrintf(PETSC_COMM_WORLD, "prefix of the KSP: %s, its option is %s\n", prefix, gmres ? "read" : "NOT READ"));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(PetscOptionsClearValue(NULL, "-own_tao_ipfilter_ksp_type"));
+  PetscFunctionReturn(0);
+}
+
+/* A Hessian with an entry that is not a number, without and with equality constraints */
+static PetscErrorCode TestUndefinedHessian(PetscBool total)
+{
+  Chain       chain;
+  Tao         tao;
+  Mat         H;
+  Vec         x;
+  PetscInt    lo, hi;
+  const char *sentence;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(20, &chain));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(CreateChainSolver(&chain, PETSC_FALSE, total, PETSC_FALSE, x, &tao));
+  PetscCall(MatDuplicate(chain.q.H, MAT_COPY_VALUES, &H));
+  PetscCall(MatGetOwnershipRange(H, &lo, &hi));
+  if (lo <= 7 && hi > 7) PetscCall(MatSetValue(H, 7, 7, NAN, INSERT_VALUES));
+  PetscCall(MatAssemblyBegin(H, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(H, MAT_FINAL_ASSEMBLY));
+  PetscCall(TaoSetHessian(tao, H, H, ProblemConstant, NULL));
+  PetscCall(TaoSolve(tao));
+  PetscCall(TaoIPFilterGetReason(tao, &sentence));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "NaN in the Hessian%s: %s\n", total ? ", equality" : "",
+    strstr(sentence, "not a number") ? "it is said" : sentence));
+  PetscCall(MatDestroy(&H));
+  PetscCall(VecDestroy(&x));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
+  PetscBool positive;
+
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscAMGFInitializePackage());
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-positive", &positive));
+  if (positive) {
+    PetscCall(TestPositiveOptions());
+    PetscCall(PetscFinalize());
+    return 0;
+  }
   PetscCall(TestConvergenceTests());
   PetscCall(TestConstraintTolerances());
   PetscCall(TestBoundMultipliers());
@@ -790,6 +877,9 @@ int main(int argc, char **argv)
   PetscCall(TestSlackMass(PETSC_TRUE));
   PetscCall(TestOwnHessian());
   PetscCall(TestAugmentedTypes());
+  PetscCall(TestPrefix());
+  PetscCall(TestUndefinedHessian(PETSC_FALSE));
+  PetscCall(TestUndefinedHessian(PETSC_TRUE));
   PetscCall(PetscFinalize());
   return 0;
 }
@@ -799,5 +889,11 @@ int main(int argc, char **argv)
    test:
       suffix: 1
       nsize: {{1 2 3}}
+
+   # what an error leaves allocated is no leak
+   test:
+      suffix: positive
+      nsize: {{1 3}}
+      args: -positive -malloc_dump 0
 
 TEST*/
