@@ -490,7 +490,7 @@ PetscErrorCode TaoIPFilterGetKKTError(Tao tao, PetscReal *scaled, PetscReal *uns
 . tao - the `TAOIPFILTER`
 
   Output Parameter:
-. reason - the sentence; owned by `tao`, empty before the first solve
+. reason - the sentence; owned by `tao`, empty before the first solve and after an error
 
   Level: intermediate
 

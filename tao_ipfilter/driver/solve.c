@@ -478,12 +478,23 @@ static PetscErrorCode EndSolve(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Forgets the figures and the sentence of the last solve, which a solve that ends with an error or NaN does not have */
+static void ForgetFigures(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  tao->fc = tao->residual = tao->cnorm = NAN;
+  ip->kkt->error = ip->kkt->unscaled = NAN;
+  ip->rec->reason[0]                 = '\0';
+}
+
 PetscErrorCode TaoSolve_IPFilter(Tao tao)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
   PetscBool     finite = PETSC_TRUE, other_operator;
 
   PetscFunctionBegin;
+  ForgetFigures(tao);
   PetscCall(IPSetUpSizes(tao));
   PetscCall(IPMatricesCheck(tao, &other_operator));
   if (other_operator) PetscCall(IPForgetSystem(tao));

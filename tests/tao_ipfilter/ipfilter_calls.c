@@ -847,6 +847,58 @@ static PetscErrorCode TestUndefinedHessian(PetscBool total)
   PetscFunctionReturn(0);
 }
 
+/* What the solver tells of a solve */
+static PetscErrorCode PrintStatus(Tao tao, const char name[])
+{
+  PetscReal   figures[5];
+  PetscInt    known = 0;
+  const char *sentence;
+
+  PetscFunctionBeginUser;
+  PetscCall(TaoGetSolutionStatus(tao, NULL, &figures[0], &figures[1], &figures[2], NULL, NULL));
+  PetscCall(TaoIPFilterGetKKTError(tao, &figures[3], &figures[4]));
+  PetscCall(TaoIPFilterGetReason(tao, &sentence));
+  for (PetscInt k = 0; k < 5; k++) known += !PetscIsNanReal(figures[k]);
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " figures, \"%.9s\"\n", name, known, sentence));
+  PetscFunctionReturn(0);
+}
+
+/* After a solve with a result, a start that is not a number, and an error: they have no figures of the first */
+static PetscErrorCode TestStatus(void)
+{
+  Chain          chain;
+  Tao            tao;
+  Vec            x, other;
+  PetscErrorCode ierr;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(20, &chain));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(CreateChainSolver(&chain, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE, x, &tao));
+  PetscCall(TaoSolve(tao));
+  PetscCall(PrintStatus(tao, "status of a solve"));
+  PetscCall(VecSet(x, NAN));
+  PetscCall(TaoSolve(tao));
+  PetscCall(PrintStatus(tao, "status of a start with NaN"));
+  PetscCall(VecSet(x, 0.0));
+  PetscCall(TaoSolve(tao));
+  PetscCall(PrintStatus(tao, "status of a solve"));
+  PetscCall(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, 2 * chain.n, &other));
+  PetscCall(VecSet(other, 1.0));
+  PetscCall(TaoIPFilterSetPrimalMass(tao, other));
+  PetscCall(AttemptBegin());
+  ierr = TaoSolve(tao);
+  PetscCall(AttemptEnd());
+  PetscCall(AttemptCompareRanks("status", ierr));
+  PetscCall(TaoIPFilterSetPrimalMass(tao, NULL));
+  PetscCall(PrintStatus(tao, "status of an error"));
+  PetscCall(VecDestroy(&other));
+  PetscCall(VecDestroy(&x));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   PetscBool positive;
@@ -880,6 +932,7 @@ int main(int argc, char **argv)
   PetscCall(TestPrefix());
   PetscCall(TestUndefinedHessian(PETSC_FALSE));
   PetscCall(TestUndefinedHessian(PETSC_TRUE));
+  PetscCall(TestStatus());
   PetscCall(PetscFinalize());
   return 0;
 }
