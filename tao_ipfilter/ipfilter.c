@@ -87,7 +87,8 @@ static PetscErrorCode SolverCreate(Tao tao)
 
   Options Database Keys:
 + -tao_gatol <1e-8>                                         - KKT error at which the solver has converged, as
-                                                              `TaoSetTolerances()` sets it; 0: machine precision
+                                                              `TaoSetTolerances()` sets it; 0, or less where the error
+                                                              is dimensionless: machine precision
 . -tao_ipfilter_tol <1e-8>                                  - alias of `-tao_gatol`
 . -tao_ipfilter_kkt <relative> (relative,mass)              - dimensionless KKT error, or the absolute mass-weighted one
 . -tao_ipfilter_scaling <problem> (problem,gradient,none)   - scaling: `problem`: constants adapt to the units of the

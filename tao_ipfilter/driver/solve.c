@@ -478,6 +478,18 @@ static PetscErrorCode EndSolve(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/*
+   Returns the limit of the KKT error. TAO's tolerance 0 means the best accuracy possible: the machine precision, below
+   which a dimensionless error has no meaning.
+*/
+static PetscReal Tolerance(Tao tao)
+{
+  const IPOptions *opt           = ((TAO_IPFILTER *)tao->data)->opt;
+  const PetscBool  dimensionless = (PetscBool)(opt->scaling == IP_SCALING_PROBLEM && opt->measure == IP_KKT_RELATIVE);
+
+  return dimensionless || !(tao->gatol > 0.0) ? PetscMax(tao->gatol, PETSC_MACHINE_EPSILON) : tao->gatol;
+}
+
 /* Forgets the figures and the sentence of the last solve, which a solve that ends with an error or NaN does not have */
 static void ForgetFigures(Tao tao)
 {
@@ -498,8 +510,7 @@ PetscErrorCode TaoSolve_IPFilter(Tao tao)
   PetscCall(IPSetUpSizes(tao));
   PetscCall(IPMatricesCheck(tao, &other_operator));
   if (other_operator) PetscCall(IPForgetSystem(tao));
-  ip->tol = tao->gatol > 0.0 ? tao->gatol : PETSC_MACHINE_EPSILON; /* TAO's tolerance 0 means the best accuracy
-                                                                      possible */
+  ip->tol = Tolerance(tao);
   PetscCall(ResetSolve(tao));
   PetscCall(BeginSolve(tao, &finite));
   if (!finite) PetscFunctionReturn(0);

@@ -899,6 +899,34 @@ static PetscErrorCode TestStatus(void)
   PetscFunctionReturn(0);
 }
 
+/* A tolerance far below rounding errors ends a solve as 0 does */
+static PetscErrorCode TestTinyTolerance(PetscReal gatol)
+{
+  Chain              chain;
+  Tao                tao;
+  Vec                x;
+  TaoConvergedReason reason;
+  const char        *sentence;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(20, &chain));
+  PetscCall(FillVec(chain.q.g, 1.2, 0.15));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(CreateChainSolver(&chain, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE, x, &tao));
+  PetscCall(TaoSetTolerances(tao, gatol, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_subspace", "false"));
+  PetscCall(TaoSetFromOptions(tao));
+  PetscCall(TaoSolve(tao));
+  PetscCall(TaoGetConvergedReason(tao, &reason));
+  PetscCall(TaoIPFilterGetReason(tao, &sentence));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "tolerance %g: %s\n", (double)gatol, reason > 0 ? "solved" : sentence));
+  PetscCall(PetscOptionsClearValue(NULL, "-tao_ipfilter_subspace"));
+  PetscCall(VecDestroy(&x));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   PetscBool positive;
@@ -933,6 +961,8 @@ int main(int argc, char **argv)
   PetscCall(TestUndefinedHessian(PETSC_FALSE));
   PetscCall(TestUndefinedHessian(PETSC_TRUE));
   PetscCall(TestStatus());
+  PetscCall(TestTinyTolerance(0.0));
+  PetscCall(TestTinyTolerance(1e-50));
   PetscCall(PetscFinalize());
   return 0;
 }
