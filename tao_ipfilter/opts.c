@@ -19,25 +19,22 @@ typedef struct {
   const char *option, *text;
   size_t      offset;
   PetscReal   value;
-  PetscBool   positive; /* zero and negative values are refused */
 } RealOption;
 
-#define IP_ANY_REAL(name, member, value, positive, text) \
+#define IP_REAL(name, member, value, text) \
   { \
-    "-tao_ipfilter_" name, text, offsetof(IPOptions, member), value, positive \
+    "-tao_ipfilter_" name, text, offsetof(IPOptions, member), value \
   }
-#define IP_REAL(name, member, value, text)     IP_ANY_REAL(name, member, value, PETSC_FALSE, text)
-#define IP_POSITIVE(name, member, value, text) IP_ANY_REAL(name, member, value, PETSC_TRUE, text)
 
 static const RealOption real_options[] = {
   IP_REAL("mu_init", mu0, 1.0, "barrier parameter at a cold start"),
-  IP_POSITIVE("slack_init", s0, 1.0, "slacks at a cold start"),
+  IP_REAL("slack_init", s0, 1.0, "slacks at a cold start"),
   IP_REAL("dual_init", z0, 10.0, "multipliers of the slacks at a cold start"),
   IP_REAL("gamma_phi", gamma_phi, 1e-8,
     "fraction of the violation by which an accepted step must reduce the barrier function"),
   IP_REAL("eta_phi", eta_phi, 1e-8, "fraction of the predicted decrease that a step must reach (Armijo)"),
   IP_REAL("delta_max", delta_max, 1e20, "largest shift of an indefinite Hessian"),
-  IP_POSITIVE("proximal", proximal, 1e-5,
+  IP_REAL("proximal", proximal, 1e-5,
     "for condensed equality constraints: size of the proximal term relative to the weights of the constraints"),
   IP_REAL("filter_switch", filter_switch, 10.0,
     "the filter is used if (J^T D J)_ii exceeds this many times H_ii for some i; 0: always"),
@@ -79,6 +76,30 @@ PetscErrorCode IPOptionsSetPrefix(Tao tao)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode OptionCheckPositive(Tao tao, const char option[], PetscReal value)
+{
+  PetscFunctionBegin;
+  PetscCheck(value > 0.0, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE, "%s must be positive, not %g",
+    option, (double)value);
+  PetscFunctionReturn(0);
+}
+
+/* Reads the real-valued options */
+static PetscErrorCode OptionsReadReals(Tao tao, AMGFOptionItems PetscOptionsObject)
+{
+  IPOptions *opt = ((TAO_IPFILTER *)tao->data)->opt;
+
+  PetscFunctionBegin;
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(real_options); k++) {
+    PetscReal *value = (PetscReal *)((char *)opt + real_options[k].offset);
+
+    PetscCall(PetscOptionsReal(real_options[k].option, real_options[k].text, TAOIPFILTER, *value, value, NULL));
+  }
+  PetscCall(OptionCheckPositive(tao, "-tao_ipfilter_slack_init", opt->s0));
+  PetscCall(OptionCheckPositive(tao, "-tao_ipfilter_proximal", opt->proximal));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsObject)
 {
   const PetscInt fewest = 4; /* least number of directions with which the basis can be compressed */
@@ -86,13 +107,7 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
 
   PetscFunctionBegin;
   PetscOptionsHeadBegin(PetscOptionsObject, "Interior point with a filter line search");
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(real_options); k++) {
-    PetscReal *value = (PetscReal *)((char *)opt + real_options[k].offset);
-
-    PetscCall(PetscOptionsReal(real_options[k].option, real_options[k].text, TAOIPFILTER, *value, value, NULL));
-    PetscCheck(*value > 0.0 || !real_options[k].positive, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
-      "%s must be positive, not %g", real_options[k].option, (double)*value);
-  }
+  PetscCall(OptionsReadReals(tao, PetscOptionsObject));
   PetscCall(PetscOptionsReal("-tao_ipfilter_tol", "KKT error at which the solver has converged; the same as -tao_gatol",
     TAOIPFILTER, tao->gatol, &tao->gatol, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_start", "How slacks and multipliers are chosen at the start", TAOIPFILTER,

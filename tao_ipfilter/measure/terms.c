@@ -439,8 +439,8 @@ PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao tao, Vec *force)
 
   Matrix and vectors are referenced: they must not change during `TaoSolve()`.
 
-  Errors if sizes do not match, or a limit or coefficient is negative. The solve ends with `TAO_DIVERGED_USER` if the problem is of another kind, or no
-  solution of the laws is found.
+  Errors if sizes do not match, or a limit or coefficient is negative. The solve ends with `TAO_DIVERGED_USER` if the
+  problem is of another kind, or no solution of the laws is found.
 
   References:
 + * - P. Alart and A. Curnier, A mixed formulation for frictional contact problems prone to Newton like solution
