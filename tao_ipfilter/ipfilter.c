@@ -258,8 +258,9 @@ static PetscErrorCode SolverCreate(Tao tao)
   `TaoIPFilterDefaultConvergenceTest()`. Reasons: `TAO_CONVERGED_GATOL` (KKT error within the tolerance),
   `TAO_CONVERGED_STEPTOL` (only the acceptable tolerance was reached), `TAO_CONVERGED_MINF` (below `-tao_fmin`),
   `TAO_DIVERGED_LS_FAILURE` (no acceptable step; the constraints may be infeasible), `TAO_DIVERGED_USER` (no direction,
-  or the objective seems unbounded), `TAO_DIVERGED_NAN`, `TAO_DIVERGED_MAXITS`, `TAO_DIVERGED_MAXFCN`;
-  `TaoIPFilterGetReason()` gives a sentence.
+  or the objective seems unbounded), `TAO_DIVERGED_NAN` (a value is not a number, at the start, at an iterate or at all
+  points that were tried after it), `TAO_DIVERGED_MAXITS`, `TAO_DIVERGED_MAXFCN`; `TaoIPFilterGetReason()` gives a
+  sentence.
 
   Errors: equality constraints that are not condensed need MUMPS, but PETSc has none; a matrix cannot be read; a lower
   bound exceeds an upper one; a mass, a bound or a starting value is not laid out as the unknowns or constraints to
