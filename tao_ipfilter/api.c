@@ -210,7 +210,7 @@ PetscErrorCode TaoIPFilterComposeFunctions(Tao tao, PetscBool attach)
   The vector is referenced, not copied: it must not change during `TaoSolve()`. `TaoGetDualVariables()` gives
   m_i lambda_i, the multiplier of the unweighted constraint.
 
-  Errors if an entry is not positive.
+  Errors if an entry is not positive; in `TaoSolve()` if the layout is another.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterSetPrimalMass()`, `TaoIPFilterGetMultiplier()`
 @*/
@@ -238,7 +238,7 @@ PetscErrorCode TaoIPFilterSetSlackMass(Tao tao, Vec mass)
   It weighs the stationarity residual in `-tao_ipfilter_kkt mass`, and regularization adds a multiple of it to the
   Hessian. The vector is referenced, not copied.
 
-  Errors if an entry is not positive.
+  Errors if an entry is not positive; in `TaoSolve()` if the layout is another.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterSetSlackMass()`
 @*/
@@ -319,8 +319,8 @@ PetscErrorCode TaoIPFilterSetWarmStart(Tao tao, Vec s, Vec z)
 
   Input Parameters:
 + tao - the `TAOIPFILTER`
-- y   - multipliers, as `TaoGetDualVariables()` returns them in DE; NULL removes earlier values, and the solver
-        estimates the multipliers
+- y   - multipliers, as `TaoGetDualVariables()` returns them in DE, same layout; NULL removes earlier values, and the
+        solver estimates the multipliers
 
   Level: intermediate
 
@@ -490,7 +490,7 @@ PetscErrorCode TaoIPFilterGetKKTError(Tao tao, PetscReal *scaled, PetscReal *uns
 . tao - the `TAOIPFILTER`
 
   Output Parameter:
-. reason - the sentence; owned by `tao`, empty before the first solve
+. reason - the sentence; owned by `tao`, empty before the first solve and after an error
 
   Level: intermediate
 

@@ -26,8 +26,7 @@ static PetscErrorCode CreateKSP(Tao tao)
   PetscFunctionBegin;
   PetscCall(KSPCreate(PetscObjectComm((PetscObject)tao), &tao->ksp));
   PetscCall(PetscObjectIncrementTabLevel((PetscObject)tao->ksp, (PetscObject)tao, 1));
-  PetscCall(KSPSetOptionsPrefix(tao->ksp, ((PetscObject)tao)->prefix));
-  PetscCall(KSPAppendOptionsPrefix(tao->ksp, "tao_ipfilter_"));
+  PetscCall(IPOptionsSetPrefix(tao));
   PetscCall(KSPSetType(tao->ksp, KSPCG));
   PetscCall(KSPSetNormType(tao->ksp, KSP_NORM_UNPRECONDITIONED));
   PetscCall(KSPGetPC(tao->ksp, &pc));
@@ -88,7 +87,8 @@ static PetscErrorCode SolverCreate(Tao tao)
 
   Options Database Keys:
 + -tao_gatol <1e-8>                                         - KKT error at which the solver has converged, as
-                                                              `TaoSetTolerances()` sets it; 0: machine precision
+                                                              `TaoSetTolerances()` sets it; 0, or less where the error
+                                                              is dimensionless: machine precision
 . -tao_ipfilter_tol <1e-8>                                  - alias of `-tao_gatol`
 . -tao_ipfilter_kkt <relative> (relative,mass)              - dimensionless KKT error, or the absolute mass-weighted one
 . -tao_ipfilter_scaling <problem> (problem,gradient,none)   - scaling: `problem`: constants adapt to the units of the
@@ -108,7 +108,7 @@ static PetscErrorCode SolverCreate(Tao tao)
                                                               those of `TaoIPFilterSetWarmStart()`, if given, else as
                                                               `predict`
 . -tao_ipfilter_mu_init <1>                                 - cold start: barrier parameter
-. -tao_ipfilter_slack_init <1>                              - cold start: slacks
+. -tao_ipfilter_slack_init <1>                              - cold start: slacks; positive
 . -tao_ipfilter_dual_init <10>                              - cold start: multipliers of the slacks
 . -tao_ipfilter_barrier <mehrotra> (monotone,mehrotra)      - update of the barrier parameter
 . -tao_ipfilter_mu_reductions_first <10>                    - monotone: largest number of reductions of mu at the first
@@ -135,13 +135,17 @@ static PetscErrorCode SolverCreate(Tao tao)
 . -tao_ipfilter_direct_memory <2000>                        - if the Krylov method fails: largest memory of MUMPS for
                                                               the whole matrix, over all ranks [MB]; 0: MUMPS is not
                                                               used
-. -tao_ipfilter_ksp_type <cg>, -tao_ipfilter_pc_type <amgf> - solver of the condensed system
+. -tao_ipfilter_ksp_type <cg>, -tao_ipfilter_pc_type <amgf> - solver of the condensed system; convergence is tested with
+                                                              the norm of the true residual, unless the type does not
+                                                              compute it (`KSPMINRES`, `KSPSYMMLQ`)
 . -tao_ipfilter_equality <auto> (auto,augmented,condensed)  - equality constraints: `augmented`: in an augmented system,
                                                               factored by MUMPS; `condensed`: eliminated, with proximal
                                                               updates of the multipliers
 . -tao_ipfilter_proximal <1e-5>                             - condensed equality constraints: stiffness of the Hessian
-                                                              in their direction, as a fraction of their weights
-- -tao_ipfilter_augmented_pc_type <cholesky>                - solver of the augmented system; the default ordering of
+                                                              in their direction, as a fraction of their weights;
+                                                              positive
+- -tao_ipfilter_augmented_pc_type <cholesky> (cholesky)     - solver of the augmented system, whose inertia only a
+                                                              Cholesky factorization gives; the default ordering of
                                                               `MATSOLVERMUMPS` is approximate minimum fill
                                                               (-mat_mumps_icntl_7 2)
 
@@ -254,11 +258,13 @@ static PetscErrorCode SolverCreate(Tao tao)
   `TaoIPFilterDefaultConvergenceTest()`. Reasons: `TAO_CONVERGED_GATOL` (KKT error within the tolerance),
   `TAO_CONVERGED_STEPTOL` (only the acceptable tolerance was reached), `TAO_CONVERGED_MINF` (below `-tao_fmin`),
   `TAO_DIVERGED_LS_FAILURE` (no acceptable step; the constraints may be infeasible), `TAO_DIVERGED_USER` (no direction,
-  or the objective seems unbounded), `TAO_DIVERGED_NAN`, `TAO_DIVERGED_MAXITS`, `TAO_DIVERGED_MAXFCN`;
-  `TaoIPFilterGetReason()` gives a sentence.
+  or the objective seems unbounded), `TAO_DIVERGED_NAN` (a value is not a number, at the start, at an iterate or at all
+  points that were tried after it), `TAO_DIVERGED_MAXITS`, `TAO_DIVERGED_MAXFCN`; `TaoIPFilterGetReason()` gives a
+  sentence.
 
   Errors: equality constraints that are not condensed need MUMPS, but PETSc has none; a matrix cannot be read; a lower
-  bound exceeds an upper one; the sizes of the masses do not match. Scalars must be real.
+  bound exceeds an upper one; a mass, a bound or a starting value is not laid out as the unknowns or constraints to
+  which it belongs. Scalars must be real.
 
   References:
 + * - A. Waechter and L. T. Biegler, "On the implementation of an interior-point filter line-search algorithm for

@@ -29,6 +29,7 @@
 /* opts.c */
 PETSC_INTERN const char *const IPStarts[], *const IPBarrierRules[], *const IPKKTMeasures[], *const IPForcings[];
 PETSC_INTERN PetscErrorCode IPOptionsInitialize(IPOptions *);
+PETSC_INTERN PetscErrorCode IPOptionsSetPrefix(Tao);
 PETSC_INTERN PetscErrorCode TaoSetFromOptions_IPFilter(Tao, AMGFOptionItems);
 
 /* register.c */

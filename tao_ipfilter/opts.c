@@ -64,6 +64,42 @@ PetscErrorCode IPOptionsInitialize(IPOptions *opt)
   PetscFunctionReturn(0);
 }
 
+/*
+   Sets the options prefix of the Krylov solver: that of the Tao and tao_ipfilter_. TaoSetOptionsPrefix() gives it that
+   of the Tao alone.
+*/
+PetscErrorCode IPOptionsSetPrefix(Tao tao)
+{
+  PetscFunctionBegin;
+  PetscCall(KSPSetOptionsPrefix(tao->ksp, ((PetscObject)tao)->prefix));
+  PetscCall(KSPAppendOptionsPrefix(tao->ksp, "tao_ipfilter_"));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode OptionCheckPositive(Tao tao, const char option[], PetscReal value)
+{
+  PetscFunctionBegin;
+  PetscCheck(value > 0.0, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE, "%s must be positive, not %g",
+    option, (double)value);
+  PetscFunctionReturn(0);
+}
+
+/* Reads the real-valued options */
+static PetscErrorCode OptionsReadReals(Tao tao, AMGFOptionItems PetscOptionsObject)
+{
+  IPOptions *opt = ((TAO_IPFILTER *)tao->data)->opt;
+
+  PetscFunctionBegin;
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(real_options); k++) {
+    PetscReal *value = (PetscReal *)((char *)opt + real_options[k].offset);
+
+    PetscCall(PetscOptionsReal(real_options[k].option, real_options[k].text, TAOIPFILTER, *value, value, NULL));
+  }
+  PetscCall(OptionCheckPositive(tao, "-tao_ipfilter_slack_init", opt->s0));
+  PetscCall(OptionCheckPositive(tao, "-tao_ipfilter_proximal", opt->proximal));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsObject)
 {
   const PetscInt fewest = 4; /* least number of directions with which the basis can be compressed */
@@ -71,11 +107,7 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
 
   PetscFunctionBegin;
   PetscOptionsHeadBegin(PetscOptionsObject, "Interior point with a filter line search");
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(real_options); k++) {
-    PetscReal *value = (PetscReal *)((char *)opt + real_options[k].offset);
-
-    PetscCall(PetscOptionsReal(real_options[k].option, real_options[k].text, TAOIPFILTER, *value, value, NULL));
-  }
+  PetscCall(OptionsReadReals(tao, PetscOptionsObject));
   PetscCall(PetscOptionsReal("-tao_ipfilter_tol", "KKT error at which the solver has converged; the same as -tao_gatol",
     TAOIPFILTER, tao->gatol, &tao->gatol, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_start", "How slacks and multipliers are chosen at the start", TAOIPFILTER,
@@ -113,6 +145,7 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
   PetscCall(PetscOptionsBool("-tao_ipfilter_monitor", "Print one line per iteration", TAOIPFILTER, opt->monitor,
     &opt->monitor, NULL));
   PetscOptionsHeadEnd();
+  PetscCall(IPOptionsSetPrefix(tao));
   PetscCall(KSPSetFromOptions(tao->ksp));
   PetscFunctionReturn(0);
 }

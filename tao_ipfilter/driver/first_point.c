@@ -173,6 +173,7 @@ static PetscErrorCode TakeFirst(Tao tao, PetscBool *finite)
   PetscCall(IPFixedSetUp(tao, &other_fixed));
   PetscCall(IPRowScaleReset(tao, &other_scales));
   if (other_fixed || other_scales) PetscCall(IPForgetSystem(tao));
+  if (ip->mi) PetscCall(IPPairSetWeights(ip->given->slack_mass, &ip->pair[IP_SLACK]));
   PetscCall(IPSidesSetUpPairs(tao));
   PetscCall(IPSidesUpdateWidth(tao));
   PetscCall(IPBoundsSetUp(tao));

@@ -22,23 +22,15 @@ static PetscErrorCode DuplicateAfresh(Vec layout, Vec *v)
 
 static PetscErrorCode SetUpInequalities(Tao tao)
 {
-  TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
-  MPI_Comm      comm = PetscObjectComm((PetscObject)tao);
-  Vec           c    = tao->constraints_inequality;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  Vec           c  = tao->constraints_inequality;
 
   PetscFunctionBegin;
   PetscCall(VecGetSize(c, &ip->mi));
   PetscCall(DuplicateAfresh(c, &tao->DI));
   if (!ip->mi) PetscFunctionReturn(0);
-  PetscCheck(tao->jacobian_inequality, comm, PETSC_ERR_ARG_WRONGSTATE,
+  PetscCheck(tao->jacobian_inequality, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE,
     "Must call TaoSetJacobianInequalityRoutine() before TaoSolve()");
-  if (ip->given->slack_mass) {
-    PetscInt n;
-
-    PetscCall(VecGetSize(ip->given->slack_mass, &n));
-    PetscCheck(n == ip->mi, comm, PETSC_ERR_ARG_SIZ,
-      "Slack mass has %" PetscInt_FMT " entries for %" PetscInt_FMT " constraints", n, ip->mi);
-  }
   PetscCall(DuplicateAfresh(c, &ip->rc));
   PetscCall(DuplicateAfresh(c, &ip->at.lambda));
   PetscCall(DuplicateAfresh(c, &ip->best.lambda));
@@ -121,7 +113,7 @@ static PetscErrorCode SetUpHessian(Tao tao)
   PetscInt       n;
 
   PetscFunctionBegin;
-  if (tao->hessian && !ip->qn->B) PetscFunctionReturn(0);
+  if (tao->hessian && !IPDifferenceInUse(tao) && !IPQuasiNewtonInUse(tao)) PetscFunctionReturn(0);
   PetscCall(VecGetSize(tao->solution, &n));
   PetscCheck(n <= large || !ip->me, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE,
     "TAOIPFILTER needs TaoSetHessian() for a problem with equality constraints and %" PetscInt_FMT
@@ -139,6 +131,7 @@ PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   Vec           x  = tao->solution, c, ce;
 
   PetscFunctionBegin;
+  PetscCall(IPGivenCheck(tao));
   PetscCall(FreeSizes(tao));
   ip->mi = ip->me = 0;
   if (!tao->gradient) PetscCall(VecDuplicate(x, &tao->gradient));
@@ -174,21 +167,27 @@ PetscErrorCode IPSetUpIteration(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Sets *all to false unless `here` holds on all ranks */
+static PetscErrorCode OnAllRanks(Tao tao, PetscBool here, PetscBool *all)
+{
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &here, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)tao)));
+  *all = (PetscBool)(*all && here);
+  PetscFunctionReturn(0);
+}
+
 /*
    Sets *same to false unless v, created in TaoSetUp(), has as many local entries as `model` plus `more`, on all ranks.
    v and model may be NULL for no entries.
 */
 static PetscErrorCode SameLayout(Tao tao, Vec v, Vec model, PetscInt more, PetscBool *same)
 {
-  PetscInt  local[2] = {0, 0};
-  PetscBool equal;
+  PetscInt local[2] = {0, 0};
 
   PetscFunctionBegin;
   if (v) PetscCall(VecGetLocalSize(v, &local[0]));
   if (model) PetscCall(VecGetLocalSize(model, &local[1]));
-  equal = (PetscBool)(local[0] == local[1] + more);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &equal, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)tao)));
-  *same = (PetscBool)(*same && equal);
+  PetscCall(OnAllRanks(tao, (PetscBool)(local[0] == local[1] + more), same));
   PetscFunctionReturn(0);
 }
 
@@ -209,6 +208,29 @@ static PetscErrorCode SetUpSides(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/*
+   Resets the Krylov solver if its preconditioner was set up for another number of unknowns: it may be that of another
+   solver, from TaoIPFilterSetSubspace()
+*/
+static PetscErrorCode FitPreconditioner(Tao tao)
+{
+  PC        pc;
+  PetscBool set, fits = PETSC_TRUE;
+  PetscInt  rows, n;
+  Mat       A;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(tao->ksp, &pc));
+  PetscCall(PCGetOperatorsSet(pc, &set, NULL));
+  if (!set) PetscFunctionReturn(0);
+  PetscCall(PCGetOperators(pc, &A, NULL));
+  PetscCall(MatGetLocalSize(A, &rows, NULL));
+  PetscCall(VecGetLocalSize(tao->solution, &n));
+  PetscCall(OnAllRanks(tao, (PetscBool)(rows == n), &fits));
+  if (!fits) PetscCall(IPKSPReset(tao->ksp));
+  PetscFunctionReturn(0);
+}
+
 /* Sets up the solver again if the caller has replaced the solution or the constraints by vectors of another size */
 PetscErrorCode IPSetUpSizes(Tao tao)
 {
@@ -216,7 +238,10 @@ PetscErrorCode IPSetUpSizes(Tao tao)
   PetscBool     same = PETSC_TRUE;
 
   PetscFunctionBegin;
+  PetscCall(IPGivenCheck(tao));
+  if (!IPQuasiNewtonInUse(tao)) PetscCall(IPQuasiNewtonDestroy(ip->qn)); /* the caller may have set a Hessian since */
   PetscCall(SetUpSides(tao));
+  PetscCall(FitPreconditioner(tao));
   PetscCall(SameLayout(tao, ip->rx, tao->solution, 0, &same));
   PetscCall(SameLayout(tao, ip->at.c, tao->ineq_constrained ? tao->constraints_inequality : NULL, 0, &same));
   PetscCall(

@@ -147,8 +147,15 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   PetscReal     lowest;
 
   PetscFunctionBegin;
+  PetscCall(IPTestNumbers(tao));
+  if (tao->reason == TAO_DIVERGED_NAN) PetscFunctionReturn(0);
   if (solved && !infeasible && !violated) PetscCall(IPTestUnboundedRays(tao, &lowest, &unbounded));
-  if (infeasible)
+  if (solved && ip->search->ntrials && !ip->search->ndefined)
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN,
+      "the objective or a constraint is not a number at all points that were tried after iteration %" PetscInt_FMT
+      ", at KKT error %g",
+      tao->niter, (double)IPBothErrors(ip)));
+  else if (infeasible)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
       "the constraints seem infeasible: their violation has a local minimum of %g", (double)ip->kkt->inf_pr));
   else if (!solved && ip->lin->failed) PetscCall(EndLinear(tao));
@@ -471,17 +478,39 @@ static PetscErrorCode EndSolve(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/*
+   Returns the limit of the KKT error. TAO's tolerance 0 means the best accuracy possible: the machine precision, below
+   which a dimensionless error has no meaning.
+*/
+static PetscReal Tolerance(Tao tao)
+{
+  const IPOptions *opt           = ((TAO_IPFILTER *)tao->data)->opt;
+  const PetscBool  dimensionless = (PetscBool)(opt->scaling == IP_SCALING_PROBLEM && opt->measure == IP_KKT_RELATIVE);
+
+  return dimensionless || !(tao->gatol > 0.0) ? PetscMax(tao->gatol, PETSC_MACHINE_EPSILON) : tao->gatol;
+}
+
+/* Forgets the figures and the sentence of the last solve, which a solve that ends with an error or NaN does not have */
+static void ForgetFigures(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  tao->fc = tao->residual = tao->cnorm = NAN;
+  ip->kkt->error = ip->kkt->unscaled = NAN;
+  ip->rec->reason[0]                 = '\0';
+}
+
 PetscErrorCode TaoSolve_IPFilter(Tao tao)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
   PetscBool     finite = PETSC_TRUE, other_operator;
 
   PetscFunctionBegin;
+  ForgetFigures(tao);
   PetscCall(IPSetUpSizes(tao));
   PetscCall(IPMatricesCheck(tao, &other_operator));
   if (other_operator) PetscCall(IPForgetSystem(tao));
-  ip->tol = tao->gatol > 0.0 ? tao->gatol : PETSC_MACHINE_EPSILON; /* TAO's tolerance 0 means the best accuracy
-                                                                      possible */
+  ip->tol = Tolerance(tao);
   PetscCall(ResetSolve(tao));
   PetscCall(BeginSolve(tao, &finite));
   if (!finite) PetscFunctionReturn(0);

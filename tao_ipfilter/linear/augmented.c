@@ -31,6 +31,24 @@ PetscErrorCode IPAugmentedDestroy(IPAugmented *aug)
   PetscFunctionReturn(0);
 }
 
+/* Checks that the PC is a Cholesky factorization. Only its factors tell the inertia. */
+static PetscErrorCode AugmentedCheckType(PC pc)
+{
+  const char *prefix;
+  PCType      type;
+  PetscBool   cholesky;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCCHOLESKY, &cholesky));
+  PetscCall(PCGetType(pc, &type));
+  PetscCall(PCGetOptionsPrefix(pc, &prefix));
+  PetscCheck(cholesky, PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP,
+    "-%spc_type must be cholesky, not %s: TAOIPFILTER needs the inertia of the augmented system of equality "
+    "constraints",
+    prefix, type);
+  PetscFunctionReturn(0);
+}
+
 /* Creates the KSP of the factorization, with the options prefix -tao_ipfilter_augmented_, and the matrix -delta I */
 static PetscErrorCode AugmentedCreate(Tao tao)
 {
@@ -42,7 +60,8 @@ static PetscErrorCode AugmentedCreate(Tao tao)
   PetscBool     mumps;
 
   PetscFunctionBegin;
-  if (aug->ksp) PetscFunctionReturn(0);
+  if (aug->shift) PetscFunctionReturn(0); /* the last to be created */
+  PetscCall(KSPDestroy(&aug->ksp));
   PetscCall(AMGFMumpsFactors(MATSEQAIJ, MAT_FACTOR_CHOLESKY, &mumps));
   PetscCheck(mumps, comm, PETSC_ERR_SUP, "TAOIPFILTER needs a PETSc with MUMPS for equality constraints");
   PetscCall(KSPCreate(comm, &aug->ksp));
@@ -54,6 +73,7 @@ static PetscErrorCode AugmentedCreate(Tao tao)
   PetscCall(PCSetType(pc, PCCHOLESKY));
   PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   PetscCall(KSPSetFromOptions(aug->ksp));
+  PetscCall(AugmentedCheckType(pc));
   PetscCall(VecGetLocalSize(ip->at.ce, &m));
   PetscCall(MatCreateAIJ(comm, m, m, ip->me, ip->me, 1, NULL, 0, NULL, &aug->shift));
   PetscFunctionReturn(0);
@@ -224,6 +244,19 @@ static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PCFailedReason *fa
   PetscFunctionReturn(0);
 }
 
+/* Finds whether an entry of K is infinite or NaN, from the row sums. MatNorm() ignores NaN. */
+static PetscErrorCode AugmentedUndefined(IPAugmented *aug, PetscBool *undefined)
+{
+  PetscReal norm;
+
+  PetscFunctionBegin;
+  PetscCall(VecSet(aug->correction, 1.0));
+  PetscCall(MatMult(aug->K, aug->correction, aug->residual));
+  PetscCall(VecNorm(aug->residual, NORM_1, &norm));
+  *undefined = (PetscBool)PetscIsInfOrNanReal(norm);
+  PetscFunctionReturn(0);
+}
+
 /*
    Factors K. *inertia: K has the inertia of a minimum; *singular: K is singular. If MUMPS fails for lack of memory or
    another reason that tells nothing about the matrix, ip->lin->failed is set.
@@ -236,12 +269,12 @@ static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *si
   PCFailedReason failed;
   Mat            F;
   PetscInt       negative, zero, positive, n;
-  PetscReal      norm;
+  PetscBool      undefined = PETSC_TRUE;
 
   PetscFunctionBegin;
   *singular = *inertia = PETSC_FALSE;
-  PetscCall(MatNorm(aug->K, NORM_INFINITY, &norm));
-  if (PetscIsInfOrNanReal(norm)) { /* MUMPS does not accept infinite entries or NaN */
+  PetscCall(AugmentedUndefined(aug, &undefined));
+  if (undefined) { /* MUMPS does not accept infinite entries or NaN */
     PetscCall(IPResidualNotANumber(tao));
     PetscFunctionReturn(0);
   }

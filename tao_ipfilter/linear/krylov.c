@@ -11,6 +11,7 @@
 #include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/relaxation.h"
+#include <petsc/private/kspimpl.h>
 
 /* Context of the convergence test: the KSP's own test, and data to detect stagnation */
 typedef struct {
@@ -89,6 +90,44 @@ static PetscErrorCode KrylovUnlessStalled(Tao tao, KSP ksp, Vec b, Vec d, PetscB
 }
 
 /*
+   Leaves the choice of the norm to a KSP whose type, such as MINRES, or whose side of the preconditioner does not
+   support that of the true residual. IPResidualMeasure() computes it after the solve.
+*/
+static PetscErrorCode KrylovChooseNorm(KSP ksp)
+{
+  PetscInt supported = 0;
+
+  PetscFunctionBegin;
+  if (ksp->normtype_set != KSP_NORM_UNPRECONDITIONED) PetscFunctionReturn(0);
+  for (PetscInt side = 0; side < PC_SIDE_MAX; side++)
+    if (ksp->pc_side_set == PC_SIDE_DEFAULT || side == (PetscInt)ksp->pc_side_set)
+      supported = PetscMax(supported, ksp->normsupporttable[KSP_NORM_UNPRECONDITIONED][side]);
+  if (!supported) PetscCall(KSPSetNormType(ksp, KSP_NORM_DEFAULT));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Sets the tolerances with which the residual reaches ip->lin->target. If the KSP computes another norm than that of
+   the true residual, the same reduction of b is asked for.
+*/
+static PetscErrorCode KrylovSetTolerances(Tao tao, KSP ksp, Vec b, PetscReal dtol)
+{
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscReal least = PETSC_MACHINE_EPSILON;
+  KSPNormType     type;
+  PetscReal       size;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetNormType(ksp, &type));
+  if (type == KSP_NORM_UNPRECONDITIONED) PetscCall(KSPSetTolerances(ksp, least, ip->lin->target, dtol, ip->lin->limit));
+  else {
+    PetscCall(VecNorm(b, NORM_2, &size));
+    PetscCall(KSPSetTolerances(ksp, PetscMax(least, PetscMin(ip->lin->target / size, 0.5)), 0.0, dtol, ip->lin->limit));
+  }
+  PetscFunctionReturn(0);
+}
+
+/*
    Solves A d = b with the KSP once. With adaptive forcing d is the initial guess, and the solve ends at
    ip->lin->target.
 */
@@ -100,6 +139,7 @@ static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
   PetscBool     guess, direct, failed;
 
   PetscFunctionBegin;
+  PetscCall(KrylovChooseNorm(ksp));
   PetscCall(KSPSetOperators(ksp, IPQuasiNewtonOperator(ip), ip->cond->A));
   PetscCall(KSPGetInitialGuessNonzero(ksp, &guess));
   PetscCall(KSPGetTolerances(ksp, &rtol, &abstol, &dtol, &maxits));
@@ -108,7 +148,7 @@ static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
   if (ip->opt->forcing == IP_FORCING_ADAPTIVE) {
     ip->lin->limit = KrylovLimit(ip, maxits);
     PetscCall(KSPSetInitialGuessNonzero(ksp, direct ? PETSC_FALSE : PETSC_TRUE));
-    PetscCall(KSPSetTolerances(ksp, PETSC_MACHINE_EPSILON, ip->lin->target, dtol, ip->lin->limit));
+    PetscCall(KrylovSetTolerances(tao, ksp, b, dtol));
   }
   PetscCall(KrylovUnlessStalled(tao, ksp, b, d, &failed));
   PetscCall(KSPSetTolerances(ksp, rtol, abstol, dtol, maxits));

@@ -93,6 +93,20 @@ static PetscErrorCode TermsCheckSizes(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Checks that no weight is negative. weights: may be NULL; kind: "limit" or "coefficient". */
+static PetscErrorCode TermsCheckWeights(Tao tao, Vec weights, const char kind[])
+{
+  PetscReal least;
+  PetscInt  term;
+
+  PetscFunctionBegin;
+  if (!weights) PetscFunctionReturn(0);
+  PetscCall(VecMin(weights, &term, &least));
+  PetscCheck(least >= 0.0, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
+    "The %s of norm term %" PetscInt_FMT " must not be negative, but is %g", kind, term, (double)least);
+  PetscFunctionReturn(0);
+}
+
 /* Removes the component of v along `rigid`, which is a unit vector or zero */
 void IPTermRemoveRigid(const PetscScalar rigid[2], PetscScalar v[2])
 {
@@ -130,6 +144,8 @@ PetscErrorCode IPTermsSetUp(Tao tao)
   terms->n = 0;
   if (!terms->given) PetscFunctionReturn(0);
   PetscCall(TermsCheckSizes(tao));
+  PetscCall(TermsCheckWeights(tao, terms->limit, "limit"));
+  PetscCall(TermsCheckWeights(tao, terms->coefficient, "coefficient"));
   PetscCall(MatGetSize(terms->given, &terms->n, NULL));
   terms->n /= 2;
   PetscCall(TermsTakeMatrix(tao));
@@ -423,8 +439,8 @@ PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao tao, Vec *force)
 
   Matrix and vectors are referenced: they must not change during `TaoSolve()`.
 
-  Errors if sizes do not match. The solve ends with `TAO_DIVERGED_USER` if the problem is of another kind, or no
-  solution of the laws is found.
+  Errors if sizes do not match, or a limit or coefficient is negative. The solve ends with `TAO_DIVERGED_USER` if the
+  problem is of another kind, or no solution of the laws is found.
 
   References:
 + * - P. Alart and A. Curnier, A mixed formulation for frictional contact problems prone to Newton like solution

@@ -82,6 +82,12 @@ static PetscErrorCode DifferenceHessian(Tao tao, Vec x, Mat H, Mat Hpre, void *c
   PetscFunctionReturn(0);
 }
 
+/* Returns whether the Hessian is computed by differences */
+PetscBool IPDifferenceInUse(Tao tao)
+{
+  return (PetscBool)(tao->ops->computehessian == DifferenceHessian);
+}
+
 /*
    Makes the Tao compute the Hessian by differences, if TaoSetHessian() was not called. H is a full matrix, suitable for
    small problems only.

@@ -4,6 +4,16 @@
 */
 #include "problemimpl.h"
 
+/* Sets the weights, which are 1 if `weights` is NULL, and their sum */
+PetscErrorCode IPPairSetWeights(Vec weights, IPPair *p)
+{
+  PetscFunctionBegin;
+  if (weights) PetscCall(VecCopy(weights, p->w));
+  else PetscCall(VecSet(p->w, 1.0));
+  PetscCall(VecSum(p->w, &p->weight));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode IPPairCreate(Vec layout, Vec weights, PetscReal sign, IPPair *p)
 {
   PetscFunctionBegin;
@@ -15,13 +25,11 @@ PetscErrorCode IPPairCreate(Vec layout, Vec weights, PetscReal sign, IPPair *p)
   PetscCall(VecDuplicate(layout, &p->target));
   PetscCall(VecDuplicate(layout, &p->trial));
   PetscCall(VecDuplicate(layout, &p->w));
-  if (weights) PetscCall(VecCopy(weights, p->w));
-  else PetscCall(VecSet(p->w, 1.0));
+  PetscCall(IPPairSetWeights(weights, p));
   PetscCall(VecSet(p->z, 0.0));
   PetscCall(VecSet(p->dt, 0.0));
   PetscCall(VecSet(p->dz, 0.0));
   PetscCall(VecGetSize(layout, &p->n));
-  PetscCall(VecSum(p->w, &p->weight));
   PetscFunctionReturn(0);
 }
 

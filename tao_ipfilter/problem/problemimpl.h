@@ -18,8 +18,12 @@ PETSC_INTERN PetscErrorCode IPRestoreWork(Tao, IPSpace, Vec *);
 PETSC_INTERN PetscErrorCode IPWorkTrim(IPWork *);
 PETSC_INTERN PetscErrorCode IPWorkDestroy(IPWork *);
 
+/* given.c */
+PETSC_INTERN PetscErrorCode IPGivenCheck(Tao);
+
 /* pairs.c */
 PETSC_INTERN PetscErrorCode IPPairCreate(Vec, Vec, PetscReal sign, IPPair *);
+PETSC_INTERN PetscErrorCode IPPairSetWeights(Vec, IPPair *);
 PETSC_INTERN PetscErrorCode IPPairDestroy(IPPair *);
 PETSC_INTERN PetscErrorCode IPPairSetTarget(IPPair *, PetscReal mu, PetscReal corrector_max);
 PETSC_INTERN PetscErrorCode IPPairCenter(IPPair *, PetscReal mu);
@@ -115,9 +119,11 @@ PETSC_INTERN PetscErrorCode IPEvaluateDerivatives(Tao);
 PETSC_INTERN PetscErrorCode IPSetMultipliers(Tao);
 
 /* difference.c */
+PETSC_INTERN PetscBool      IPDifferenceInUse(Tao);
 PETSC_INTERN PetscErrorCode IPDifferenceHessian(Tao);
 
 /* quasinewton.c */
+PETSC_INTERN PetscBool      IPQuasiNewtonInUse(Tao);
 PETSC_INTERN PetscErrorCode IPQuasiNewtonSetUp(Tao);
 PETSC_INTERN void           IPQuasiNewtonReset(IPQuasiNewton *);
 PETSC_INTERN PetscErrorCode IPQuasiNewtonAdd(Tao, Vec, Vec);

@@ -234,6 +234,12 @@ void IPQuasiNewtonReset(IPQuasiNewton *qn)
   qn->npairs = 0;
 }
 
+/* Returns whether the Hessian is B */
+PetscBool IPQuasiNewtonInUse(Tao tao)
+{
+  return (PetscBool)(tao->ops->computehessian == QuasiNewtonHessian);
+}
+
 /*
    Makes the Tao use B, if TaoSetHessian() was not called and the problem is large. tao->hessian becomes a diagonal
    matrix that holds sigma I.

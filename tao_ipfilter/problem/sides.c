@@ -152,6 +152,7 @@ PetscErrorCode IPSidesSetUpPairs(Tao tao)
   if (!ip->sides->range) PetscCall(IPPairDestroy(ceiling));
   if (!ip->sides->range) PetscFunctionReturn(0);
   if (!ceiling->t) PetscCall(IPPairCreate(tao->constraints_inequality, ip->given->slack_mass, -1.0, ceiling));
+  else PetscCall(IPPairSetWeights(ip->given->slack_mass, ceiling));
   PetscCall(VecGetLocalSize(ceiling->t, &n));
   PetscCall(VecGetArrayRead(ip->sides->range, &range));
   PetscCall(VecGetArrayRead(ceiling->w, &w));

@@ -94,7 +94,7 @@ PetscErrorCode IPSlackDistance(Tao tao, Vec s, PetscBool trial)
   PetscFunctionReturn(0);
 }
 
-/* Computes the violation v = min(c, 0) + max(c - width, 0). v may be c. */
+/* Computes the violation v = min(c, 0) + max(c - width, 0); NaN where c is NaN. v may be c. */
 PetscErrorCode IPSlackViolation(Tao tao, Vec c, Vec v)
 {
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
@@ -112,7 +112,7 @@ PetscErrorCode IPSlackViolation(Tao tao, Vec c, Vec v)
 
     if (ip->sides->width && PetscRealPart(width[i]) < PETSC_INFINITY)
       above = PetscMax(PetscRealPart(out[i] - width[i]), 0.0);
-    out[i] = PetscMin(PetscRealPart(out[i]), 0.0) + above;
+    out[i] = PetscMin(0.0, PetscRealPart(out[i])) + above; /* in this order PetscMin() returns NaN for a NaN */
   }
   if (ip->sides->width) PetscCall(VecRestoreArrayRead(ip->sides->width, &width));
   PetscCall(VecRestoreArray(v, &out));

@@ -32,6 +32,7 @@ PetscErrorCode IPSearchTrial(Tao tao, PetscReal alpha, PetscReal *theta, PetscRe
   PetscCall(IPEvaluateConstraints(tao, ip->trial.x, ip->trial.c, ip->trial.ce));
   PetscCall(IPMeritMeasureTrial(tao, theta, phi));
   *finite = (PetscBool)(!IPUndefined(*theta) && !IPUndefined(*phi));
+  ip->search->ndefined += *finite;
   PetscFunctionReturn(0);
 }
 
@@ -356,9 +357,9 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
   ip->search->before = ip->dir.norm;
   PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &ip->dir.norm));
   least               = SearchSmallestStep(ip, slope);
-  ip->search->ntrials = 0;
-  ip->search->blocked = PETSC_FALSE;
-  *ok                 = PETSC_FALSE;
+  ip->search->ntrials = ip->search->ndefined = 0;
+  ip->search->blocked                        = PETSC_FALSE;
+  *ok                                        = PETSC_FALSE;
   PetscCall(SearchWatched(tao, alpha, slope, dual, ok));
   if (*ok) PetscFunctionReturn(0);
   for (; alpha >= least && !*ok; alpha *= 0.5) {

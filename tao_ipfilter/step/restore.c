@@ -166,7 +166,9 @@ static PetscErrorCode RestoreSearch(Tao tao, PetscReal slope, PetscReal *psi, Pe
     if (IPUndefined(ip->trial.f)) continue;
     PetscCall(IPEvaluateConstraints(tao, ip->trial.x, ip->trial.c, ip->trial.ce));
     PetscCall(RestoreViolation(tao, &ip->trial, &trial));
-    if (IPUndefined(trial) || trial > *psi + armijo * *alpha * slope) continue;
+    if (IPUndefined(trial)) continue;
+    ip->search->ndefined++;
+    if (trial > *psi + armijo * *alpha * slope) continue;
     if (k > max_halvings_of_a_fair_model) ip->restore->zeta *= 10.0;
     else if (k == 1) ip->restore->zeta *= 3.0;
     else if (*alpha > 0.5 && *psi - trial >= fair * -0.5 * *alpha * slope - rounding) ip->restore->zeta *= 0.1;

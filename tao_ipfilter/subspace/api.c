@@ -13,6 +13,16 @@ static PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao tao, PetscContainer *s
   PetscFunctionReturn(0);
 }
 
+/* Gets the recycled data from a container of the caller's */
+static PetscErrorCode RecycleOf(PetscContainer space, IPRecycle **recycle)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscContainerGetPointer(space, (void **)recycle));
+  PetscCheck(*recycle, PetscObjectComm((PetscObject)space), PETSC_ERR_ARG_WRONG,
+    "The container of the subspace is empty: it must come from TaoIPFilterGetSubspace()");
+  PetscFunctionReturn(0);
+}
+
 /*
    Sets the recycled data. Their preconditioner becomes that of the Krylov method, so that TaoGetKSP() returns the one
    in use. A preconditioner of another type or options prefix is not replaced.
@@ -26,10 +36,10 @@ static PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao tao, PetscContainer sp
   PetscBool   type, prefix;
 
   PetscFunctionBegin;
+  PetscCall(RecycleOf(space, &recycle));
   PetscCall(PetscObjectReference((PetscObject)space));
   PetscCall(PetscContainerDestroy(&f->recycle));
   f->recycle = space;
-  PetscCall(PetscContainerGetPointer(space, (void **)&recycle));
   if (!recycle->pc) PetscFunctionReturn(0);
   PetscCall(KSPGetPC(tao->ksp, &pc));
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, ((PetscObject)recycle->pc)->type_name, &type));
@@ -299,7 +309,7 @@ PetscErrorCode TaoIPFilterSolveActive(PetscContainer space, Vec f, Vec c, PetscI
   PetscAssertPointer(n, 8);
   PetscAssertPointer(solved, 9);
   *n = 0;
-  PetscCall(PetscContainerGetPointer(space, (void **)&recycle));
+  PetscCall(RecycleOf(space, &recycle));
   PetscCall(IPReducedSolveActive(&recycle->reduced, &recycle->basis, f, c, x, lambda, solved));
   if (!*solved || !recycle->pc) PetscFunctionReturn(0);
   PetscCall(PCGetOperators(recycle->pc, &K, NULL));

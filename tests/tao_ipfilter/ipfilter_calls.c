@@ -560,11 +560,386 @@ static PetscErrorCode TestCrossedSides(void)
   PetscFunctionReturn(0);
 }
 
+typedef PetscErrorCode (*Setter)(Tao, Vec);
+
+static PetscErrorCode SetLower(Tao tao, Vec v)
+{
+  PetscFunctionBeginUser;
+  PetscCall(TaoSetVariableBounds(tao, v, NULL));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetUpper(Tao tao, Vec v)
+{
+  PetscFunctionBeginUser;
+  PetscCall(TaoSetVariableBounds(tao, NULL, v));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetRows(Tao tao, Vec v)
+{
+  PetscFunctionBeginUser;
+  PetscCall(TaoSetInequalityBounds(tao, v, v));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetPairs(Tao tao, Vec v)
+{
+  PetscFunctionBeginUser;
+  PetscCall(TaoIPFilterSetWarmStart(tao, v, v));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SetBounds(Tao tao, Vec v)
+{
+  PetscFunctionBeginUser;
+  PetscCall(TaoIPFilterSetWarmStartBounds(tao, v, v));
+  PetscFunctionReturn(0);
+}
+
+/* Vectors of another layout than what they belong to, before the first solve and after one */
+static PetscErrorCode TestLayouts(void)
+{
+  const Setter setters[] = {TaoIPFilterSetSlackMass, TaoIPFilterSetPrimalMass, SetLower, SetUpper, SetRows, SetPairs,
+    TaoIPFilterSetWarmStartEquality, SetBounds};
+  Chain        chain;
+  Vec          x, other;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(20, &chain));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, 2 * chain.n, &other));
+  PetscCall(VecSet(other, 1.0));
+  for (PetscInt k = 0; k < 2 * (PetscInt)PETSC_STATIC_ARRAY_LENGTH(setters); k++) {
+    PetscErrorCode ierr;
+    Tao            tao;
+
+    PetscCall(CreateChainSolver(&chain, PETSC_TRUE, PETSC_TRUE, PETSC_FALSE, x, &tao));
+    if (k % 2) PetscCall(TaoSolve(tao));
+    PetscCall(setters[k / 2](tao, other));
+    PetscCall(AttemptBegin());
+    ierr = TaoSolve(tao);
+    PetscCall(AttemptEnd());
+    PetscCall(AttemptCompareRanks("layouts", ierr));
+    attempt_sentence[strcspn(attempt_sentence, ":")] = '\0';
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "another layout%s: %s\n", k % 2 ? ", after a solve" : "",
+      ierr == PETSC_ERR_ARG_SIZ ? attempt_sentence : "NOT REFUSED"));
+    PetscCall(TaoDestroy(&tao));
+  }
+  PetscCall(VecDestroy(&other));
+  PetscCall(VecDestroy(&x));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
+/* Solves, and compares the multipliers z with DI / m */
+static PetscErrorCode SolveWithMass(Tao tao, PetscReal m, const char name[])
+{
+  Vec       z, DI, difference;
+  PetscReal norm, size;
+
+  PetscFunctionBeginUser;
+  PetscCall(TaoSolve(tao));
+  PetscCall(TaoIPFilterGetMultiplier(tao, &z));
+  PetscCall(TaoGetDualVariables(tao, NULL, &DI));
+  PetscCall(VecDuplicate(z, &difference));
+  PetscCall(VecWAXPY(difference, -1.0 / m, DI, z));
+  PetscCall(VecNorm(difference, NORM_INFINITY, &norm));
+  PetscCall(VecNorm(z, NORM_INFINITY, &size));
+  PetscCall(ProblemVerdict(name, norm / size, 1e-6));
+  PetscCall(VecDestroy(&difference));
+  PetscFunctionReturn(0);
+}
+
+/* A slack mass that is set, changed and removed between solves, of rows with one bound or two */
+static PetscErrorCode TestSlackMass(PetscBool two)
+{
+  Chain chain;
+  Tao   tao;
+  Vec   x, mass;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(20, &chain));
+  PetscCall(FillVec(chain.q.g, 1.2, 0.15));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(VecDuplicate(chain.q.g, &mass));
+  PetscCall(VecSet(mass, 2.0));
+  PetscCall(CreateChainSolver(&chain, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE, x, &tao));
+  if (two) PetscCall(FillSides(&chain, 2, -1.0));
+  if (two) PetscCall(TaoSetInequalityBounds(tao, chain.row_lower, chain.row_upper));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "multipliers of rows with %s\n", two ? "two sides" : "one side"));
+  PetscCall(SolveWithMass(tao, 1.0, "  no mass"));
+  PetscCall(TaoIPFilterSetSlackMass(tao, mass));
+  PetscCall(SolveWithMass(tao, 2.0, "  mass 2"));
+  PetscCall(VecSet(mass, 5.0));
+  PetscCall(SolveWithMass(tao, 5.0, "  mass 5"));
+  PetscCall(TaoIPFilterSetSlackMass(tao, NULL));
+  PetscCall(SolveWithMass(tao, 1.0, "  no mass again"));
+  PetscCall(VecDestroy(&mass));
+  PetscCall(VecDestroy(&x));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
+/* Residual of the chain without constraints, and how the solve ended */
+static PetscErrorCode CheckFree(Tao tao, Chain *chain, Vec x, const char name[])
+{
+  Vec       r;
+  PetscReal norm, size;
+
+  PetscFunctionBeginUser;
+  PetscCall(AttemptBegin());
+  (void)TaoSolve(tao);
+  PetscCall(AttemptEnd());
+  PetscCall(VecDuplicate(x, &r));
+  PetscCall(MatMult(chain->q.H, x, r));
+  PetscCall(VecAXPY(r, -1.0, chain->q.b));
+  PetscCall(VecNorm(r, NORM_2, &norm));
+  PetscCall(VecNorm(chain->q.b, NORM_2, &size));
+  PetscCall(ProblemVerdict(name, norm / size, 1e-6));
+  if (attempt_sentence[0]) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s\n", attempt_sentence));
+  PetscCall(VecDestroy(&r));
+  PetscFunctionReturn(0);
+}
+
+/* One solver without TaoSetHessian() for numbers of unknowns with differences and with a limited-memory matrix; at last
+   it gets a Hessian, which takes one step */
+static PetscErrorCode TestOwnHessian(void)
+{
+  const PetscInt sizes[] = {8, 12, 1500, 1200, 5, 1500};
+  PetscInt       its;
+  Chain          chain;
+  Tao            tao;
+  Vec            x;
+
+  PetscFunctionBeginUser;
+  PetscCall(TaoCreate(PETSC_COMM_WORLD, &tao));
+  PetscCall(TaoSetType(tao, TAOIPFILTER));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(sizes); k++) {
+    char name[64];
+
+    PetscCall(CreateChain(sizes[k], &chain));
+    PetscCall(VecDuplicate(chain.q.b, &x));
+    PetscCall(TaoSetSolution(tao, x));
+    PetscCall(TaoSetObjectiveAndGradient(tao, NULL, ProblemObjectiveAndGradient, &chain.q));
+    PetscCall(PetscSNPrintf(name, sizeof(name), "no Hessian, %" PetscInt_FMT " unknowns: residual", sizes[k]));
+    PetscCall(CheckFree(tao, &chain, x, name));
+    if (k + 1 == PETSC_STATIC_ARRAY_LENGTH(sizes)) {
+      PetscCall(VecSet(x, 0.0));
+      PetscCall(TaoSetHessian(tao, chain.q.H, chain.q.H, ProblemConstant, NULL));
+      PetscCall(CheckFree(tao, &chain, x, "then a Hessian: residual"));
+      PetscCall(TaoGetIterationNumber(tao, &its));
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s\n", its == 1 ? "one step" : "MORE THAN ONE STEP"));
+    }
+    PetscCall(VecDestroy(&x));
+    PetscCall(DestroyChain(&chain));
+  }
+  PetscCall(TaoDestroy(&tao));
+  PetscFunctionReturn(0);
+}
+
+/* Solvers of the augmented system that tell no inertia, and then the one that does, in the same TAOIPFILTER */
+static PetscErrorCode TestAugmentedTypes(void)
+{
+  const char *const types[] = {"lu", "jacobi", "none", "qr", "icc", "cholesky"};
+  Chain             chain;
+  Tao               tao;
+  Vec               x;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(20, &chain));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(CreateChainSolver(&chain, PETSC_FALSE, PETSC_TRUE, PETSC_FALSE, x, &tao));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(types); k++) {
+    PetscErrorCode ierr;
+
+    PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_augmented_pc_type", types[k]));
+    PetscCall(AttemptBegin());
+    ierr = TaoSolve(tao);
+    PetscCall(AttemptEnd());
+    PetscCall(AttemptCompareRanks(types[k], ierr));
+    PetscCall(AttemptPrint(ierr));
+  }
+  PetscCall(PetscOptionsClearValue(NULL, "-tao_ipfilter_augmented_pc_type"));
+  PetscCall(VecDestroy(&x));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
+/* Options that need a positive value */
+static PetscErrorCode TestPositiveOptions(void)
+{
+  const char *const names[] = {"-tao_ipfilter_slack_init", "-tao_ipfilter_proximal"}, *const values[] = {"0", "-1"};
+
+  PetscFunctionBeginUser;
+  for (PetscInt k = 0; k < 4; k++) {
+    Tao            tao;
+    PetscErrorCode ierr;
+
+    PetscCall(PetscOptionsSetValue(NULL, names[k / 2], values[k % 2]));
+    PetscCall(TaoCreate(PETSC_COMM_WORLD, &tao));
+    PetscCall(TaoSetType(tao, TAOIPFILTER));
+    PetscCall(AttemptBegin());
+    ierr = TaoSetFromOptions(tao);
+    PetscCall(AttemptEnd());
+    PetscCall(AttemptCompareRanks(names[k / 2], ierr));
+    PetscCall(AttemptPrint(ierr));
+    PetscCall(TaoDestroy(&tao));
+    PetscCall(PetscOptionsClearValue(NULL, names[k / 2]));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* An options prefix that is set after the type */
+static PetscErrorCode TestPrefix(void)
+{
+  Tao         tao;
+  KSP         ksp;
+  const char *prefix;
+  PetscBool   gmres;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscOptionsSetValue(NULL, "-own_tao_ipfilter_ksp_type", "gmres"));
+  PetscCall(TaoCreate(PETSC_COMM_WORLD, &tao));
+  PetscCall(TaoSetType(tao, TAOIPFILTER));
+  PetscCall(TaoSetOptionsPrefix(tao, "own_"));
+  PetscCall(TaoSetFromOptions(tao));
+  PetscCall(TaoGetKSP(tao, &ksp));
+  PetscCall(KSPGetOptionsPrefix(ksp, &prefix));
+  PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPGMRES, &gmres));
+  PetscCall(
+    PetscPrintf(PETSC_COMM_WORLD, "prefix of the KSP: %s, its option is %s\n", prefix, gmres ? "read" : "NOT READ"));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(PetscOptionsClearValue(NULL, "-own_tao_ipfilter_ksp_type"));
+  PetscFunctionReturn(0);
+}
+
+/* A Hessian with an entry that is not a number, without and with equality constraints */
+static PetscErrorCode TestUndefinedHessian(PetscBool total)
+{
+  Chain       chain;
+  Tao         tao;
+  Mat         H;
+  Vec         x;
+  PetscInt    lo, hi;
+  const char *sentence;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(20, &chain));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(CreateChainSolver(&chain, PETSC_FALSE, total, PETSC_FALSE, x, &tao));
+  PetscCall(MatDuplicate(chain.q.H, MAT_COPY_VALUES, &H));
+  PetscCall(MatGetOwnershipRange(H, &lo, &hi));
+  if (lo <= 7 && hi > 7) PetscCall(MatSetValue(H, 7, 7, NAN, INSERT_VALUES));
+  PetscCall(MatAssemblyBegin(H, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(H, MAT_FINAL_ASSEMBLY));
+  PetscCall(TaoSetHessian(tao, H, H, ProblemConstant, NULL));
+  PetscCall(TaoSolve(tao));
+  PetscCall(TaoIPFilterGetReason(tao, &sentence));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "NaN in the Hessian%s: %s\n", total ? ", equality" : "",
+    strstr(sentence, "not a number") ? "it is said" : sentence));
+  PetscCall(MatDestroy(&H));
+  PetscCall(VecDestroy(&x));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
+/* What the solver tells of a solve */
+static PetscErrorCode PrintStatus(Tao tao, const char name[])
+{
+  PetscReal   figures[5];
+  PetscInt    known = 0;
+  const char *sentence;
+
+  PetscFunctionBeginUser;
+  PetscCall(TaoGetSolutionStatus(tao, NULL, &figures[0], &figures[1], &figures[2], NULL, NULL));
+  PetscCall(TaoIPFilterGetKKTError(tao, &figures[3], &figures[4]));
+  PetscCall(TaoIPFilterGetReason(tao, &sentence));
+  for (PetscInt k = 0; k < 5; k++) known += !PetscIsNanReal(figures[k]);
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " figures, \"%.9s\"\n", name, known, sentence));
+  PetscFunctionReturn(0);
+}
+
+/* After a solve with a result, a start that is not a number, and an error: they have no figures of the first */
+static PetscErrorCode TestStatus(void)
+{
+  Chain          chain;
+  Tao            tao;
+  Vec            x, other;
+  PetscErrorCode ierr;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(20, &chain));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(CreateChainSolver(&chain, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE, x, &tao));
+  PetscCall(TaoSolve(tao));
+  PetscCall(PrintStatus(tao, "status of a solve"));
+  PetscCall(VecSet(x, NAN));
+  PetscCall(TaoSolve(tao));
+  PetscCall(PrintStatus(tao, "status of a start with NaN"));
+  PetscCall(VecSet(x, 0.0));
+  PetscCall(TaoSolve(tao));
+  PetscCall(PrintStatus(tao, "status of a solve"));
+  PetscCall(VecCreateMPI(PETSC_COMM_WORLD, PETSC_DECIDE, 2 * chain.n, &other));
+  PetscCall(VecSet(other, 1.0));
+  PetscCall(TaoIPFilterSetPrimalMass(tao, other));
+  PetscCall(AttemptBegin());
+  ierr = TaoSolve(tao);
+  PetscCall(AttemptEnd());
+  PetscCall(AttemptCompareRanks("status", ierr));
+  PetscCall(TaoIPFilterSetPrimalMass(tao, NULL));
+  PetscCall(PrintStatus(tao, "status of an error"));
+  PetscCall(VecDestroy(&other));
+  PetscCall(VecDestroy(&x));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
+/* A tolerance far below rounding errors ends a solve as 0 does */
+static PetscErrorCode TestTinyTolerance(PetscReal gatol)
+{
+  Chain              chain;
+  Tao                tao;
+  Vec                x;
+  TaoConvergedReason reason;
+  const char        *sentence;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateChain(20, &chain));
+  PetscCall(FillVec(chain.q.g, 1.2, 0.15));
+  PetscCall(VecDuplicate(chain.q.b, &x));
+  PetscCall(CreateChainSolver(&chain, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE, x, &tao));
+  PetscCall(TaoSetTolerances(tao, gatol, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_subspace", "false"));
+  PetscCall(TaoSetFromOptions(tao));
+  PetscCall(TaoSolve(tao));
+  PetscCall(TaoGetConvergedReason(tao, &reason));
+  PetscCall(TaoIPFilterGetReason(tao, &sentence));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "tolerance %g: %s\n", (double)gatol, reason > 0 ? "solved" : sentence));
+  PetscCall(PetscOptionsClearValue(NULL, "-tao_ipfilter_subspace"));
+  PetscCall(VecDestroy(&x));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(DestroyChain(&chain));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
+  PetscBool positive;
+
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscAMGFInitializePackage());
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-positive", &positive));
+  if (positive) {
+    PetscCall(TestPositiveOptions());
+    PetscCall(PetscFinalize());
+    return 0;
+  }
   PetscCall(TestConvergenceTests());
   PetscCall(TestConstraintTolerances());
   PetscCall(TestBoundMultipliers());
@@ -577,6 +952,17 @@ int main(int argc, char **argv)
   PetscCall(TestSides(2, "two sides or an upper one"));
   PetscCall(TestSides(5, "bounds of all kinds"));
   PetscCall(TestCrossedSides());
+  PetscCall(TestLayouts());
+  PetscCall(TestSlackMass(PETSC_FALSE));
+  PetscCall(TestSlackMass(PETSC_TRUE));
+  PetscCall(TestOwnHessian());
+  PetscCall(TestAugmentedTypes());
+  PetscCall(TestPrefix());
+  PetscCall(TestUndefinedHessian(PETSC_FALSE));
+  PetscCall(TestUndefinedHessian(PETSC_TRUE));
+  PetscCall(TestStatus());
+  PetscCall(TestTinyTolerance(0.0));
+  PetscCall(TestTinyTolerance(1e-50));
   PetscCall(PetscFinalize());
   return 0;
 }
@@ -586,5 +972,11 @@ int main(int argc, char **argv)
    test:
       suffix: 1
       nsize: {{1 2 3}}
+
+   # what an error leaves allocated is no leak
+   test:
+      suffix: positive
+      nsize: {{1 3}}
+      args: -positive -malloc_dump 0
 
 TEST*/

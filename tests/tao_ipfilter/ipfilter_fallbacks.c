@@ -184,6 +184,8 @@ int main(int argc, char **argv)
   PetscCall(PetscAMGFInitializePackage());
   PetscCall(Test("no difficulty", "", 0.001, 1.0, 0.0, &optimum));
   PetscCall(Test("preconditioned norm", "-tao_ipfilter_ksp_norm_type preconditioned", 0.001, 1.0, 0.0, &optimum));
+  PetscCall(Test("MINRES", "-tao_ipfilter_ksp_type minres", 0.001, 1.0, 0.0, &optimum));
+  PetscCall(Test("SYMMLQ", "-tao_ipfilter_ksp_type symmlq", 0.001, 1.0, 0.0, &optimum));
   PetscCall(Test("AMG of the first matrix",
     "-tao_ipfilter_pc_amgf_amg_lag -1 -tao_ipfilter_ksp_max_it 4 -tao_ipfilter_direct_memory 0", 0.001, 1.0, 0.0,
     &optimum));

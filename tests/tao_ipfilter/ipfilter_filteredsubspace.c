@@ -443,6 +443,46 @@ static PetscErrorCode TestConcave(void)
   PetscFunctionReturn(0);
 }
 
+/* The directions of a solver in one of another size, which discards them, and then in the first one again; an empty
+   container */
+static PetscErrorCode TestOtherSize(PetscInt n)
+{
+  Membrane       m[2] = {{.copies = 1}, {.copies = 1}};
+  PetscReal      f;
+  PetscInt       its, interior, left;
+  PetscContainer space;
+  PetscErrorCode ierr;
+  Tao            tao[2];
+  Vec            x[2];
+
+  PetscFunctionBeginUser;
+  for (PetscInt k = 0; k < 2; k++) {
+    PetscCall(AssembleMembrane(k ? n / 2 : n, &m[k]));
+    PetscCall(AssembleCap(k ? n / 2 : n, 0.0, &m[k]));
+    PetscCall(VecDuplicate(m[k].q.b, &x[k]));
+    PetscCall(CreateTao(&m[k], x[k], "true", &tao[k]));
+    if (k) PetscCall(TaoIPFilterSetSubspace(tao[k], space));
+    PetscCall(Solve(tao[k], &f, &its, &left));
+    PetscCall(Compare(k ? "a solver of another size" : "a solver", &m[k], tao[k], &interior));
+    PetscCall(TaoIPFilterGetSubspace(tao[0], &space));
+  }
+  PetscCall(Solve(tao[0], &f, &its, &left));
+  PetscCall(Compare("the first one again", &m[0], tao[0], &interior));
+  PetscCall(PetscContainerCreate(PETSC_COMM_WORLD, &space));
+  PetscCall(AttemptBegin());
+  ierr = TaoIPFilterSetSubspace(tao[0], space);
+  PetscCall(AttemptEnd());
+  PetscCall(AttemptCompareRanks("empty container", ierr));
+  PetscCall(AttemptPrint(ierr));
+  PetscCall(PetscContainerDestroy(&space));
+  for (PetscInt k = 0; k < 2; k++) {
+    PetscCall(TaoDestroy(&tao[k]));
+    PetscCall(VecDestroy(&x[k]));
+    PetscCall(ProblemDestroy(&m[k].q));
+  }
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   const PetscInt n         = 24;
@@ -460,6 +500,7 @@ int main(int argc, char **argv)
     return 0;
   }
   PetscCall(TestKept(n));
+  PetscCall(TestOtherSize(n));
   PetscCall(TestActive(n));
   PetscCall(TestOne("every row three times", n, &dependent, 0));
   PetscCall(TestOne("an objective that is not quadratic", n, &curved, 0));

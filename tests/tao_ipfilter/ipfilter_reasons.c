@@ -12,12 +12,14 @@ typedef enum {
   CASE_NAN_AWAY,
   CASE_NAN_HESSIAN,
   CASE_NAN_GRADIENT,
+  CASE_NAN_CONSTRAINT,
   CASE_OVERSHOOT,
   NCASES
 } Case;
 
 static const char *const case_names[] = {"solvable", "infeasible", "unbounded", "NaN at the start",
-  "NaN away from the start", "NaN in the Hessian", "NaN in the gradient", "overshooting Newton steps"};
+  "NaN away from the start", "NaN in the Hessian", "NaN in the gradient", "NaN in a constraint away from the start",
+  "overshooting Newton steps"};
 
 /* Separable in the unknowns: solvable and infeasible (x - 3)^2; unbounded -x; NaN away: x - log x, not defined for x
    <= 0; overshoot: sqrt(1 + x^2), where Newton's step is -x (1 + x^2) */
@@ -66,20 +68,23 @@ static PetscErrorCode Hessian(Tao tao, Vec x, Mat H, Mat Hpre, void *user)
   PetscFunctionReturn(0);
 }
 
-/* c = x_0 - 1, and, infeasible, also -x_0 */
+/* c = x_0 - 1, and, infeasible, also -x_0; NaN in a constraint: only its value at the start, x_0 = 0.1, is a number */
 static PetscErrorCode Inequality(Tao tao, Vec x, Vec c, void *user)
 {
-  Mat      J;
-  PetscInt lo, hi;
+  const Case which = *(const Case *)user;
+  Mat        J;
+  PetscInt   lo, hi;
+  PetscReal  largest;
 
   PetscFunctionBeginUser;
-  (void)user;
   PetscCall(PetscObjectQuery((PetscObject)tao, "test_J", (PetscObject *)&J));
   PetscCall(MatMult(J, x, c));
   PetscCall(VecGetOwnershipRange(c, &lo, &hi));
   if (lo == 0 && hi > 0) PetscCall(VecSetValue(c, 0, -1.0, ADD_VALUES));
   PetscCall(VecAssemblyBegin(c));
   PetscCall(VecAssemblyEnd(c));
+  PetscCall(VecMax(c, NULL, &largest));
+  if (which == CASE_NAN_CONSTRAINT && largest != 0.1 - 1.0) PetscCall(VecSet(c, NAN));
   PetscFunctionReturn(0);
 }
 
@@ -123,7 +128,7 @@ static PetscErrorCode Run(Case which, PetscInt max_it, PetscInt max_funcs, const
   PetscCall(TaoSetSolution(tao, x));
   PetscCall(TaoSetObjectiveAndGradient(tao, NULL, ObjectiveAndGradient, &which));
   PetscCall(TaoSetHessian(tao, H, H, Hessian, &which));
-  PetscCall(TaoSetInequalityConstraintsRoutine(tao, c, Inequality, NULL));
+  PetscCall(TaoSetInequalityConstraintsRoutine(tao, c, Inequality, &which));
   PetscCall(TaoSetJacobianInequalityRoutine(tao, J, J, ProblemConstant, NULL));
   if (max_it >= 0) PetscCall(TaoSetMaximumIterations(tao, max_it));
   if (max_funcs >= 0) PetscCall(TaoSetMaximumFunctionEvaluations(tao, max_funcs));

@@ -95,6 +95,8 @@ static const Case cases[] = {
   {{"start where a violated row has no gradient", "0", "x1^2+x2^2+x3^2-2; 3-x1^2-x2^2-x3^2", "", "-1:1.5 -1:1.5 -1:1.5",
      "0 0 0", 0.0, NLP_SOLVED, NULL},
     ""},
+  {{"root that is not a number below zero", "0.5*(x1-2)^2", "0.5-sqrt(x1)", "", "", "50", 1.53125, NLP_SOLVED, NULL},
+    ""},
   {{"saddle by symmetry", "(x1^2-1)^2+x2^2", "", "", "", "0 0.5", 0.0, NLP_SOLVED, NULL}, ""},
   {{"square row", "x1", "", "x1^2", "", "1", 0.0, NLP_REACHED, NULL}, ""},
   {{"no number in the start", "x1^2+x2^2", "x1+x2-1", "", "", "nan 1", 0.5, NLP_DEGENERATE, NULL}, ""},

@@ -277,6 +277,37 @@ static PetscErrorCode TestGroupLasso(const char what[], PetscInt groups, PetscRe
   PetscFunctionReturn(0);
 }
 
+/* A limit or a coefficient that is negative */
+static PetscErrorCode TestRefused(const char what[], PetscReal limit, PetscReal coefficient)
+{
+  Net            net = {.T = NULL};
+  Vec            x;
+  Tao            tao;
+  PetscErrorCode ierr;
+
+  PetscFunctionBeginUser;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: ", what));
+  PetscCall(AssembleNet(12, 0.4, &net));
+  PetscCall(AssembleCap(12, 0.25, 0.3, &net));
+  PetscCall(VecSetValue(net.limit, 3, limit, INSERT_VALUES));
+  PetscCall(VecAssemblyBegin(net.limit));
+  PetscCall(VecAssemblyEnd(net.limit));
+  PetscCall(VecSetValue(net.coefficient, 3, coefficient, INSERT_VALUES));
+  PetscCall(VecAssemblyBegin(net.coefficient));
+  PetscCall(VecAssemblyEnd(net.coefficient));
+  PetscCall(VecDuplicate(net.q.b, &x));
+  PetscCall(CreateSolver(&net, x, &tao));
+  PetscCall(AttemptBegin());
+  ierr = TaoSolve(tao);
+  PetscCall(AttemptEnd());
+  PetscCall(AttemptCompareRanks(what, ierr));
+  PetscCall(AttemptPrint(ierr));
+  PetscCall(TaoDestroy(&tao));
+  PetscCall(VecDestroy(&x));
+  PetscCall(DestroyNet(&net));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   const PetscInt n = 12;
@@ -293,6 +324,8 @@ int main(int argc, char **argv)
   PetscCall(TestLaw("frictionless", n, 0.4, PETSC_INFINITY, 0.0));
   PetscCall(TestGroupLasso("group lasso", 40, 0.5, PETSC_FALSE));
   PetscCall(TestGroupLasso("group lasso, from rest", 40, 0.5, PETSC_TRUE));
+  PetscCall(TestRefused("negative limit", -1.0, 0.3));
+  PetscCall(TestRefused("negative coefficient", 0.25, -0.5));
   PetscCall(PetscFinalize());
   return 0;
 }
