@@ -1,4 +1,4 @@
-# A rigid rod with a hinge at its end is pulled to the side, along each axis: angle by the equation of a pendulum, energy
+# A rigid rod with a hinge at its end is pulled to the side, along each axis: angle of a pendulum, energy
 contact=$AMGF_DIR/bin/contact
 rod() {
   cat > $1.yaml <<YAML
