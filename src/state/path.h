@@ -18,7 +18,7 @@ struct _n_LoadPath {
                                      step of the largest of external work, energy and contact work [force length] */
   PetscBool presses;              /* whether a pair with friction has contact forces at u */
   PetscBool pressed;              /* whether one had such forces in the present load step, also at its begin */
-  PetscReal told;                 /* imbalance of the last warning; 0: there was none */
+  PetscReal told; /* imbalance of the last warning, or part of the energy that contact gives (step.c); 0: none */
 };
 
 /* path.c */

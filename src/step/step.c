@@ -177,6 +177,33 @@ static PetscErrorCode SimulationReportStep(Simulation sim, StepReport *report)
   PetscFunctionReturn(0);
 }
 
+/*
+   Collective. Warns once in a dynamic analysis without friction and interference if contact has given more than 1 % of
+   the energy that the bodies have or that the loads have given. It should take energy, and gives some if a curved gap
+   changes much in a time step.
+*/
+static PetscErrorCode SimulationWarnOfGain(Simulation sim, const StepReport *report)
+{
+  const PetscReal allowed = 1e-2, given = -report->contact_work;
+  PetscReal       energy;
+  PetscBool       intended = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < sim->scene->npairs; ++p)
+    intended = (PetscBool)(intended || sim->scene->pairs[p].interference > 0.0);
+  if (!report->converged || !report->nmotions || sim->history->frictional || intended || sim->path->told > 0.0)
+    PetscFunctionReturn(0);
+  energy =
+    PetscMax(sim->dynamics.kinetic, PetscMax(PetscAbsReal(report->work), PetscAbsReal(report->motions->total_energy)));
+  if (!(given > allowed * energy)) PetscFunctionReturn(0);
+  sim->path->told = given / energy;
+  PetscCall(ReportWarn(sim->comm, &sim->report, NULL,
+    "load step %" PetscInt_FMT ": contact has given %.2g %% of the energy (%g of %g), although it is without friction; "
+    "use mass: lumped, smaller cells or other time steps",
+    report->step, 100.0 * (double)sim->path->told, (double)given, (double)energy));
+  PetscFunctionReturn(0);
+}
+
 /* Collective. Warns of what the whole run shows, after its last step */
 static PetscErrorCode SimulationWarn(Simulation sim, StepReport *report)
 {
@@ -247,6 +274,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
     if (sim->scene->dynamics.tolerance == 0.0) sim->control->increment = 0.0;
     PetscCall(ForecastRecord(sim));
     PetscCall(WorkWarn(sim, report));
+    PetscCall(SimulationWarnOfGain(sim, report));
   }
   PetscCall(SimulationReportStep(sim, report));
   PetscCall(SimulationGetState(sim, report, state));
