@@ -81,7 +81,8 @@ def kept(problem, mesh, way):
 
 def reduced(record):
     """What the page is made from"""
-    short = {key: record[key] for key in ("commit", "dofs", "time", "code", "cut", "limit", "words") if key in record}
+    kept_keys = ("commit", "processor", "date", "dofs", "time", "code", "cut", "limit", "words")
+    short = {key: record[key] for key in kept_keys if key in record}
     short["contact_free"] = {"bound": record.get("contact_free", {}).get("bound")}
     short["ratios"] = [float(f"{ratio:.3g}") for ratio in record["ratios"]]
     short["steps"] = [{key: step[key] for key in STEP_KEYS if key in step} for step in record["steps"]]
@@ -99,9 +100,10 @@ def run(problem, mesh, way, quick=False, limit=None):
         os.environ["LD_PRELOAD"] = os.path.join(FOLDER, "cpuclock.so")
         code, said, cut = runner.execute([*command(problem, mesh, way), "-summary", base + ".json"], limit)
         record = runner.read_summary(base) or {"steps": []}
-        record.update(commit=commit(), code=code, cut=cut, limit=limit,
-                      ratios=[float(ratio) for ratio in re.findall(r"D_max/D_min (\S+)", said)],
-                      words=runner.last_words(said))
+        record.update(commit=commit(), processor=machine.describe()["processor"], date=str(datetime.date.today()),
+                      code=code, cut=cut, limit=limit,
+                      ratios=[float(ratio)
+                              for ratio in re.findall(r"D_max/D_min (\S+)", said)], words=runner.last_words(said))
         del os.environ["LD_PRELOAD"]
         with open(base + ".run.json", "w") as file:
             json.dump(reduced(record), file)
@@ -368,19 +370,23 @@ def not_run(records, reference):
                        f"all of them: {said}.")
 
 
-def commits(records):
-    """The commit of most runs, and the runs of others"""
-    by_commit = {}
+def origins(records):
+    """The commit, the dates and the processor of most runs, and the runs of others"""
+    by_origin = {}
     for name in ordered(records):
-        by_commit.setdefault(records[name]["commit"], []).append(name)
-    (most, _), *others = sorted(by_commit.items(), key=lambda item: -len(item[1]))
-    named = lambda names: "; ".join(
-        f"{TITLES[problem]}, mesh {mesh}, {CYCLES[way] + ' V-cycle' if way in CYCLES else way}"
-        for problem, mesh, way in names)  # noqa: E731
-    if not others:
-        return f"All runs are of commit {most}."
-    return f"All runs are of commit {most}, with these exceptions. " + " ".join(f"Of commit {commit}: {named(names)}."
-                                                                                for commit, names in others)
+        by_origin.setdefault((records[name]["commit"], records[name]["processor"]), []).append(name)
+    most, *others = sorted(by_origin.items(), key=lambda item: -len(item[1]))
+
+    def where(origin, names):
+        dates = sorted({records[name]["date"] for name in names})
+        return f"commit {origin[0]}, {' to '.join(dict.fromkeys((dates[0], dates[-1])))}, on {origin[1]}"
+
+    def named(names):
+        return "; ".join(f"{TITLES[problem]}, mesh {mesh}, {CYCLES[way] + ' V-cycle' if way in CYCLES else way}"
+                         for problem, mesh, way in names)
+
+    exceptions = "\n".join(f"- {where(origin, names)}: {named(names)}." for origin, names in others)
+    return f"All runs: {where(*most)}" + (f", with these exceptions.\n\n{exceptions}" if others else ".")
 
 
 def page(cases, records):
@@ -392,9 +398,8 @@ def page(cases, records):
     yield ("S. Petrides et al., AMG with filtering, arXiv:2505.18576, 2025. Every cell shows our value / the "
            "published value. A star marks a deviation of more than 10 %.")
     yield "`make published` creates this page, `make published-quick` a page for mesh 1 alone.\n"
-    yield f"Machine: {where['processor']}, {where['cores']} cores, one used. " + ", ".join(
-        f"{name} {version}"
-        for name, version in where["versions"].items()) + f". {datetime.date.today()}. {commits(records)}\n"
+    yield "One core. " + ", ".join(f"{name} {version}"
+                                   for name, version in where["versions"].items()) + f". {origins(records)}\n"
     yield ("Times: processor seconds of one core (`cpuclock.c`). Other programs were running on the machine, which "
            "slows memory down. Ratios are those of runs under similar load.\n")
     yield "## Iterations and sizes\n"
