@@ -171,7 +171,7 @@ typedef struct {
                                    the magnitudes of the nodal contact forces */
   PetscReal   error_estimate;  /* discretization error in the energy norm divided by sqrt(2 energy). Its square is
                                    the relative error in energy. NaN: not estimated */
-  PetscReal   motion;          /* largest component of the displacement; 0 without contact [length] */
+  PetscReal   motion;          /* length of the largest displacement; 0 without contact [length] */
   PetscReal  *body_errors;     /* the contribution of each body to error_estimate; the squares of the contributions
                                    add up to its square. NULL: not estimated */
   PetscReal   contact_force[3]; /* vector sum of the pairs' forces on their nonmortar sides [force] */

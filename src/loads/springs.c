@@ -151,7 +151,7 @@ PetscErrorCode SpringsMeasure(const Springs *springs, Vec u, Vec *force, PetscRe
   if (!springs->weak) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(u, &part));
   PetscCall(VecPointwiseMult(part, springs->weak, u));
-  PetscCall(NodalMagnitudesSum(part, weak));
+  PetscCall(NodalMagnitudesMeasure(part, weak, NULL));
   PetscCall(VecDestroy(&part));
   PetscFunctionReturn(0);
 }

@@ -446,7 +446,7 @@ PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, St
   PetscCall(InterruptTest(sim, &stop));
   if (stop) PetscFunctionReturn(0);
   PetscCall(EquilibriumTurnBack(sim, time, force));
-  PetscCall(NodalMagnitudesSum(force, &size));
+  PetscCall(NodalMagnitudesMeasure(force, &size, NULL));
   PetscCall(FreeMotionsCreate(sim, &motions));
   if (motions.n && size > 0.0) {
     PetscCall(PetscMalloc2(motions.n, &load, motions.n, &left));

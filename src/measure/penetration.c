@@ -18,7 +18,7 @@ static PetscBool PenetrationHasForce(const StepReport *report, PetscInt p)
    well. Collective. */
 PetscErrorCode PenetrationMeasure(Simulation sim, StepReport *report)
 {
-  PetscReal *depth, *rounding;
+  PetscReal *depth, *rounding, sum;
   PetscBool *within;
 
   PetscFunctionBegin;
@@ -27,7 +27,7 @@ PetscErrorCode PenetrationMeasure(Simulation sim, StepReport *report)
   for (PetscInt p = 0; p < report->npairs; ++p)
     within[p] = (PetscBool)(report->step == sim->scene->nsteps && !PenetrationHasForce(report, p));
   PetscCall(ContactGetPenetration(sim->contact, sim->path->u, within, depth, rounding));
-  PetscCall(VecNorm(sim->path->u, NORM_INFINITY, &report->motion));
+  PetscCall(NodalMagnitudesMeasure(sim->path->u, &sum, &report->motion));
   for (PetscInt p = 0; p < report->npairs; ++p) {
     report->pairs[p].penetration          = depth[p];
     report->pairs[p].penetration_rounding = rounding[p];

@@ -44,7 +44,10 @@ for name in named ramp; do "$contact" $name.yaml -quiet 2>&1; done
 "$contact" links.yaml -scene_check > links.out 2>&1
 echo "links that touch: exit code $?"
 "$PYTHON" -B "$AMGF_DIR/tests/contact/chain.py" chain.inp 0 20 0.1
-"$contact" chain.yaml -quiet 2>&1 | grep -o 'pair "link2_link1" carries no force, although a point'
+# The middle link is loose: rounding errors decide whether it penetrates another one without force or slips away. The
+# run names either.
+"$contact" chain.yaml -quiet 2>&1 |
+  grep -c 'pair "link2_link1" carries no force, although a point\|body "link1" slips away'
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'CHECK'
 from summaries import load, say, within
 

@@ -43,21 +43,29 @@ PetscErrorCode VertexPlacesCreate(DM dm, VertexPlaces *places)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Computes the sum of the magnitudes of a vector at the nodes of all bodies */
-PetscErrorCode NodalMagnitudesSum(Vec v, PetscReal *sum)
+/* Collective. Computes the sum and the largest of the magnitudes of a vector at the nodes of all bodies; largest may be
+   NULL */
+PetscErrorCode NodalMagnitudesMeasure(Vec v, PetscReal *sum, PetscReal *largest)
 {
+  const MPI_Comm     comm = PetscObjectComm((PetscObject)v);
   const PetscScalar *a;
+  PetscReal          most = 0.0;
   PetscInt           n;
 
   PetscFunctionBegin;
   *sum = 0.0;
   PetscCall(VecGetLocalSize(v, &n));
   PetscCall(VecGetArrayRead(v, &a));
-  for (PetscInt i = 0; i < n; i += 3)
-    *sum += PetscSqrtReal(
+  for (PetscInt i = 0; i < n; i += 3) {
+    const PetscReal size = PetscSqrtReal(
       PetscSqr(PetscRealPart(a[i])) + PetscSqr(PetscRealPart(a[i + 1])) + PetscSqr(PetscRealPart(a[i + 2])));
+
+    *sum += size;
+    most = PetscMax(most, size);
+  }
   PetscCall(VecRestoreArrayRead(v, &a));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)v)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPIU_REAL, MPIU_SUM, comm));
+  if (largest) PetscCallMPI(MPI_Allreduce(&most, largest, 1, MPIU_REAL, MPIU_MAX, comm));
   PetscFunctionReturn(0);
 }
 

@@ -63,7 +63,7 @@ typedef struct {
 } VertexPlaces;
 
 PETSC_INTERN PetscErrorCode VertexPlacesCreate(DM, VertexPlaces *);
-PETSC_INTERN PetscErrorCode NodalMagnitudesSum(Vec v, PetscReal *sum);
+PETSC_INTERN PetscErrorCode NodalMagnitudesMeasure(Vec v, PetscReal *sum, PetscReal *largest);
 PETSC_INTERN PetscErrorCode VertexPlacesSum(const VertexPlaces *, Vec v, PetscInt nbodies, PetscReal sums[]);
 PETSC_INTERN PetscErrorCode VertexPlacesSumForces(const VertexPlaces *, Vec force, Vec all, PetscInt nbodies,
   PetscReal sums[]);
