@@ -81,11 +81,13 @@ static PetscErrorCode StickSetUp(const IPTermSet *set, const IPReducedSystem *s,
 
 /*
    Moves the references of terms that have slid or opened to their present places. Terms that slid too often become
-   free.
+   free. Motions that are rounding errors of the path leave the reference where it was; they may be large if bodies are
+   held by contact alone, because the motions of the rows then cancel.
 */
 static PetscErrorCode StickRefer(IPTermSet *set, const IPReducedSystem *s, const IPStickPath *w)
 {
-  const IPTableau *p = w->p;
+  const PetscReal  rounding = 1e-7 * set->length;
+  const IPTableau *p        = w->p;
   PetscReal       *shift;
 
   PetscFunctionBegin;
@@ -100,6 +102,7 @@ static PetscErrorCode StickRefer(IPTermSet *set, const IPReducedSystem *s, const
   IPTableauRotate(p, shift, 1, PETSC_TRUE);
   for (PetscInt r = p->m; r < p->rows; r++) {
     shift[r] /= p->scale[r];
+    if (PetscAbsReal(shift[r]) <= rounding) shift[r] = 0.0;
     set->shift[r - p->m] += shift[r];
     s->h[r] += shift[r];
     if (shift[r] != 0.0) set->nreleased++;
