@@ -106,7 +106,6 @@ typedef struct {
   PetscBool    active;     /* whether the subspace is used; if false, the AMG is applied alone */
   PetscBool    optional;   /* a missing subspace is intended, so that no warning is printed */
   PetscBool    warned;
-  PetscBool    filter_failed; /* the last set-up of the filter's solver failed, on any rank */
   PCAMGFCounts counts;
 
   /* The next members are set by the user. At most one of set_is and set_P is not NULL. */

@@ -40,28 +40,27 @@ static PetscErrorCode SetUpWarn(PC pc)
   PetscFunctionReturn(0);
 }
 
-/* Sets up the solver of the filtered system. MUMPS does not factor again after it has failed, so that a solver that
-   failed is created anew. same: the filtered system has the same rows as before */
+/* Sets up the solver of the filtered system. After a failure MUMPS does not factor again. A solver whose last set-up
+   failed is therefore reset first. same: the filtered system has the same rows as before */
 static PetscErrorCode SetUpFilterSolver(PC pc, PetscBool same)
 {
   PC_AMGF       *amgf = (PC_AMGF *)pc->data;
-  PCFailedReason reason;
+  PCFailedReason last;
+  PetscBool      renew;
   PC             inner;
 
   PetscFunctionBegin;
   PetscCall(KSPSetErrorIfNotConverged(amgf->filter, pc->erroriffailure));
-  /* A matrix of another size needs a new factorization object. */
-  if (!same || amgf->filter_failed) {
+  PetscCall(KSPGetPC(amgf->filter, &inner));
+  PetscCall(PCGetFailedReason(inner, &last));
+  renew = (PetscBool)(!same || last); /* a matrix of another size needs new factors, too */
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &renew, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)pc)));
+  if (renew) {
     PetscCall(KSPReset(amgf->filter));
     PetscCall(PCAMGFFewRanksReset_Private(&amgf->few));
   }
   PetscCall(KSPSetOperators(amgf->filter, amgf->Aw, amgf->Aw));
   PetscCall(KSPSetUp(amgf->filter));
-  PetscCall(KSPGetPC(amgf->filter, &inner));
-  PetscCall(PCGetFailedReason(inner, &reason));
-  amgf->filter_failed = reason ? PETSC_TRUE : PETSC_FALSE;
-  PetscCallMPI(
-    MPI_Allreduce(MPI_IN_PLACE, &amgf->filter_failed, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)pc)));
   PetscCall(SetUpCheckInner(pc, inner));
   PetscFunctionReturn(0);
 }

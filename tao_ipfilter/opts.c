@@ -65,8 +65,8 @@ PetscErrorCode IPOptionsInitialize(IPOptions *opt)
 }
 
 /*
-   Sets the options prefix of the Krylov solver: that of the Tao and tao_ipfilter_. TaoSetOptionsPrefix() gives it that
-   of the Tao alone.
+   Sets the options prefix of the Krylov solver to that of the Tao, followed by tao_ipfilter_. TaoSetOptionsPrefix()
+   omits tao_ipfilter_.
 */
 PetscErrorCode IPOptionsSetPrefix(Tao tao)
 {

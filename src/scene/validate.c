@@ -65,11 +65,17 @@ static PetscErrorCode SceneValidateRigidMass(MPI_Comm comm, Scene scene, const S
   PetscFunctionReturn(0);
 }
 
-/* Checks one displacement. In messages it has the name that the scene gives it. */
+/* Returns the name that the scene gives to a displacement: that of the face if a symmetry plane has no name */
+static char *DisplacementName(const SceneDisplacement *d)
+{
+  return d->unnamed ? d->face : d->name;
+}
+
+/* Checks one displacement */
 static PetscErrorCode SceneValidateDisplacement(MPI_Comm comm, Scene scene, const SceneDisplacement *d)
 {
   const char      *what = d->symmetry ? "symmetry plane" : "displacement";
-  const SceneEntry said = {.name = d->unnamed ? d->face : d->name, .place = d->place};
+  const SceneEntry said = {.name = DisplacementName(d), .place = d->place};
 
   PetscFunctionBegin;
   if (!SceneIsWholeBody(d->face) && d->at == DISPLACEMENT_FACE)
@@ -99,9 +105,8 @@ static PetscErrorCode SceneValidateDisplacements(MPI_Comm comm, Scene scene)
       else
         for (PetscInt i = 0; i < 3; ++i)
           SceneRequire(!same || !here->fixed[i] || !other->fixed[i], other,
-            "displacements \"%s\" and \"%s\" both prescribe %c on the face \"%s\"",
-            other->unnamed ? other->face : other->name, here->unnamed ? here->face : here->name, "xyz"[i],
-            here -> face);
+            "displacements \"%s\" and \"%s\" both prescribe %c on the face \"%s\"", DisplacementName(other),
+            DisplacementName(here), "xyz"[i], here -> face);
     }
   }
   PetscFunctionReturn(0);

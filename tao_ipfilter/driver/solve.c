@@ -490,7 +490,8 @@ static PetscReal Tolerance(Tao tao)
   return dimensionless || !(tao->gatol > 0.0) ? PetscMax(tao->gatol, PETSC_MACHINE_EPSILON) : tao->gatol;
 }
 
-/* Forgets the figures and the sentence of the last solve, which a solve that ends with an error or NaN does not have */
+/* Sets the figures of the previous solve to NaN, and removes its reason. A solve that ends with an error, or starts at
+   a point with NaN, would otherwise report them. */
 static void ForgetFigures(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
