@@ -2,44 +2,8 @@ static char help[] =
   "PCAMGF after an operator, a subspace or an option has changed: failed factorizations, new values of "
   "an interpolation, transposes, products, and options that are refused.\n\n";
 
-#include "amgf_problem.h"
+#include "amgf_context.h"
 #include "../lib/attempt.h"
-
-typedef struct {
-  Problem problem;
-  Mat     A;
-  IS      is;
-  KSP     ksp;
-  PC      pc;
-  Vec     b, x, y;
-} Context;
-
-static PetscErrorCode ContextCreate(Context *c)
-{
-  PetscFunctionBeginUser;
-  PetscCall(ProblemSetDefaults(&c->problem));
-  c->problem.n = 12;
-  PetscCall(ProblemCreate(PETSC_COMM_WORLD, &c->problem, MATAIJ, PETSC_TRUE, &c->A));
-  PetscCall(ProblemCreateFilterIS(&c->problem, c->A, PETSC_COMM_WORLD, &c->is));
-  PetscCall(MatCreateVecs(c->A, &c->x, &c->b));
-  PetscCall(VecDuplicate(c->x, &c->y));
-  PetscCall(FillVector(c->b, 0.8));
-  PetscCall(ProblemCreateSolver(c->A, c->A, &c->ksp, &c->pc));
-  PetscCall(KSPSetTolerances(c->ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 2000));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode ContextDestroy(Context *c)
-{
-  PetscFunctionBeginUser;
-  PetscCall(KSPDestroy(&c->ksp));
-  PetscCall(VecDestroy(&c->b));
-  PetscCall(VecDestroy(&c->x));
-  PetscCall(VecDestroy(&c->y));
-  PetscCall(ISDestroy(&c->is));
-  PetscCall(MatDestroy(&c->A));
-  PetscFunctionReturn(0);
-}
 
 static PetscErrorCode Solve(Context *c, const char what[])
 {
@@ -64,7 +28,7 @@ static PetscErrorCode CheckZeros(PetscBool factor)
 
   PetscFunctionBeginUser;
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "zeros, %s\n", factor ? "factorization" : "filter"));
-  PetscCall(ContextCreate(&c));
+  PetscCall(ContextCreate(&c, 12));
   if (factor) {
     PetscCall(PCAMGFSetFilterOptional(c.pc, PETSC_TRUE));
     PetscCall(PCAMGFSetFactor(c.pc, PC_AMGF_FACTOR_TRUE));
@@ -92,7 +56,7 @@ static PetscErrorCode CheckInterpolation(void)
 
   PetscFunctionBeginUser;
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "interpolation with new values\n"));
-  PetscCall(ContextCreate(&c));
+  PetscCall(ContextCreate(&c, 12));
   PetscCall(ProblemCreateInterpolation(c.A, c.is, 0.1, &P));
   PetscCall(PCAMGFSetFilterInterpolation(c.pc, P));
   PetscCall(Solve(&c, "  first"));
@@ -106,50 +70,28 @@ static PetscErrorCode CheckInterpolation(void)
   PetscFunctionReturn(0);
 }
 
-/* Relative difference of x^T M y and y^T M x */
-static PetscErrorCode Asymmetry(Context *c, PetscReal *difference)
-{
-  Vec         Mx, My;
-  PetscScalar xMy, yMx, xMx, yMy;
-
-  PetscFunctionBeginUser;
-  PetscCall(VecDuplicate(c->b, &Mx));
-  PetscCall(VecDuplicate(c->b, &My));
-  PetscCall(FillVector(c->y, 5.1));
-  PetscCall(PCApply(c->pc, c->b, Mx));
-  PetscCall(PCApply(c->pc, c->y, My));
-  PetscCall(VecDot(c->b, Mx, &xMx));
-  PetscCall(VecDot(c->y, My, &yMy));
-  PetscCall(VecDot(c->b, My, &xMy));
-  PetscCall(VecDot(c->y, Mx, &yMx));
-  *difference = PetscAbsScalar(xMy - yMx) / PetscSqrtReal(PetscAbsScalar(xMx * yMy));
-  PetscCall(VecDestroy(&Mx));
-  PetscCall(VecDestroy(&My));
-  PetscFunctionReturn(0);
-}
-
 /* The cycle bfb with an operator that is newer than the preconditioner; a subspace composed after the set-up, seen by
    the transpose as well */
 static PetscErrorCode CheckOlder(void)
 {
   Context   c;
-  PetscReal difference;
+  PetscReal difference = 0.0;
 
   PetscFunctionBeginUser;
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "older set-up\n"));
   PetscCall(PetscOptionsSetValue(NULL, "-amgf_amg_pc_type", PCHYPRE)); /* symmetric to double precision */
-  PetscCall(ContextCreate(&c));
+  PetscCall(ContextCreate(&c, 12));
   PetscCall(PCAMGFSetCycle(c.pc, PC_AMGF_BFB));
   PetscCall(PCAMGFSetFilterIS(c.pc, c.is));
   PetscCall(Solve(&c, "  first"));
   PetscCall(PCSetReusePreconditioner(c.pc, PETSC_TRUE));
   c.problem.highest += 0.3;
   PetscCall(ProblemFill(&c.problem, PETSC_TRUE, c.A));
-  PetscCall(Asymmetry(&c, &difference));
+  PetscCall(ContextAsymmetry(&c, &difference));
   PetscCall(ReportBound(PETSC_COMM_WORLD, "  symmetric with new values", difference, 1e-11));
   PetscCall(ContextDestroy(&c));
 
-  PetscCall(ContextCreate(&c));
+  PetscCall(ContextCreate(&c, 12));
   PetscCall(PCAMGFSetFilterOptional(c.pc, PETSC_TRUE));
   PetscCall(PCSetUp(c.pc));
   PetscCall(PetscObjectCompose((PetscObject)c.A, PCAMGF_FILTER_KEY, (PetscObject)c.is));
@@ -168,11 +110,11 @@ static PetscErrorCode CheckProduct(void)
   Context   c;
   Mat       twice;
   Vec       product;
-  PetscReal difference;
+  PetscReal difference = 0.0;
 
   PetscFunctionBeginUser;
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "product\n"));
-  PetscCall(ContextCreate(&c));
+  PetscCall(ContextCreate(&c, 12));
   PetscCall(PCAMGFSetFilterOptional(c.pc, PETSC_TRUE));
   PetscCall(MatDuplicate(c.A, MAT_COPY_VALUES, &twice));
   PetscCall(MatScale(twice, 2.0));
@@ -197,7 +139,7 @@ static PetscErrorCode CheckRefused(const char what[], const char name[], const c
   IS             is;
 
   PetscFunctionBeginUser;
-  PetscCall(ContextCreate(&c));
+  PetscCall(ContextCreate(&c, 12));
   PetscCall(PCAMGFSetFilterOptional(c.pc, PETSC_TRUE));
   if (name) PetscCall(PetscOptionsSetValue(NULL, name, value));
   PetscCall(ISCreateGeneral(PETSC_COMM_WORLD, row ? 1 : 0, &row, PETSC_COPY_VALUES, &is));
