@@ -35,12 +35,14 @@ static PetscErrorCode PCDestroy_BlockAMG(PC pc)
 
    hypre sets up the matrices and interpolations, with the defaults that `PCAMGF` documents. It gets the operator
    without the entries below 1e-13 sqrt(a_ii a_jj), which are rounding errors; entries in columns of other ranks are
-   kept. The levels are converted one after the other, and hypre's copy is freed. Each level is scaled to a diagonal of
-   ones. It holds the strictly lower triangle L of A = L + D + L^T, and the inverses of the diagonal blocks in single
-   precision: blocks of 3 x 3 on the finest level where the block size of the matrix is a multiple of 3, else of 4 x 4.
-   An entry of L is a 16-bit integer times a unit for its row. The cycle has one forward Gauss-Seidel sweep down and one
-   backward sweep up. A row of L is used for both the sweep and the residual while it is in the cache, so a cycle reads
-   half of every matrix twice. Levels of at most 256 unknowns are solved by a dense inverse.
+   kept. The levels are converted one after the other, and hypre's copy is freed. Each level is scaled to a diagonal
+   of ones. It holds the strictly lower triangle L of A = L + D + L^T, and the inverses of the diagonal blocks in
+   single precision: blocks of 3 x 3 on the finest level where the block size of the matrix is a multiple of 3, else
+   of 4 x 4. An entry of L is a 16-bit integer times a unit for its row. Of two coupled unknowns whose diagonal
+   entries differ by a factor of more than 4096, the stiffer one has its entries of L in single precision. The cycle
+   has one forward Gauss-Seidel sweep down and one backward sweep up. A row of L is used for both the sweep and the
+   residual while it is in the cache, so a cycle reads half of every matrix twice. Levels of at most 256 unknowns are
+   solved by a dense inverse.
 
    With several ranks each rank sweeps over its own rows. Let a be the sum of the absolute entries of a row in columns
    of other ranks, and g the excess of its diagonal entry over the other absolute entries of its diagonal block. Then

@@ -22,6 +22,12 @@
 /* Largest absolute integer of a rounded row */
 #define BLOCKAMG_LARGEST 32767.0f
 
+/*
+   A coupling of two unknowns has high contrast if the ratio of their scales exceeds this: the error of 16 bits, about
+   1e-5 of the stiffer diagonal entry, is then a share of the softer one that CG notices
+*/
+#define BLOCKAMG_CONTRAST 64.0f
+
 /* Returns 1/unit, or 0 if the unit is zero, tiny or not finite */
 static inline float BlockInverseUnit(float unit)
 {
@@ -64,6 +70,23 @@ typedef struct {
   float *val, *shift;
 } BlockBorder;
 
+/* An entry of L in single precision, and the positions of its row and its column */
+typedef struct {
+  int   row, col;
+  float value;
+} BlockEntry;
+
+/*
+   The entries of L in the rows and columns of stiff unknowns. An unknown is stiff if it is coupled with an unknown of
+   much smaller diagonal entry, see BLOCKAMG_CONTRAST.
+*/
+typedef struct {
+  char       *stiff; /* marks stiff unknowns and ghosts at their positions; NULL: there are none; destroyed after the
+                        set-up of the level */
+  int        *ptr;   /* start of each block row in entries; NULL: there are none */
+  BlockEntry *entries;
+} BlockContrast;
+
 /*
    Interpolation from the next coarser level in compressed row format. Rows are positions in block vectors of this
    level. Columns are positions in block vectors of the next level, followed by the ghosts of that level.
@@ -78,8 +101,8 @@ typedef struct {
    A level on this rank. A block vector has 4 entries per block row, followed by the ghosts. position[] has the position
    of each unknown in a block vector. The matrix is C A C, where C has the scale 1/sqrt(|a_ii|) of each unknown. L is
    its strictly lower triangle without columns of other ranks, stored block row by block row in blocks of B rows of 4
-   integers. An entry is an integer times the unit of its row. The inverse of a diagonal block D is stored as W with
-   D^-1 = W^T W, in B columns of 4 floats. Unused entries are zero.
+   integers. An entry is an integer times the unit of its row. Entries of stiff unknowns are in `contrast` instead. The
+   inverse of a diagonal block D is stored as W with D^-1 = W^T W, in B columns of 4 floats. Unused entries are zero.
 */
 typedef struct {
   int                n, nb, B; /* number of unknowns; number of block rows; block size, 3 or 4 */
@@ -88,6 +111,7 @@ typedef struct {
   int16_t           *L;
   float             *unit, *W;
   float             *scale; /* of each unknown at its position, and of the ghosts of the matrix */
+  BlockContrast      contrast;
   BlockBorder        border;
   BlockHalo          halo;
   BlockInterpolation P;
@@ -122,6 +146,22 @@ typedef struct {
   char            why[200]; /* why there is no hierarchy; empty if there is one */
 } PC_BlockAMG;
 
+/* Returns whether the diagonal entries of the unknowns, or ghosts, at positions p and q differ much */
+static inline PetscBool BlockDiffersMuch(const BlockLevel *level, int p, int q)
+{
+  const float *s = level->scale;
+
+  return (PetscBool)(s[p] > BLOCKAMG_CONTRAST * s[q] || s[q] > BLOCKAMG_CONTRAST * s[p]);
+}
+
+/* Returns whether `contrast` holds the coupling of the unknowns at positions p and q */
+static inline PetscBool BlockHasContrast(const BlockLevel *level, int p, int q)
+{
+  const char *stiff = level->contrast.stiff;
+
+  return (PetscBool)(stiff && (stiff[p] || stiff[q]));
+}
+
 /* Functions of this folder. The files are listed such that each depends only on those before it. */
 
 /* rows.c */
@@ -140,6 +180,13 @@ PETSC_INTERN PetscErrorCode BlockHaloCreate_Private(PetscLayout, PetscInt nghost
   const BlockLevel *, BlockHalo *);
 PETSC_INTERN PetscErrorCode BlockHaloFetch_Private(const BlockHalo *, const BlockLevel *, float x[]);
 PETSC_INTERN PetscErrorCode BlockHaloAdd_Private(const BlockHalo *, const BlockLevel *, float x[]);
+/* contrast.c */
+PETSC_INTERN PetscErrorCode BlockContrastMark_Private(BlockLevel *, int p, int q);
+PETSC_INTERN PetscErrorCode BlockContrastSetCounts_Private(BlockContrast *, int nb);
+PETSC_INTERN PetscErrorCode BlockContrastSet_Private(BlockLevel *, const BlockRows *, double scale);
+PETSC_INTERN void           BlockContrastMultiplyRow_Private(const BlockContrast *, int i, const float x[], float y[]);
+PETSC_INTERN void           BlockContrastTransposeRow_Private(const BlockContrast *, int i, const float x[], float t[]);
+PETSC_INTERN PetscErrorCode BlockContrastDestroy_Private(BlockContrast *);
 /* level.c */
 PETSC_INTERN PetscErrorCode BlockLevelSetMatrix_Private(BlockLevel *, const BlockRows *, PetscInt bs, double scale);
 PETSC_INTERN PetscErrorCode BlockLevelCreateVectors_Private(BlockLevel *);

@@ -144,6 +144,62 @@ static PetscErrorCode HalfSetDiagonal(const HalfRows *rows, BlockLevel *level, d
   PetscFunctionReturn(0);
 }
 
+/* Marks stiff unknowns */
+static PetscErrorCode HalfMarkStiff(const HalfRows *rows, BlockLevel *level)
+{
+  PetscFunctionBegin;
+  for (int i = 0; i < level->nb; i++) {
+    for (PetscInt k = rows->ia[i]; k < rows->ia[i + 1]; k++) {
+      for (int m = 0; m < 9; m++) {
+        const int p = 4 * (int)rows->ja[k] + m / 3, q = 4 * i + m % 3;
+
+        if (BlockDiffersMuch(level, p, q) && rows->a[9 * k + m] != 0.0)
+          PetscCall(BlockContrastMark_Private(level, p, q));
+      }
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Counts the entries of stiff unknowns in each block row of L, or stores them if next[] has the start of each row */
+static void HalfVisitContrast(const HalfRows *rows, BlockLevel *level, double scale, int next[])
+{
+  for (int i = 0; i < level->nb; i++) {
+    for (PetscInt k = rows->ia[i]; k < rows->ia[i + 1]; k++) {
+      const int below = (int)rows->ja[k];
+
+      for (int m = 0; m < 9 && below != i; m++) {
+        const PetscScalar v = rows->a[9 * k + m];
+        const int         p = 4 * below + m / 3, q = 4 * i + m % 3;
+
+        if (v == 0.0 || !BlockHasContrast(level, p, q)) continue;
+        if (next)
+          level->contrast.entries[next[below]++] =
+            (BlockEntry){p, q, (float)(PetscRealPart(v) / scale * level->scale[p] * level->scale[q])};
+        else level->contrast.ptr[below + 1]++;
+      }
+    }
+  }
+}
+
+static PetscErrorCode HalfSetContrast(const HalfRows *rows, BlockLevel *level, double scale)
+{
+  BlockContrast *contrast = &level->contrast;
+  int           *next;
+
+  PetscFunctionBegin;
+  PetscCall(HalfMarkStiff(rows, level));
+  if (!contrast->stiff) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(level->nb + 1, &contrast->ptr));
+  HalfVisitContrast(rows, level, scale, NULL);
+  PetscCall(BlockContrastSetCounts_Private(contrast, level->nb));
+  PetscCall(PetscMalloc1(level->nb, &next));
+  PetscCall(PetscArraycpy(next, contrast->ptr, level->nb));
+  HalfVisitContrast(rows, level, scale, next);
+  PetscCall(PetscFree(next));
+  PetscFunctionReturn(0);
+}
+
 /* Counts the blocks in each row of L, the transposed upper triangle, and finds the unit of each of its rows */
 static void HalfSetUnits(const HalfRows *rows, BlockLevel *level, double scale)
 {
@@ -159,6 +215,7 @@ static void HalfSetUnits(const HalfRows *rows, BlockLevel *level, double scale)
           const float value = fabsf(
             (float)(PetscRealPart(v[3 * r + c]) / scale * level->scale[below + r]) * level->scale[4 * (size_t)i + c]);
 
+          if (BlockHasContrast(level, (int)(below + r), 4 * i + c)) continue;
           if (!(value <= level->unit[below + r])) level->unit[below + r] = value; /* NaN if the entry is NaN */
         }
       }
@@ -183,8 +240,11 @@ static void HalfRound(const HalfRows *rows, BlockLevel *level, double scale, int
       for (int r = 0; r < 3; r++) {
         const double factor = level->scale[4 * m + r] * BlockInverseUnit(level->unit[4 * m + r]) / scale;
 
-        for (int c = 0; c < 3; c++)
-          to[4 * r + c] = BlockRound((float)(factor * level->scale[4 * (size_t)i + c] * PetscRealPart(v[3 * r + c])));
+        for (int c = 0; c < 3; c++) {
+          const float value = (float)(factor * level->scale[4 * (size_t)i + c] * PetscRealPart(v[3 * r + c]));
+
+          to[4 * r + c] = BlockHasContrast(level, 4 * (int)m + r, 4 * i + c) ? 0 : BlockRound(value);
+        }
         to[4 * r + 3] = 0;
       }
     }
@@ -211,6 +271,7 @@ PetscErrorCode BlockHalfSetLevel_Private(BlockLevel *level, Mat A, double scale)
   PetscCall(PetscCalloc1(12 * (size_t)level->nb, &level->W));
   PetscCall(PetscCalloc1(level->nb + 1, &level->ptr));
   PetscCall(HalfSetDiagonal(&rows, level, scale));
+  PetscCall(HalfSetContrast(&rows, level, scale));
   HalfSetUnits(&rows, level, scale);
   PetscCall(PetscMalloc1(level->ptr[level->nb], &level->col));
   PetscCall(PetscMalloc1(12 * (size_t)level->ptr[level->nb] + 4, &level->L));
@@ -219,6 +280,7 @@ PetscErrorCode BlockHalfSetLevel_Private(BlockLevel *level, Mat A, double scale)
   PetscCall(PetscArraycpy(next, level->ptr, level->nb));
   HalfRound(&rows, level, scale, next);
   PetscCall(PetscFree(next));
+  PetscCall(PetscFree(level->contrast.stiff));
   PetscCall(BlockLevelCount_Private(level, PetscObjectComm((PetscObject)A),
     18.0 * (double)rows.ia[rows.n] - 9.0 * (double)rows.n));
   for (size_t p = 0; p < 4 * (size_t)level->nb; p++) level->unit[p] /= 65536.0f; /* as in LevelRound() */

@@ -164,6 +164,7 @@ PetscErrorCode BlockHierarchyIsFinite_Private(const BlockHierarchy *h, PetscBool
       largest = PetscMax(largest, l->scale[k]);
       nan += 0.0f * (l->unit[k] + l->scale[k]);
     }
+    for (int k = 0; l->contrast.ptr && k < l->contrast.ptr[l->nb]; k++) nan += 0.0f * l->contrast.entries[k].value;
   }
   for (size_t k = 0; k < (size_t)h->dense.N * h->dense.N; k++) nan += 0.0f * h->dense.W[k];
   *finite = (PetscBool)(nan == 0.0f && largest < 1e15f);

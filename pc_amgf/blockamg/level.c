@@ -1,6 +1,6 @@
 /*
-   Stores a matrix of the hierarchy: blocks of the strictly lower triangle in integers of 16 bits, inverses of the
-   diagonal blocks and entries in columns of other ranks in single precision
+   Stores a matrix of the hierarchy: blocks of the strictly lower triangle in integers of 16 bits; entries of stiff
+   unknowns, inverses of the diagonal blocks and entries in columns of other ranks in single precision
 */
 #include "blockamgimpl.h"
 #include <math.h>
@@ -79,7 +79,7 @@ static PetscErrorCode LevelCollectBlocks(const BlockLevel *level, const BlockRow
       const int p = level->position[rows->ja[k]], j = p / 4;
 
       if (j == i) D[B * r + p % 4] = inverse_scale * rows->a[k];
-      if (j >= i) continue;
+      if (j >= i || BlockHasContrast(level, 4 * i + r, p)) continue;
       if (slot[j] < first) {
         for (int m = 0; m < 4 * B; m++) blocks->row[4 * B * (blocks->n - first) + m] = 0.0f;
         slot[j]                  = blocks->n;
@@ -263,6 +263,7 @@ PetscErrorCode BlockLevelCount_Private(BlockLevel *level, MPI_Comm comm, double 
   sums[2] = (double)B * B * (2.0 * level->ptr[level->nb] + level->nb) + border;
   sums[3] = (8.0 * B + 4.0) * level->ptr[level->nb] + (16.0 * B + 36.0) * level->nb + 4.0 * level->n + 8.0 * border +
             12.0 * level->border.n;
+  if (level->contrast.ptr) sums[3] += 4.0 * level->nb + (double)sizeof(BlockEntry) * level->contrast.ptr[level->nb];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, comm));
   level->unknowns = sums[0];
   level->entries  = sums[1];
@@ -324,7 +325,9 @@ PetscErrorCode BlockLevelSetMatrix_Private(BlockLevel *level, const BlockRows *r
   level->nslots = 4 * level->nb + level->halo.nghosts;
   PetscCall(LevelSetScale(level, rows, scale));
   PetscCall(LevelSetBorder(level, rows, scale));
+  PetscCall(BlockContrastSet_Private(level, rows, scale));
   PetscCall(LevelSetBlocks(level, rows, scale));
+  PetscCall(PetscFree(level->contrast.stiff));
   PetscCall(BlockLevelCount_Private(level, rows->columns->comm,
     rows->n ? (double)rows->ia[rows->n] + (rows->oia ? (double)rows->oia[rows->n] : 0.0) : 0.0));
   PetscFunctionReturn(0);
@@ -354,6 +357,7 @@ PetscErrorCode BlockLevelDestroy_Private(BlockLevel *level)
   PetscCall(PetscFree(level->unit));
   PetscCall(PetscFree(level->W));
   PetscCall(PetscFree(level->scale));
+  PetscCall(BlockContrastDestroy_Private(&level->contrast));
   PetscCall(PetscFree(level->border.position));
   PetscCall(PetscFree(level->border.ptr));
   PetscCall(PetscFree(level->border.col));

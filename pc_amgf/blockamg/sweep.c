@@ -5,6 +5,16 @@
 #include "blockamgimpl.h"
 #include "vec4.h"
 
+/* Adds the entries of stiff unknowns to the product of block row i with x */
+static Vec4 RowAddContrast(const BlockLevel *l, int i, const float x[], Vec4 product)
+{
+  float y[4];
+
+  Vec4Store(y, product);
+  BlockContrastMultiplyRow_Private(&l->contrast, i, x, y);
+  return Vec4Load(y);
+}
+
 /*
    Returns sum_j L_ij x_j for block row i. A row of L is a row of integers times its unit. step: 1 to read the blocks
    upwards, -1 downwards
@@ -33,7 +43,8 @@ VEC4_INLINE Vec4 RowMultiply(const BlockLevel *l, int i, const float x[], const 
     a[1] = Vec8Low(a13);
     a[3] = Vec8High(a13);
   }
-  return Vec4Multiply(Vec4Load(l->unit + 4 * (size_t)i), Vec4Sums(a));
+  a[0] = Vec4Multiply(Vec4Load(l->unit + 4 * (size_t)i), Vec4Sums(a));
+  return l->contrast.ptr ? RowAddContrast(l, i, x, a[0]) : a[0];
 }
 
 /*
@@ -71,6 +82,7 @@ VEC4_INLINE void SweepRow(const BlockLevel *l, int i, Vec4 f, const int B, const
     else tj = Vec4MultiplyAdd(tj, Vec8Low(v13), Vec8Low(x13));
     Vec4Store(t + col[k], Vec4Add(tj, Vec4Add(Vec8Low(v02), Vec8High(v02))));
   }
+  if (l->contrast.ptr) BlockContrastTransposeRow_Private(&l->contrast, i, x, t);
 }
 
 AMGF_CLONES static void SweepDown3(const BlockLevel *l)

@@ -207,8 +207,11 @@ static PetscErrorCode CheckMatrix(MatType type, PetscInt n, PetscInt bs)
   PetscFunctionReturn(0);
 }
 
-/* Stiff parts in a soft one: every fourth edge of the grid in direction x is a million times as stiff as the others */
-static PetscErrorCode CheckContrast(void)
+/*
+   Stiff parts in a soft one: of four consecutive edges of the grid in direction x, the last ones from edge number
+   `first` on are about a million times as stiff as the others
+*/
+static PetscErrorCode CheckContrast(MatType type, PetscInt first)
 {
   const MPI_Comm comm = PETSC_COMM_WORLD;
   Mat            A;
@@ -216,16 +219,17 @@ static PetscErrorCode CheckContrast(void)
   PetscInt       its[2], start, end, n = 8;
 
   PetscFunctionBeginUser;
-  PetscCall(PetscPrintf(comm, "stiff and soft parts\n"));
-  PetscCall(CubeCreate(comm, MATAIJ, n, 3, 1.0, &A));
+  PetscCall(PetscPrintf(comm, "%s, stiff parts of %" PetscInt_FMT " edges in a soft one\n", type, 4 - first));
+  PetscCall(CubeCreate(comm, type, n, 3, 1.0, &A));
   PetscCall(MatGetOwnershipRange(A, &start, &end));
   for (PetscInt node = start / 3; node < end / 3; node++) { /* an edge to the next node in x */
     const PetscInt x = node % n, from = 3 * node, to = 3 * (node + 1);
 
-    if (x % 4 != 1) continue;
+    if (x % 4 < first || x == n - 1) continue;
     for (PetscInt c = 0; c < 3; c++) {
-      const PetscInt    rows[2] = {from + c, to + c};
-      const PetscScalar edge[4] = {1e6, -1e6, -1e6, 1e6};
+      const PetscReal   stiffness = 1e6 * (1.0 + 0.3 * PetscSinReal((PetscReal)(from + c)));
+      const PetscInt    rows[2]   = {from + c, to + c};
+      const PetscScalar edge[4]   = {stiffness, -stiffness, -stiffness, stiffness};
 
       PetscCall(MatSetValues(A, 2, rows, 2, rows, edge, ADD_VALUES));
     }
@@ -234,7 +238,8 @@ static PetscErrorCode CheckContrast(void)
   PetscCall(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
   PetscCall(Solve(A, PCBLOCKAMG, 1.0, &ksp, &its[0]));
   PetscCall(Solve(A, PCHYPRE, 1.0, &hypre, &its[1]));
-  PetscCall(CheckCounts(comm, "counts", its[0], its[1]));
+  if (its[0] > 1.6 * its[1]) /* 2 times as many if the stiff entries have 16 bits */
+    PetscCall(PetscPrintf(comm, "    %" PetscInt_FMT " iterations, hypre %" PetscInt_FMT "\n", its[0], its[1]));
   PetscCall(CheckSymmetry(ksp, A));
   PetscCall(KSPDestroy(&hypre));
   PetscCall(KSPDestroy(&ksp));
@@ -294,7 +299,10 @@ int main(int argc, char **argv)
   for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(sizes); i++) PetscCall(CheckMatrix(MATAIJ, 10, sizes[i]));
   for (size_t i = 1; i < PETSC_STATIC_ARRAY_LENGTH(types); i++) PetscCall(CheckMatrix(types[i], 8, 3));
   PetscCall(CheckMatrix(MATAIJ, 2, 1)); /* one level */
-  PetscCall(CheckContrast());
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(types); i += 2) {
+    PetscCall(CheckContrast(types[i], 3));
+    PetscCall(CheckContrast(types[i], 1));
+  }
   PetscCall(CheckRefusal(0.0));
   PetscCall(CheckRefusal(-5.0));
   PetscCall(PetscFinalize());
