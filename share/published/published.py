@@ -81,7 +81,7 @@ def kept(problem, mesh, way):
 
 def reduced(record):
     """What the page is made from"""
-    kept_keys = ("commit", "processor", "date", "dofs", "time", "code", "cut", "limit", "words")
+    kept_keys = ("commit", "processor", "date", "dofs", "time", "code", "cut", "limit", "words", "peak_memory_bytes")
     short = {key: record[key] for key in kept_keys if key in record}
     short["contact_free"] = {"bound": record.get("contact_free", {}).get("bound")}
     short["ratios"] = [float(f"{ratio:.3g}") for ratio in record["ratios"]]
@@ -198,6 +198,13 @@ def cost(record, count):
                for step in done), sum(step["solve_time"] for step in done), sum(step["ip_iterations"] for step in done)
 
 
+def time_ratio(first, second, seconds, digits=1):
+    """Of the seconds of two runs of the same program on the same kind of machine"""
+    if any(first[key] != second[key] for key in ("commit", "processor")):
+        return "-"
+    return f"{seconds[0] / seconds[1]:.{digits}f}"
+
+
 def speed_table(records):
     yield ("| problem | mesh | V-cycle | load steps compared | AMGF-PCG [s] | AMG-PCG [s] | speed-up | PCG "
            "iterations, AMGF | PCG iterations, AMG | ratio of iterations |")
@@ -215,7 +222,7 @@ def speed_table(records):
         (_, ours, _), (_, theirs, _) = cost(amgf, count), cost(amg, count)
         last = [sum(sum(pcg_of_newton(step)[-10:]) for step in steps(record)[:count]) for record in (amgf, amg)]
         yield (f"| {TITLES[problem]} | {mesh} | {CYCLES[way]} | {count} | {ours:.1f} | {theirs:.1f} | "
-               f"{theirs / ours:.1f} | {last[0]:,} | {last[1]:,} | {last[1] / last[0]:.1f} |")
+               f"{time_ratio(amg, amgf, (theirs, ours))} | {last[0]:,} | {last[1]:,} | {last[1] / last[0]:.1f} |")
 
 
 def share_table(cases, records):
@@ -277,23 +284,41 @@ def own_table(records):
         its = [mean(its for step in steps(record)[:count] for its in pcg_of_newton(step)) for record in (theirs, ours)]
         times = [cost(record, count)[1] for record in (theirs, ours)]
         energies = [steps(record)[count - 1]["energy"] for record in (theirs, ours)]
-        yield (f"| {TITLES[problem]} | {mesh} | {count} | {its[0]:.1f} | {its[1]:.1f} | {times[0] / times[1]:.1f} | "
-               f"{abs(energies[1] / energies[0] - 1):.1e} |")
+        yield (f"| {TITLES[problem]} | {mesh} | {count} | {its[0]:.1f} | {its[1]:.1f} | "
+               f"{time_ratio(theirs, ours, times)} | {abs(energies[1] / energies[0] - 1):.1e} |")
+
+
+def farthest(problem, mesh, records):
+    """The published configuration with the V-cycle that solved more load steps, BoomerAMG's if both solved as many"""
+    runs = [way for way in CYCLES if (problem, mesh, way) in records]
+    return max(runs, key=lambda way: len(steps(records[problem, mesh, way])), default=None)
+
+
+def memory(record):
+    found = record.get("peak_memory_bytes")
+    return f"{found / 1e9:.2f}" if found else "-"
 
 
 def defaults_table(cases, records):
-    yield ("| problem | mesh | load steps | AMG applications, or solves with factors, published configuration | "
-           "defaults | time, published configuration [s] | defaults [s] | ratio | energy of the last step, relative "
-           "difference |")
-    yield "| --- |" + " --- |" * 8
+    yield ("| problem | mesh | V-cycle of the published configuration | load steps | AMG applications, or solves with "
+           "factors, published configuration | defaults | time, published configuration [s] | defaults [s] | ratio | "
+           "memory, published configuration [GB] | defaults [GB] | energy of the last step, relative difference |")
+    yield "| --- |" + " --- |" * 11
     for problem, mesh in cases:
-        theirs, ours = (records.get((problem, mesh, way)) for way in ("AMGF", "defaults"))
-        count = min(len(steps(theirs)), len(steps(ours))) if ours and theirs else 0
+        way, ours = farthest(problem, mesh, records), records.get((problem, mesh, "defaults"))
+        if not ours or not steps(ours):
+            continue
+        theirs = records.get((problem, mesh, way))
+        count = min(len(steps(theirs)), len(steps(ours))) if theirs else 0
         if not count:
+            (b, u, _) = cost(ours, len(steps(ours)))
+            yield (f"| {TITLES[problem]} | {mesh} | - | {len(steps(ours))} | - | {b:,} | - | {u:.1f} | - | - | "
+                   f"{memory(ours)} | - |")
             continue
         (a, t, _), (b, u, _) = cost(theirs, count), cost(ours, count)
         energies = [steps(record)[count - 1]["energy"] for record in (theirs, ours)]
-        yield (f"| {TITLES[problem]} | {mesh} | {count} | {a:,} | {b:,} | {t:.1f} | {u:.1f} | {t / u:.0f} | "
+        yield (f"| {TITLES[problem]} | {mesh} | {CYCLES[way]} | {count} | {a:,} | {b:,} | {t:.1f} | {u:.1f} | "
+               f"{time_ratio(theirs, ours, (t, u), 0)} | {memory(theirs)} | {memory(ours)} | "
                f"{abs(energies[1] / energies[0] - 1):.1e} |")
 
 
@@ -342,8 +367,11 @@ def cut_runs(records):
 
 
 def estimate(problem, mesh, way, records, reference):
-    """Hours of processor time of all load steps, from the time of a PCG iteration on the finest mesh that was run; None
-    where none was run"""
+    """Hours of processor time of all load steps, from the time of the load steps that were solved, else from the time
+    of a PCG iteration on the finest mesh that was run; None where none was run"""
+    done = steps(records.get((problem, mesh, way), {"steps": []}))
+    if done:
+        return sum(step["solve_time"] for step in done) / len(done) * LOAD_STEPS[problem] / 3600
     known = max((which for other, which, another in records if (other, another) == (problem, way)), default=None)
     its = known and sum(sum(pcg_of_newton(step)) for step in records[problem, known, way]["steps"])
     if not its:
