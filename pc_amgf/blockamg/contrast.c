@@ -13,12 +13,36 @@ PetscErrorCode BlockContrastMark_Private(BlockLevel *level, int p, int q)
   PetscFunctionReturn(0);
 }
 
-/* BlockContrastSetCounts_Private - reserves memory, where ptr[i + 1] is the number of entries of block row i */
-PetscErrorCode BlockContrastSetCounts_Private(BlockContrast *contrast, int nb)
+/*
+   BlockContrastAdd_Private - counts an entry of L, or stores it, if one of its unknowns is stiff
+
+   Input Parameters:
+   + level - the level, with its stiff unknowns marked
+   . p, q  - positions of the row and of the column
+   . value - the entry divided by the scale of the hierarchy
+   - next  - the next free entry of each block row; NULL to count
+*/
+void BlockContrastAdd_Private(BlockLevel *level, int p, int q, double value, int next[])
+{
+  BlockContrast *contrast = &level->contrast;
+
+  if (value == 0.0 || !BlockHasContrast(level, p, q)) return;
+  if (next)
+    contrast->entries[next[p / 4]++] = (BlockEntry){p, q, (float)((double)level->scale[p] * level->scale[q] * value)};
+  else contrast->ptr[p / 4 + 1]++;
+}
+
+/*
+   BlockContrastReserve_Private - reserves memory for the entries that were counted. *next is the first entry of each
+   block row. The caller destroys it.
+*/
+PetscErrorCode BlockContrastReserve_Private(BlockContrast *contrast, int nb, int **next)
 {
   PetscFunctionBegin;
   for (int i = 0; i < nb; i++) contrast->ptr[i + 1] += contrast->ptr[i];
   PetscCall(PetscMalloc1(contrast->ptr[nb], &contrast->entries));
+  PetscCall(PetscMalloc1(nb, next));
+  PetscCall(PetscArraycpy(*next, contrast->ptr, nb));
   PetscFunctionReturn(0);
 }
 
@@ -43,21 +67,16 @@ static PetscErrorCode ContrastMarkAll(BlockLevel *level, const BlockRows *rows)
   PetscFunctionReturn(0);
 }
 
-/* Counts the entries of stiff unknowns in each block row of L, or stores them if next[] has the start of each row */
+/* Counts the entries of stiff unknowns in L if next is NULL, and stores them otherwise */
 static void ContrastVisit(BlockLevel *level, const BlockRows *rows, double scale, int next[])
 {
   for (PetscInt u = 0; u < rows->n; u++) {
     const int p = level->position[u];
 
     for (PetscInt k = rows->ia[u]; k < rows->ia[u + 1]; k++) {
-      const int    q    = level->position[rows->ja[k]];
-      const double left = level->scale[p] / scale;
+      const int q = level->position[rows->ja[k]];
 
-      if (q / 4 >= p / 4 || rows->a[k] == 0.0 || !BlockHasContrast(level, p, q)) continue;
-      if (next)
-        level->contrast.entries[next[p / 4]++] =
-          (BlockEntry){p, q, (float)(left * level->scale[q] * PetscRealPart(rows->a[k]))};
-      else level->contrast.ptr[p / 4 + 1]++;
+      if (q / 4 < p / 4) BlockContrastAdd_Private(level, p, q, PetscRealPart(rows->a[k]) / scale, next);
     }
   }
 }
@@ -73,9 +92,7 @@ PetscErrorCode BlockContrastSet_Private(BlockLevel *level, const BlockRows *rows
   if (!contrast->stiff) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(level->nb + 1, &contrast->ptr));
   ContrastVisit(level, rows, scale, NULL);
-  PetscCall(BlockContrastSetCounts_Private(contrast, level->nb));
-  PetscCall(PetscMalloc1(level->nb, &next));
-  PetscCall(PetscArraycpy(next, contrast->ptr, level->nb));
+  PetscCall(BlockContrastReserve_Private(contrast, level->nb, &next));
   ContrastVisit(level, rows, scale, next);
   PetscCall(PetscFree(next));
   PetscFunctionReturn(0);

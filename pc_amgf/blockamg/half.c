@@ -161,23 +161,16 @@ static PetscErrorCode HalfMarkStiff(const HalfRows *rows, BlockLevel *level)
   PetscFunctionReturn(0);
 }
 
-/* Counts the entries of stiff unknowns in each block row of L, or stores them if next[] has the start of each row */
+/* Counts the entries of stiff unknowns in L if next is NULL, and stores them otherwise */
 static void HalfVisitContrast(const HalfRows *rows, BlockLevel *level, double scale, int next[])
 {
   for (int i = 0; i < level->nb; i++) {
     for (PetscInt k = rows->ia[i]; k < rows->ia[i + 1]; k++) {
       const int below = (int)rows->ja[k];
 
-      for (int m = 0; m < 9 && below != i; m++) {
-        const PetscScalar v = rows->a[9 * k + m];
-        const int         p = 4 * below + m / 3, q = 4 * i + m % 3;
-
-        if (v == 0.0 || !BlockHasContrast(level, p, q)) continue;
-        if (next)
-          level->contrast.entries[next[below]++] =
-            (BlockEntry){p, q, (float)(PetscRealPart(v) / scale * level->scale[p] * level->scale[q])};
-        else level->contrast.ptr[below + 1]++;
-      }
+      for (int m = 0; m < 9 && below != i; m++)
+        BlockContrastAdd_Private(level, 4 * below + m / 3, 4 * i + m % 3, PetscRealPart(rows->a[9 * k + m]) / scale,
+          next);
     }
   }
 }
@@ -192,9 +185,7 @@ static PetscErrorCode HalfSetContrast(const HalfRows *rows, BlockLevel *level, d
   if (!contrast->stiff) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(level->nb + 1, &contrast->ptr));
   HalfVisitContrast(rows, level, scale, NULL);
-  PetscCall(BlockContrastSetCounts_Private(contrast, level->nb));
-  PetscCall(PetscMalloc1(level->nb, &next));
-  PetscCall(PetscArraycpy(next, contrast->ptr, level->nb));
+  PetscCall(BlockContrastReserve_Private(contrast, level->nb, &next));
   HalfVisitContrast(rows, level, scale, next);
   PetscCall(PetscFree(next));
   PetscFunctionReturn(0);

@@ -199,7 +199,7 @@ def cost(record, count):
 
 
 def time_ratio(first, second, seconds, digits=1):
-    """Of the seconds of two runs of the same program on the same kind of machine"""
+    """Ratio of the seconds of two runs; "-" if they are not of the same commit and the same kind of processor"""
     if any(first[key] != second[key] for key in ("commit", "processor")):
         return "-"
     return f"{seconds[0] / seconds[1]:.{digits}f}"

@@ -43,8 +43,8 @@ PetscErrorCode VertexPlacesCreate(DM dm, VertexPlaces *places)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Computes the sum and the largest of the magnitudes of a vector at the nodes of all bodies; largest may be
-   NULL */
+/* Collective. Computes the magnitude of a vector at each node of all bodies, and returns the sum and the largest of the
+   magnitudes. largest may be NULL. */
 PetscErrorCode NodalMagnitudesMeasure(Vec v, PetscReal *sum, PetscReal *largest)
 {
   const MPI_Comm     comm = PetscObjectComm((PetscObject)v);
