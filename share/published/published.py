@@ -429,7 +429,7 @@ def page(cases, records):
     yield "One core. " + ", ".join(f"{name} {version}"
                                    for name, version in where["versions"].items()) + f". {origins(records)}\n"
     yield ("Times: processor seconds of one core (`cpuclock.c`). Other programs were running on the machine, which "
-           "slows memory down. Ratios are those of runs under similar load.\n")
+           "slows memory down. The same run varies by up to 20 %.\n")
     yield "## Iterations and sizes\n"
     yield ("Configuration `published.opts`. Interior point iterations are the mean over load steps, PCG iterations "
            "the mean over Newton systems.")
@@ -477,7 +477,7 @@ def page(cases, records):
     yield from not_run(records, reference)
     if "earlier" in explanations:
         yield explanations["earlier"]
-    yield f"- Two blocks, mesh 4, and AMG alone on meshes above 1: {AMG_LIMIT} iterations a system take hours."
+    yield f"- AMG alone was not run on meshes 2 and 3: {AMG_LIMIT} iterations a system take hours."
 
 
 def wrapped(text):
