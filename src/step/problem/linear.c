@@ -84,27 +84,6 @@ static PetscErrorCode LinearSolvePatiently(Simulation sim, KSP ksp, PetscBool re
   PetscFunctionReturn(0);
 }
 
-/* Creates the solver for the stiffness A of the bodies: CG preconditioned by AMG, or by a factorization. *ksp: with the
-   options of the user, and with their tolerance instead of rtol */
-PetscErrorCode LinearCreateKSP(Simulation sim, Mat A, PetscReal rtol, KSP *ksp)
-{
-  PC pc;
-
-  PetscFunctionBegin;
-  PetscCall(KSPCreate(sim->comm, ksp));
-  PetscCall(KSPSetOptionsPrefix(*ksp, "elasticity_"));
-  PetscCall(KSPSetType(*ksp, KSPCG));
-  PetscCall(KSPSetTolerances(*ksp, rtol, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
-  PetscCall(KSPGetPC(*ksp, &pc));
-  PetscCall(PCSetType(pc, PCAMGF));
-  PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
-  PetscCall(PCAMGFSetFactor(pc, PC_AMGF_FACTOR_AUTO));
-  PetscCall(KSPSetFromOptions(*ksp));
-  PetscCall(StiffnessSetModes(sim, *ksp, A));
-  PetscCall(KSPSetOperators(*ksp, A, A));
-  PetscFunctionReturn(0);
-}
-
 /*
    Returns the solver of load steps without contact: CG preconditioned by AMG, or by a factorization if it is estimated
    to be cheaper for the remaining load steps.
@@ -117,8 +96,19 @@ static PetscErrorCode LinearGetKSP(Simulation sim, KSP *ksp)
 
   PetscFunctionBegin;
   if (!sim->control->ksp) {
-    PetscCall(LinearCreateKSP(sim, sim->K, sim->control->tolerances.linear, &sim->control->ksp));
+    PetscCall(KSPCreate(sim->comm, &sim->control->ksp));
+    PetscCall(KSPSetOptionsPrefix(sim->control->ksp, "elasticity_"));
+    PetscCall(KSPSetType(sim->control->ksp, KSPCG));
+    PetscCall(KSPSetTolerances(sim->control->ksp, sim->control->tolerances.linear, PETSC_DEFAULT, PETSC_DEFAULT,
+      PETSC_DEFAULT));
+    PetscCall(KSPGetPC(sim->control->ksp, &pc));
+    PetscCall(PCSetType(pc, PCAMGF));
+    PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
+    PetscCall(PCAMGFSetFactor(pc, PC_AMGF_FACTOR_AUTO));
+    PetscCall(KSPSetFromOptions(sim->control->ksp));
     PetscCall(KSPGetTolerances(sim->control->ksp, &sim->control->tolerances.linear, NULL, NULL, NULL));
+    PetscCall(StiffnessSetModes(sim, sim->control->ksp, sim->K));
+    PetscCall(KSPSetOperators(sim->control->ksp, sim->K, sim->K));
     if (sim->control->observer.linear)
       PetscCall(KSPMonitorSet(sim->control->ksp, sim->control->observer.linear, sim, NULL));
   } else PetscCall(KSPGetIterationNumber(sim->control->ksp, &its));

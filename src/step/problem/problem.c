@@ -77,8 +77,9 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(p, sizeof(*p)));
-  p->sim  = sim;
-  p->time = time;
+  p->sim       = sim;
+  p->time      = time;
+  p->quadratic = sim->quadratic;
   PetscCall(PetscObjectReference((PetscObject)sim->K));
   p->K = sim->K;
   PetscCall(VecDuplicate(sim->path->u, &p->base));

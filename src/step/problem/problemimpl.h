@@ -52,6 +52,7 @@ typedef struct {
 typedef struct {
   Simulation sim;
   PetscReal  time;
+  PetscBool  quadratic; /* true if the objective is the quadratic model */
   Mat        K;
   Vec        base;
   Vec        load;   /* dead loads plus follower loads at p->followed [force]; NULL: no loads */
@@ -146,11 +147,14 @@ PETSC_INTERN PetscErrorCode FrictionReleaseOpen(StepProblem *);
 PETSC_INTERN PetscErrorCode FrictionRestart(StepProblem *);
 PETSC_INTERN PetscErrorCode FrictionKeep(StepProblem *, Tao, Vec u, ContactSolution *);
 PETSC_INTERN PetscErrorCode FrictionKeepNone(const StepProblem *, Vec u, ContactSolution *);
+PETSC_INTERN PetscErrorCode FrictionCopy(const StepFriction *, StepFriction *);
 PETSC_INTERN PetscErrorCode FrictionDestroy(StepFriction *);
 
 /* energy.c: objectives of the optimizer */
 PETSC_INTERN PetscErrorCode QuadraticEnergy(StepProblem *, Vec, PetscReal *);
 PETSC_INTERN PetscErrorCode QuadraticObjectiveAndGradient(Tao, Vec, PetscReal *, Vec, void *);
+PETSC_INTERN PetscErrorCode EnergyGetGradient(StepProblem *, Vec u, Vec G);
+PETSC_INTERN PetscErrorCode EnergyGetTangent(StepProblem *, Vec u, Mat H);
 PETSC_INTERN PetscErrorCode EnergyObjective(Tao, Vec, PetscReal *, void *);
 PETSC_INTERN PetscErrorCode EnergyObjectiveAndGradient(Tao, Vec, PetscReal *, Vec, void *);
 PETSC_INTERN PetscErrorCode EnergyHessian(Tao, Vec, Mat, Mat, void *);
@@ -173,6 +177,9 @@ PETSC_INTERN PetscErrorCode WeakSpringsTest(const StepProblem *, Vec u, StepRepo
 PETSC_INTERN PetscErrorCode WeakSpringsReportMotion(const StepProblem *, Vec u_linearized, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode WeakSpringsTestMotion(const StepProblem *, Vec u_linearized, Vec u, StepReport *);
 
+/* create_optimizer.c */
+PETSC_INTERN PetscErrorCode OptimizerCreate(StepProblem *, Tao *, PetscBool *ours);
+
 /*
    linear.c, optimizer.c, penalty.c: the three solvers. resume: true if the solve starts from u and from the pressures
    of the last solve
@@ -188,7 +195,6 @@ PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u,
 PETSC_INTERN PetscErrorCode StepProblemStart(StepProblem *, PetscBool resume, Tao, Vec u, PetscBool *valid);
 
 /* linear.c: the solver for the bodies without contact; solves the systems of contact updates */
-PETSC_INTERN PetscErrorCode LinearCreateKSP(Simulation, Mat, PetscReal rtol, KSP *);
 PETSC_INTERN PetscErrorCode MatrixFreeSolve(Vec b, Vec x, void *context, PetscErrorCode (*multiply)(Mat, Vec, Vec),
   PetscReal rtol, PetscInt most, PetscBool *found);
 
