@@ -61,7 +61,7 @@ PetscErrorCode SupportAddFacets(Support *support, const SupportFace *face, Petsc
     PetscReal x[4][3], own[3];
 
     PetscCall(SupportGetFacet(support->dm, f[i], centres, x, own));
-    if (support->pair) SupportMeasureMotion(support, face->body, x[0], 1 / (PetscReal)face->total);
+    if (support->pair) SupportMeasureMotion(support, x[0], 1 / (PetscReal)face->total);
     for (PetscInt k = 0; k < 3 * npoints; ++k) {
       const PetscReal *direction = along ? axes[k % 3] : normal ? normal : own;
 

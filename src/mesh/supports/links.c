@@ -10,8 +10,8 @@ PetscErrorCode SupportMeasureBodies(Support *support)
   PetscReal *bounds; /* for each body, the smallest x, y, z, -x, -y, -z [length] */
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(support->n, &bounds));
-  for (PetscInt i = 0; i < support->n; ++i) bounds[i] = PETSC_MAX_REAL;
+  PetscCall(PetscMalloc1(6 * support->nbodies, &bounds));
+  for (PetscInt i = 0; i < 6 * support->nbodies; ++i) bounds[i] = PETSC_MAX_REAL;
   PetscCall(DMPlexGetHeightStratum(support->dm, 0, &cstart, &cend));
   for (PetscInt c = cstart; c < cend; ++c) {
     PetscInt  b, n, vertices[8];
@@ -25,7 +25,7 @@ PetscErrorCode SupportMeasureBodies(Support *support)
       bounds[6 * b + 3 + i % 3] = PetscMin(bounds[6 * b + 3 + i % 3], -x[i / 3][i % 3]);
     }
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, (PetscMPIInt)support->n, MPIU_REAL, MPIU_MIN, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, (PetscMPIInt)(6 * support->nbodies), MPIU_REAL, MPIU_MIN, comm));
   for (PetscInt b = 0; b < support->nbodies; ++b) {
     support->size[b] = 0;
     for (PetscInt d = 0; d < 3; ++d) {
@@ -51,17 +51,20 @@ void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3]
   }
 }
 
-/* Adds the velocity of the modes of the last link's first body b at the point x to `motion` of this link */
-void SupportMeasureMotion(Support *support, PetscInt b, const PetscReal x[3], PetscReal weight)
+/* Adds the velocity of the modes of both bodies of the last link at the point x to `motion` of this link */
+void SupportMeasureMotion(Support *support, const PetscReal x[3], PetscReal weight)
 {
-  PetscReal *motion = support->motion[support->nlinks - 1], *row = support->row;
+  const PetscInt l = support->nlinks - 1, *body = support->links[l].body;
 
-  for (PetscInt d = 0; d < 3; ++d) {
-    const PetscReal axis[3] = {d == 0, d == 1, d == 2};
+  for (PetscInt k = 0; k < 6; ++k) {
+    const PetscInt  end     = k / 3;
+    const PetscReal axis[3] = {k % 3 == 0, k % 3 == 1, k % 3 == 2};
+    PetscReal      *row     = support->row + 6 * end;
 
-    SupportAddMotion(support, b, axis, x, 1);
-    for (PetscInt k = 0; k < 36; ++k) motion[k] += weight * row[k / 6] * row[k % 6];
-    for (PetscInt k = 0; k < 6; ++k) row[k] = 0;
+    if (body[end] < 0) continue;
+    SupportAddMotion(support, body[end], axis, x, 1);
+    for (PetscInt i = 0; i < 36; ++i) support->motion[l][end][i] += weight * row[i / 6] * row[i % 6];
+    for (PetscInt i = 0; i < 6; ++i) row[i] = 0;
   }
 }
 

@@ -207,6 +207,7 @@ static PetscErrorCode SupportAddSpring(Support *support, const SceneSpring *spri
 PetscErrorCode SupportAddScene(Support *support, Scene scene)
 {
   static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
+  const MPI_Comm         comm   = PetscObjectComm((PetscObject)support->dm);
 
   PetscFunctionBegin;
   for (PetscInt d = 0; d < scene->ndisplacements; ++d)
@@ -223,5 +224,9 @@ PetscErrorCode SupportAddScene(Support *support, Scene scene)
   for (PetscInt t = 0; t < scene->nties; ++t)
     PetscCall(SupportAddJoint(support, scene->ties[t].mortar, scene->ties[t].nonmortar, all));
   for (PetscInt k = 0; k < scene->ncyclic; ++k) PetscCall(SupportAddCyclic(support, &scene->cyclic[k]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, support->gram,
+    (PetscMPIInt)(support->nlinks * SUPPORT_BLOCK * SUPPORT_BLOCK), MPIU_REAL, MPIU_SUM, comm));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, support->motion, (PetscMPIInt)(support->nlinks * 72), MPIU_REAL, MPIU_SUM, comm));
   PetscFunctionReturn(0);
 }

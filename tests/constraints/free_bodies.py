@@ -1,0 +1,67 @@
+"""Scenes for free_bodies.sh, and their answers: python free_bodies.py write|judge."""
+import sys
+
+from summaries import load, say, within
+
+# A beam clamped on a whole face, above a plane, with a force on its tip
+BEAM = """bodies:
+  - beam: {lower: [0, 0, 0], upper: [%d, 5, 2], cells: [%d, 2, 1], young: 2.1e5, poisson: 0, element: incompatible}
+  - plane: {shape: rigid_plane, point: [0, 0, -0.5], normal: [0, 0, 1]}
+displacements:
+  - clamp: {face: beam.xmin, value: [0, 0, 0]}
+  - ground: {body: plane, value: [0, 0, 0]}
+forces: [tip: {face: beam.xmax, value: [0, 0, %g]}]
+contact: [touch: {mortar: plane.surface, nonmortar: beam.zmin}]
+probes: [tip: {point: [%d, 2.5, 0]}]
+"""
+# Two leaves, clamped at one end, on one another
+LEAVES = """bodies:
+  - low: {lower: [0, 0, 0], upper: [100, 5, 1], cells: [40, 1, 1], young: 2.1e5, poisson: 0, element: incompatible}
+  - high: {lower: [0, 0, 1], upper: [100, 5, 2], cells: [40, 1, 1], young: 2.1e5, poisson: 0, element: incompatible}
+displacements:
+  - low: {face: low.xmin, value: [0, 0, 0]}
+  - high: {face: high.xmin, value: [0, 0, 0]}
+forces: [tip: {face: high.xmax, value: [0, 0, -1]}]
+contact: [between: {mortar: low.zmax, nonmortar: high.zmin}]
+probes: [tip: {point: [100, 2.5, 0]}]
+"""
+# A lever, clamped at its foot, that a force pushes along the face of a block
+LEVER = """bodies:
+  - lever: {lower: [0, 0, 0], upper: [2, 2, 90], cells: [1, 1, 30], young: 2.1e5, poisson: 0, element: incompatible}
+  - stop: {lower: [2, 0, 0], upper: [10, 2, 90], cells: [1, 1, 10], young: 2.1e5, poisson: 0}
+displacements:
+  - foot: {face: lever.zmin, value: [0, 0, 0]}
+  - back: {face: stop.xmax, value: [0, 0, 0]}
+forces: [push: {face: lever.zmax, value: [0, 0.5, 0]}]
+contact: [face: {mortar: stop.xmin, nonmortar: lever.xmax}]
+probes: [tip: {point: [2, 2, 90]}]
+"""
+
+SCENES = {
+    "cantilever_60": BEAM % (60, 30, -2, 60),
+    "cantilever_100": BEAM % (100, 50, -0.9, 100),
+    "pressed": BEAM % (100, 50, -4, 100),
+    "leaf": LEAVES,
+    "lever": LEVER
+}
+
+if sys.argv[1] == "write":
+    for name, text in SCENES.items():
+        with open(name + ".yaml", "w") as file:
+            file.write(text)
+else:
+
+    def tip(name, component):
+        return load(name)["steps"][-1]["probes"][0]["displacement"][component]
+
+    # force x length^3 / (3 E I)
+    for name, force, length in ("cantilever_60_1", -2, 60), ("cantilever_100_1", -0.9, 100), ("cantilever_100_3", -0.9,
+                                                                                             100):
+        exact = force * length**3 / (3 * 2.1e5 * 5 * 8 / 12)
+        say(f"{name}: the deflection of a beam within 0.5 %", within(tip(name, 2), exact, 5e-3), (tip(name, 2), exact))
+    exact = -1 * 100**3 / (3 * 2.1e5 * 2 * 5 / 12)
+    say("leaf: the deflection of two beams within 1 %", within(tip("leaf_1", 2), exact, 1e-2), (tip("leaf_1", 2), exact))
+    exact = 0.5 * 90**3 / (3 * 2.1e5 * 2 * 8 / 12)
+    say("lever: the deflection of a beam within 1 %", within(tip("lever_1", 1), exact, 1e-2), (tip("lever_1", 1), exact))
+    force = load("pressed_1")["steps"][-1]["weak_spring_force"]
+    say("pressed: no weak springs", force == 0, force)

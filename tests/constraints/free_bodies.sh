@@ -1,0 +1,12 @@
+# Bodies that something holds, but hardly: no support is missing, and nothing is said
+contact=$AMGF_DIR/bin/contact
+PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B "$AMGF_DIR/tests/constraints/free_bodies.py" write
+run() { # scene, ranks; a pair that stays open is meant
+  mpiexec --oversubscribe -n "$2" "$contact" "$1.yaml" -quiet -error_estimate 0 -summary "$1_$2.json" > "$1.said" 2>&1
+  code=$?
+  grep '^contact:' "$1.said" | grep -v 'was open at the end'
+  echo "$1, $2 ranks: exit code $code"
+}
+for scene in cantilever_60 cantilever_100 pressed leaf lever; do run $scene 1; done
+run cantilever_100 3
+PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B "$AMGF_DIR/tests/constraints/free_bodies.py" judge
