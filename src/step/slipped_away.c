@@ -50,17 +50,27 @@ static PetscReal SlippedForce(Scene scene, const StepReport *report, PetscInt b)
   return sum;
 }
 
-/* Collective. Finds whether no prescribed displacement, spring or tie holds a body against some translation */
+/* Collective. Finds whether no prescribed displacement, spring or tie holds a body against some motion */
 static PetscErrorCode SlippedIsFree(Simulation sim, PetscInt b, PetscBool *is_free)
 {
   FreeMotions m;
+  PetscInt    first, end;
 
   PetscFunctionBegin;
   *is_free = PETSC_FALSE;
   PetscCall(FreeMotionsCreate(sim, &m));
-  for (PetscInt k = 0; k < m.n; ++k) {
-    if (VectorNorm(&m.motion[6 * m.nbodies * k + 6 * b]) > PETSC_SQRT_MACHINE_EPSILON) *is_free = PETSC_TRUE;
+  PetscCall(MatGetOwnershipRange(m.Z, &first, &end));
+  for (PetscInt i = first; i < end && m.n; ++i) {
+    const PetscScalar *values;
+    PetscInt           n;
+
+    if (sim->places.body[(i - first) / 3] != b) continue;
+    PetscCall(MatGetRow(m.Z, i, &n, NULL, &values));
+    for (PetscInt k = 0; k < n; ++k)
+      if (PetscAbsScalar(values[k]) > PETSC_SQRT_MACHINE_EPSILON) *is_free = PETSC_TRUE;
+    PetscCall(MatRestoreRow(m.Z, i, &n, NULL, &values));
   }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, is_free, 1, MPI_PETSCBOOL, MPI_LOR, sim->comm));
   PetscCall(FreeMotionsDestroy(&m));
   PetscFunctionReturn(0);
 }
