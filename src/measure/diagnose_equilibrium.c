@@ -378,7 +378,10 @@ static PetscErrorCode EquilibriumReport(Simulation sim, const FreeMotions *m, co
   PetscCall(ConeSlide(cone, left));
   PetscCall(VecDuplicate(sim->places.x, &w));
   PetscCall(FreeMotionsDisplace(m, left, w));
-  if (cone->rows[CONE_NEAR].slip) PetscCall(ReportReason(report, PETSC_FALSE, "friction does not hold the bodies"));
+  PetscCall(ReportReason(report, PETSC_FALSE,
+    cone->rows[CONE_NEAR].slip ? "friction does not hold the bodies"
+    : sim->contact             ? "contact does not hold the bodies"
+                               : "nothing holds the bodies"));
   PetscCall(RigidMotionReport(sim, w, "nothing stops it", NULL, report));
   PetscCall(VecDestroy(&w));
   PetscFunctionReturn(0);
@@ -410,7 +413,7 @@ PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, St
 
   PetscFunctionBegin;
   *none = PETSC_FALSE;
-  if (!sim->contact || !force) PetscFunctionReturn(0);
+  if (!force) PetscFunctionReturn(0);
   PetscCall(InterruptTest(sim, &stop));
   if (stop) PetscFunctionReturn(0);
   PetscCall(EquilibriumTurnBack(sim, time, force));

@@ -37,7 +37,30 @@ contact: [face: {mortar: stop.xmin, nonmortar: lever.xmax}]
 probes: [tip: {point: [2, 2, 90]}]
 """
 
+# A bracket that a bolt clamps on a base, and that a force pulls along its faces
+BRACKET = """bodies:
+  - base: {shape: holed_box, axis: z, lower: [-20, -20, -10], upper: [20, 20, 0], radius: 5, cells: [4, 4, 2],
+           young: 2.1e5, poisson: 0.3}
+  - bracket: {shape: holed_box, axis: z, lower: [-20, -20, 0], upper: [20, 20, 10], radius: 5, cells: [4, 4, 2],
+              young: 2.1e5, poisson: 0.3}
+  - head: {shape: tube_arc, axis: z, radii: [3, 8], angles: [0, 360], extent: [10, 15], cells: [2, 16, 2],
+           young: 2.1e5, poisson: 0.3}
+  - shank: {shape: tube_arc, axis: z, radii: [1, 4], angles: [0, 360], extent: [-10, 15], cells: [2, 16, 10],
+            young: 2.1e5, poisson: 0.3}
+displacements:
+  - foot: {face: base.zmin, value: [0, 0, 0]}
+  - bolt: {face: shank.lmin, value: [0, 0, 0]}
+ties: [nut: {mortar: shank.outer, nonmortar: head.inner, distance: 2}]
+bolts: [m8: {body: shank, point: [0, 0, 5], axis: [0, 0, 1], force: 10000}]
+forces: [pull: {face: bracket.xmax, value: [500, 0, 0]}]
+contact:
+  - low: {mortar: base.zmax, nonmortar: bracket.zmin}
+  - high: {mortar: bracket.zmax, nonmortar: head.lmin}
+weak_springs: true
+"""
+
 SCENES = {
+    "bracket": BRACKET,
     "cantilever_60": BEAM % (60, 30, -2, 60),
     "cantilever_100": BEAM % (100, 50, -0.9, 100),
     "pressed": BEAM % (100, 50, -4, 100),

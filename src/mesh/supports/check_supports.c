@@ -60,17 +60,16 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const void *o
   PetscFunctionReturn(0);
 }
 
-/* Collective. Creates the links of everything in the scene that holds bodies. Free with SupportDestroy(). centres:
-   whether frictionless pairs have rows at the centres of the facets. */
-static PetscErrorCode SupportCreate(DM dm, Scene scene, PetscBool centres, Support *support)
+/* Collective. Creates the links of everything in the scene that holds bodies. Free with SupportDestroy(). */
+static PetscErrorCode SupportCreate(DM dm, Scene scene, Support *support)
 {
   const PetscInt nlinks =
     scene->ndisplacements + scene->nsprings + scene->nconnectors + scene->npairs + scene->nties + scene->ncyclic;
 
   PetscFunctionBegin;
-  *support = (Support){.dm = dm, .nbodies = scene->nbodies, .centres = centres};
+  *support = (Support){.dm = dm, .nbodies = scene->nbodies};
   PetscCall(PetscCalloc5(scene->nbodies, &support->center, scene->nbodies, &support->size, nlinks, &support->links,
-    nlinks, &support->gram, nlinks, &support->motion));
+    nlinks, &support->gram, scene->nbodies, &support->contact));
   PetscCall(SupportMeasureBodies(support));
   PetscCall(SupportAddScene(support, scene));
   PetscFunctionReturn(0);
@@ -79,7 +78,7 @@ static PetscErrorCode SupportCreate(DM dm, Scene scene, PetscBool centres, Suppo
 static PetscErrorCode SupportDestroy(Support *support)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree5(support->center, support->size, support->links, support->gram, support->motion));
+  PetscCall(PetscFree5(support->center, support->size, support->links, support->gram, support->contact));
   PetscFunctionReturn(0);
 }
 
@@ -91,7 +90,7 @@ static PetscErrorCode SupportCheckBodies(DM dm, Scene scene)
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(6 * scene->nbodies, &outside));
-  PetscCall(SupportCreate(dm, scene, PETSC_FALSE, &support));
+  PetscCall(SupportCreate(dm, scene, &support));
   PetscCall(SupportGetFree(&support, outside));
   PetscCall(SupportRaise(&support, scene, outside));
   PetscCall(PetscFree(outside));
@@ -126,7 +125,7 @@ PetscErrorCode MeshGetUnsupported(DM dm, Scene scene, PetscBool unsupported[], M
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(6 * scene->nbodies, &outside));
-  PetscCall(SupportCreate(dm, scene, PETSC_TRUE, &support));
+  PetscCall(SupportCreate(dm, scene, &support));
   PetscCall(SupportFindGliding(&support, unsupported, rotations));
   if (scene->weak_springs) PetscCall(SupportGetFree(&support, outside));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {

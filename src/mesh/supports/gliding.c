@@ -1,8 +1,8 @@
 /*
-   Motions in which a body glides along the surfaces of its frictionless contact pairs, such as the rotation of a pin
-   about its axis. The pairs do not resist them. The normals of the facets deviate from those of the surface, so that
-   unstructured meshes seem to resist. Displacements, springs, ties and friction resist however small their lever is:
-   only motions that these leave free can glide.
+   Motions in which a body glides along its own contact faces, such as the rotation of a pin about its axis. Its
+   frictionless pairs do not resist them. The normals of facets deviate from those of the surface, so that unstructured
+   meshes seem to resist. Displacements, springs, ties and friction resist however small their lever is: only motions
+   that these leave free can glide.
 */
 #include "supportsimpl.h"
 #include <vector3.h>
@@ -19,13 +19,6 @@ static const PetscReal gliding_resistance = 0.015;
 
 /* least variance of the velocity of a rotation, over its mean square; a shallow arc moves almost as in a translation */
 static const PetscReal rotation_spread = 0.1;
-
-/* The restraints of a body by others that are held */
-typedef struct {
-  PetscReal held[36];   /* restraints by displacements, springs, ties and friction */
-  PetscReal normal[36]; /* restraints by contact without friction */
-  PetscReal motion[36]; /* quadratic form of the mean square velocity on the faces of this contact */
-} SupportBody;
 
 /* Computes v^T A w for a 6 x 6 matrix A */
 static PetscReal SupportMultiply(const PetscReal A[36], const PetscReal v[], const PetscReal w[])
@@ -74,9 +67,9 @@ static PetscErrorCode SupportDescribeRotation(const Support *support, PetscInt b
   PetscFunctionReturn(0);
 }
 
-/* Computes the motions y[0], ..., y[*n - 1] that glide among those that other restraints than contact leave free */
-static PetscErrorCode SupportSolveGliding(const SupportBody *body, PetscReal y[SUPPORT_MODES][SUPPORT_MODES],
-  PetscInt *n)
+/* Computes the motions y[0], ..., y[*n - 1] that glide among those that the restraints `held` leave free */
+static PetscErrorCode SupportSolveGliding(const PetscReal held[36], const SupportContact *body,
+  PetscReal y[SUPPORT_MODES][SUPPORT_MODES], PetscInt *n)
 {
   const PetscReal    regular = 1e-6; /* keeps the matrix of velocities on a point or a line positive definite */
   const PetscBLASInt type = 1, lwork = 34 * SUPPORT_MODES;
@@ -86,7 +79,7 @@ static PetscErrorCode SupportSolveGliding(const SupportBody *body, PetscReal y[S
 
   PetscFunctionBegin;
   *n = 0;
-  PetscCall(PetscArraycpy(Z, body->held, 36));
+  PetscCall(PetscArraycpy(Z, held, 36));
   PetscCall(SupportFindNull(SUPPORT_MODES, Z, &nfree));
   if (!nfree) PetscFunctionReturn(0);
   for (PetscInt k = 0; k < nfree * nfree; ++k) {
@@ -107,22 +100,23 @@ static PetscErrorCode SupportSolveGliding(const SupportBody *body, PetscReal y[S
   PetscFunctionReturn(0);
 }
 
-/* Finds the gliding motions of body b */
-static PetscErrorCode SupportFindGlidingOf(const Support *support, PetscInt b, const SupportBody *body,
+/* Finds the gliding motions of body b. held: restraints by displacements, springs, ties and friction */
+static PetscErrorCode SupportFindGlidingOf(const Support *support, PetscInt b, const PetscReal held[36],
   PetscBool *glides, MeshRotation *rotation)
 {
-  PetscReal y[SUPPORT_MODES][SUPPORT_MODES], along[SUPPORT_MODES] = {0};
-  PetscInt  n;
+  const SupportContact *body = &support->contact[b];
+  PetscReal             y[SUPPORT_MODES][SUPPORT_MODES], along[SUPPORT_MODES] = {0};
+  PetscInt              n;
 
   PetscFunctionBegin;
-  PetscCall(SupportSolveGliding(body, y, &n));
+  PetscCall(SupportSolveGliding(held, body, y, &n));
   *glides = (PetscBool)(n > 0);
   if (!n) PetscFunctionReturn(0);
   PetscCall(SupportDescribeRotation(support, b, body->motion, n, y, rotation));
   for (PetscInt d = 0; d < 3; ++d) along[d] = rotation->axis[d];
-  rotation->slides = (PetscBool)(!rotation->any && SupportMultiply(body->held, along, along) +
-                                                       SupportMultiply(body->normal, along, along) <
-                                                     gliding_resistance * SupportMultiply(body->motion, along, along));
+  rotation->slides =
+    (PetscBool)(!rotation->any && SupportMultiply(held, along, along) + SupportMultiply(body->normal, along, along) <
+                                    gliding_resistance * SupportMultiply(body->motion, along, along));
   /* among translations along other directions no rotation stands out */
   if (n != (rotation->any ? 3 : (rotation->slides ? 2 : 1))) rotation->free = PETSC_FALSE;
   PetscFunctionReturn(0);
@@ -134,28 +128,25 @@ static PetscErrorCode SupportFindGlidingOf(const Support *support, PetscInt b, c
 */
 PetscErrorCode SupportFindGliding(const Support *support, PetscBool glides[], MeshRotation rotations[])
 {
-  SupportBody *bodies;
+  PetscReal(*held)[36];
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(support->nbodies, &bodies));
+  PetscCall(PetscCalloc1(support->nbodies, &held));
   for (PetscInt l = 0; l < support->nlinks; ++l) {
-    const PetscBool contact = (PetscBool)(support->motion[l][0][0] > 0);
+    const PetscInt *body = support->links[l].body;
 
-    for (PetscInt end = 0; end < 2 && support->links[l].body[end] >= 0; ++end) {
-      SupportBody *body  = &bodies[support->links[l].body[end]];
-      PetscReal   *block = contact ? body->normal : body->held;
+    for (PetscInt k = 0; k < 72 && !support->links[l].pair; ++k) {
+      const PetscInt end = k / 36, i = SUPPORT_MODES * end + k % 36 / 6, j = SUPPORT_MODES * end + k % 6;
 
-      for (PetscInt k = 0; k < 36; ++k) {
-        block[k] += support->gram[l][(6 * end + k / 6) * SUPPORT_BLOCK + 6 * end + k % 6];
-        body->motion[k] += support->motion[l][end][k];
-      }
+      if (body[end] >= 0) held[body[end]][k % 36] += support->gram[l][i * SUPPORT_BLOCK + j];
     }
   }
   for (PetscInt b = 0; b < support->nbodies; ++b) {
     glides[b]    = PETSC_FALSE;
     rotations[b] = (MeshRotation){PETSC_FALSE};
-    if (bodies[b].motion[0] > 0) PetscCall(SupportFindGlidingOf(support, b, &bodies[b], &glides[b], &rotations[b]));
+    if (support->contact[b].motion[0] > 0)
+      PetscCall(SupportFindGlidingOf(support, b, held[b], &glides[b], &rotations[b]));
   }
-  PetscCall(PetscFree(bodies));
+  PetscCall(PetscFree(held));
   PetscFunctionReturn(0);
 }

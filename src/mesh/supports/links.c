@@ -37,11 +37,12 @@ PetscErrorCode SupportMeasureBodies(Support *support)
   PetscFunctionReturn(0);
 }
 
-/* Adds to the row: sign times the component along `direction` of the rigid motion t + r x (x - center)/size of body b
-   at the point x, as coefficients of t and r */
-void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3], const PetscReal x[3], PetscReal sign)
+/* Adds to a row of the coefficients of t and r: sign times the component along `direction` of the rigid motion t + r x
+   (x - center)/size of body b at the point x */
+void SupportSetRow(const Support *support, PetscInt b, const PetscReal direction[3], const PetscReal x[3],
+  PetscReal sign, PetscReal row[6])
 {
-  PetscReal arm[3], moment[3], *row = support->row + (b == support->links[support->nlinks - 1].body[0] ? 0 : 6);
+  PetscReal arm[3], moment[3];
 
   for (PetscInt d = 0; d < 3; ++d) arm[d] = (x[d] - support->center[b][d]) / support->size[b];
   VectorCross(arm, direction, moment);
@@ -51,21 +52,11 @@ void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3]
   }
 }
 
-/* Adds the velocity of the modes of both bodies of the last link at the point x to `motion` of this link */
-void SupportMeasureMotion(Support *support, const PetscReal x[3], PetscReal weight)
+/* Adds a motion of body b to the row of the last link */
+void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3], const PetscReal x[3], PetscReal sign)
 {
-  const PetscInt l = support->nlinks - 1, *body = support->links[l].body;
-
-  for (PetscInt k = 0; k < 6; ++k) {
-    const PetscInt  end     = k / 3;
-    const PetscReal axis[3] = {k % 3 == 0, k % 3 == 1, k % 3 == 2};
-    PetscReal      *row     = support->row + 6 * end;
-
-    if (body[end] < 0) continue;
-    SupportAddMotion(support, body[end], axis, x, 1);
-    for (PetscInt i = 0; i < 36; ++i) support->motion[l][end][i] += weight * row[i / 6] * row[i % 6];
-    for (PetscInt i = 0; i < 6; ++i) row[i] = 0;
-  }
+  SupportSetRow(support, b, direction, x, sign,
+    support->row + (b == support->links[support->nlinks - 1].body[0] ? 0 : 6));
 }
 
 /* Adds the outer product of the row, multiplied by a weight, to the link's matrix, and sets the row to zero */
@@ -85,5 +76,5 @@ PetscErrorCode SupportAddRow(Support *support, PetscReal weight)
 /* Begins a link between bodies a and b. If b is negative or equal to a, the link is between body a and the ground. */
 void SupportBeginLink(Support *support, PetscInt a, PetscInt b)
 {
-  support->links[support->nlinks++] = (SupportLink){{a, b == a ? PETSC_DECIDE : b}};
+  support->links[support->nlinks++] = (SupportLink){.body = {a, b == a ? PETSC_DECIDE : b}};
 }

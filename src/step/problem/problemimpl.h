@@ -70,6 +70,7 @@ typedef struct {
                                         proximal term; NULL: no such term */
   PetscBool  unsupported;      /* true if it is proven that contact cannot hold the loads with the bodies in
                                         the positions of the last state */
+  PetscBool  foreseen;         /* true if this was tested */
   PetscBool  moves_on;         /* true if a body that only friction holds did not come to rest in any solve */
   char      *failed;           /* reason for which the solve before the proximal term was added failed; NULL:
                                         no such failure */
@@ -198,6 +199,7 @@ PETSC_INTERN PetscErrorCode ZeroLoadStepSolve(StepProblem *, ContactLinearizatio
   ContactSolution *, PetscBool *rests);
 
 /* solve.c: solves the problem with the present linearization of the contact */
+PETSC_INTERN PetscErrorCode StepProblemForesee(StepProblem *, StepReport *);
 PETSC_INTERN PetscErrorCode StepProblemSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 
 #endif

@@ -2,6 +2,19 @@
 #include "problemimpl.h"
 #include "src/state/control.h"
 
+/*
+   Finds, once for each problem, whether contact forces can balance the loads, and reports the bodies that they cannot
+   hold. Nothing is tested in a dynamic analysis, where inertia balances any load.
+*/
+PetscErrorCode StepProblemForesee(StepProblem *p, StepReport *report)
+{
+  PetscFunctionBegin;
+  if (p->foreseen || p->lower || SimulationIsDynamic(p->sim)) PetscFunctionReturn(0);
+  p->foreseen = PETSC_TRUE;
+  PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unsupported));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode StepProblemSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *report, ContactSolution *sol)
 {
   const Constraints constraints = SimulationConstraints(p->sim);
@@ -9,6 +22,12 @@ PetscErrorCode StepProblemSolve(StepProblem *p, PetscBool resume, Vec u, StepRep
   PetscBool         again, rescued;
 
   PetscFunctionBegin;
+  /*
+     A solve of a problem without a solution takes long. At finite strain without friction the bodies may find an
+     equilibrium far from the last state, so that nothing is tested before a solve has failed.
+  */
+  if (p->sim->quadratic || p->friction.T) PetscCall(StepProblemForesee(p, report));
+  if (p->unsupported) PetscFunctionReturn(0);
   p->sim->bolts.nsolves = 0;
   PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
   do {
