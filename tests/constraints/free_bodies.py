@@ -1,4 +1,5 @@
 """Scenes for free_bodies.sh, and their answers: python free_bodies.py write|judge."""
+import math
 import sys
 
 from summaries import load, say, within
@@ -59,8 +60,30 @@ contact:
 weak_springs: true
 """
 
+# A log of n facets on two others, which are held, without friction
+LOG = "  - %s: {shape: tube_arc, axis: y, center: [%g, 0, %.17g], radii: [0.3, 1], angles: [0, 360], extent: [0, 1], " \
+      "cells: [2, %d, 1], young: 1e5, poisson: 0.3}\n"
+LOGS = """displacements:
+  - left: {face: left.inner, value: [0, 0, 0]}
+  - right: {face: right.inner, value: [0, 0, 0]}
+  - top: {face: top.lmin, value: [free, 0, free]}
+body_forces: [weight: {body: top, value: [0, 0, -1]}]
+contact:
+  - left: {mortar: %s.outer, nonmortar: %s.outer}
+  - right: {mortar: %s.outer, nonmortar: %s.outer}
+"""
+
+
+def logs(n, swapped):
+    pairs = [part for side in ("left", "right") for part in ((side, "top") if not swapped else ("top", side))]
+    return "bodies:\n" + LOG % ("left", -1, 0, n) + LOG % ("right", 1, 0, n) + LOG % ("top", 0, 3**0.5, n) + LOGS % tuple(
+        pairs)
+
+
+FACETS = 20, 24, 32
 SCENES = {
-    "bracket": BRACKET,
+    **{f"logs_{n}{end}": logs(n, bool(end))
+       for n in FACETS for end in ("", "_swapped")}, "bracket": BRACKET,
     "cantilever_60": BEAM % (60, 30, -2, 60),
     "cantilever_100": BEAM % (100, 50, -0.9, 100),
     "pressed": BEAM % (100, 50, -4, 100),
@@ -88,3 +111,12 @@ else:
     say("lever: the deflection of a beam within 1 %", within(tip("lever_1", 1), exact, 1e-2), (tip("lever_1", 1), exact))
     force = load("pressed_1")["steps"][-1]["weak_spring_force"]
     say("pressed: no weak springs", force == 0, force)
+    for n in FACETS:
+        for end in "", "_swapped":
+            # the weight; each normal force is weight/(2 cos 30 degrees), but the facets bear at their vertices
+            weight = n / 2 * math.sin(2 * math.pi / n) * (1 - 0.3**2)
+            pairs = load(f"logs_{n}{end}_1")["steps"][-1]["pairs"]
+            say(f"logs_{n}{end}: the two forces carry the weight within 0.1 %", within(sum(abs(p["force"][2]) for p in pairs), weight, 1e-3),
+                (pairs, weight))
+            say(f"logs_{n}{end}: the forces are those of round logs within 7 %",
+                all(within(p["normal_force"], weight / 2 / math.cos(math.pi / 6), 0.07) for p in pairs), (pairs, weight))

@@ -75,6 +75,7 @@ typedef struct {
   char      *failed;           /* reason for which the solve before the proximal term was added failed; NULL:
                                         no such failure */
   PetscBool  holds_weak;       /* true if the proximal term holds bodies on weak springs */
+  PetscReal *weak_stiffness;   /* stiffness of this term on each body [force/length]; NULL: no such term */
   PetscBool  glides;           /* true if this term holds a body in a motion that no contact resists */
   PetscReal  carried;          /* force of the proximal term after the last solve [force] */
   PetscReal  tolerance;        /* relative KKT error to which the present linearization is solved; 0: that of
@@ -130,8 +131,6 @@ PETSC_INTERN PetscErrorCode FollowersAdvance(StepProblem *, Vec u, PetscInt nsol
 PETSC_INTERN PetscErrorCode ProximalBegin(StepProblem *);
 PETSC_INTERN PetscErrorCode ProximalTurn(StepProblem *, Vec u);
 PETSC_INTERN PetscErrorCode ProximalRescue(StepProblem *, Vec u, StepReport *, PetscBool *again);
-PETSC_INTERN PetscBool      ProximalMayHoldWeak(const StepProblem *);
-PETSC_INTERN PetscErrorCode ProximalHoldWeak(StepProblem *, Vec u);
 PETSC_INTERN PetscErrorCode ProximalLinearize(StepProblem *, Vec u_linearized);
 PETSC_INTERN PetscErrorCode ProximalMeasure(StepProblem *, Vec u, PetscReal *fraction);
 PETSC_INTERN PetscErrorCode ProximalAddStiffness(const StepProblem *, Mat);
