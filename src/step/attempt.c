@@ -198,6 +198,7 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   if (sim->contact) {
     PetscCall(ContactUpdatesSolve(&p, foreseen, u, report, &sol, &at_u));
     PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
+    PetscCall(LostContactSettle(&p, last, u, &sol, &at_u, report));
     PetscCall(MissedFindPassed(sim, time, u, report));
     PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   } else PetscCall(AttemptBodies(&p, foreseen, u, report, &sol));

@@ -80,9 +80,27 @@ def logs(n, swapped):
         pairs)
 
 
+# A strip between two planes that press it and leave it: nothing then holds it along z
+SPRINGBACK = """bodies:
+  - strip: {lower: [0, 0, 0], upper: [4, 2, 0.5], cells: [8, 4, 2], young: 2.1e5, poisson: 0.3, material: %s}
+  - floor: {shape: rigid_plane, point: [0, 0, 0], normal: [0, 0, 1]}
+  - lid: {shape: rigid_plane, point: [0, 0, 0.5], normal: [0, 0, -1]}
+symmetry: [strip.xmin, strip.ymin]
+displacements:
+  - floor: {body: floor, value: [0, 0, -1], ramp: floor}
+  - lid: {body: lid, value: [0, 0, 1], ramp: lid}
+contact:
+  - low: {mortar: floor.surface, nonmortar: strip.zmin}
+  - high: {mortar: lid.surface, nonmortar: strip.zmax}
+probes: [corner: {point: [4, 2, 0.5]}]
+ramps: [floor: {factors: [0, 1]}, lid: {factors: [-0.01, 2]}]
+load: {steps: 2}
+"""
+
 FACETS = 20, 24, 32
 SCENES = {
-    **{f"logs_{n}{end}": logs(n, bool(end))
+    **{f"springback_{law}": SPRINGBACK % law
+       for law in ("linear", "neohookean")}, **{f"logs_{n}{end}": logs(n, bool(end))
        for n in FACETS for end in ("", "_swapped")}, "bracket": BRACKET,
     "cantilever_60": BEAM % (60, 30, -2, 60),
     "cantilever_100": BEAM % (100, 50, -0.9, 100),
@@ -120,3 +138,7 @@ else:
                 (pairs, weight))
             say(f"logs_{n}{end}: the forces are those of round logs within 7 %",
                 all(within(p["normal_force"], weight / 2 / math.cos(math.pi / 6), 0.07) for p in pairs), (pairs, weight))
+    for law in "linear", "neohookean":
+        for n in 1, 3:
+            seen = tip(f"springback_{law}_{n}", 2)
+            say(f"springback_{law}, {n} ranks: the strip expands about its middle", within(seen, -0.005, 1e-9), seen)

@@ -12,9 +12,7 @@
 PETSC_INTERN PetscErrorCode StiffnessSetType(Simulation);
 PETSC_INTERN PetscErrorCode StiffnessGetWhole(Simulation, MatType, Mat *);
 PETSC_INTERN PetscErrorCode StiffnessSetModes(Simulation, KSP, Mat);
-
-/* weak_modes.c: rigid body modes of bodies on weak springs for the search space of the optimizer */
-PETSC_INTERN PetscErrorCode WeakModesGive(Simulation, Tao);
+PETSC_INTERN PetscErrorCode StiffnessGiveMotions(Simulation, Tao);
 
 /*
    anderson.c: Anderson acceleration of the contact updates, of the follower loads or of the mean internal
