@@ -60,7 +60,7 @@ static PetscErrorCode LostContactFind(Simulation sim, const FreeMotions *m, Vec 
   PetscFunctionReturn(0);
 }
 
-/* Computes the displacement w in n unheld motions that brings u nearest to the last state, in the mean over the volume */
+/* Computes the displacement w in n unheld motions that brings u nearest to the last state in the mean */
 static PetscErrorCode LostContactFit(Simulation sim, const FreeMotions *m, const PetscInt unheld[], PetscInt n, Vec u,
   Vec w)
 {
@@ -163,8 +163,8 @@ static PetscErrorCode LostContactFindTouched(Simulation sim, ContactLinearizatio
 }
 
 /*
-   Warns, once in a run, of a body that has lost contact: contact forces acted on it before, or its arbitrary motion w is
-   larger than the motions of all other bodies
+   Warns, once in a run, of a body that has lost contact: contact forces acted on it before, or its arbitrary motion w
+   is larger than the motions of all other bodies
 */
 static PetscErrorCode LostContactWarn(Simulation sim, ContactLinearization last, Vec w, Vec u, PetscInt step)
 {

@@ -76,8 +76,8 @@ contact:
 
 def logs(n, swapped):
     pairs = [part for side in ("left", "right") for part in ((side, "top") if not swapped else ("top", side))]
-    return "bodies:\n" + LOG % ("left", -1, 0, n) + LOG % ("right", 1, 0, n) + LOG % ("top", 0, 3**0.5, n) + LOGS % tuple(
-        pairs)
+    held = LOG % ("left", -1, 0, n) + LOG % ("right", 1, 0, n)
+    return "bodies:\n" + held + LOG % ("top", 0, 3**0.5, n) + LOGS % tuple(pairs)
 
 
 # A strip between two planes that press it and leave it: nothing then holds it along z
@@ -113,32 +113,40 @@ if sys.argv[1] == "write":
     for name, text in SCENES.items():
         with open(name + ".yaml", "w") as file:
             file.write(text)
-else:
+    sys.exit()
 
-    def tip(name, component):
-        return load(name)["steps"][-1]["probes"][0]["displacement"][component]
 
-    # force x length^3 / (3 E I)
-    for name, force, length in ("cantilever_60_1", -2, 60), ("cantilever_100_1", -0.9, 100), ("cantilever_100_3", -0.9,
-                                                                                             100):
-        exact = force * length**3 / (3 * 2.1e5 * 5 * 8 / 12)
-        say(f"{name}: the deflection of a beam within 0.5 %", within(tip(name, 2), exact, 5e-3), (tip(name, 2), exact))
-    exact = -1 * 100**3 / (3 * 2.1e5 * 2 * 5 / 12)
-    say("leaf: the deflection of two beams within 1 %", within(tip("leaf_1", 2), exact, 1e-2), (tip("leaf_1", 2), exact))
-    exact = 0.5 * 90**3 / (3 * 2.1e5 * 2 * 8 / 12)
-    say("lever: the deflection of a beam within 1 %", within(tip("lever_1", 1), exact, 1e-2), (tip("lever_1", 1), exact))
-    force = load("pressed_1")["steps"][-1]["weak_spring_force"]
-    say("pressed: no weak springs", force == 0, force)
-    for n in FACETS:
-        for end in "", "_swapped":
-            # the weight; each normal force is weight/(2 cos 30 degrees), but the facets bear at their vertices
-            weight = n / 2 * math.sin(2 * math.pi / n) * (1 - 0.3**2)
-            pairs = load(f"logs_{n}{end}_1")["steps"][-1]["pairs"]
-            say(f"logs_{n}{end}: the two forces carry the weight within 0.1 %", within(sum(abs(p["force"][2]) for p in pairs), weight, 1e-3),
-                (pairs, weight))
-            say(f"logs_{n}{end}: the forces are those of round logs within 7 %",
-                all(within(p["normal_force"], weight / 2 / math.cos(math.pi / 6), 0.07) for p in pairs), (pairs, weight))
-    for law in "linear", "neohookean":
-        for n in 1, 3:
-            seen = tip(f"springback_{law}_{n}", 2)
-            say(f"springback_{law}, {n} ranks: the strip expands about its middle", within(seen, -0.005, 1e-9), seen)
+def step(name):
+    return load(name)["steps"][-1]
+
+
+def tip(name, component):
+    return step(name)["probes"][0]["displacement"][component]
+
+
+def near(what, seen, exact, tolerance):
+    say(what, within(seen, exact, tolerance), (seen, exact))
+
+
+# force x length^3 / (3 E I)
+for name, force, length in ("60_1", -2, 60), ("100_1", -0.9, 100), ("100_3", -0.9, 100):
+    near(f"cantilever_{name}: the deflection of a beam within 0.5 %", tip("cantilever_" + name, 2),
+         force * length**3 / 2.1e6, 5e-3)
+near("leaf: the deflection of two beams within 1 %", tip("leaf_1", 2), -1 * 100**3 / (3 * 2.1e5 * 2 * 5 / 12), 1e-2)
+near("lever: the deflection of a beam within 1 %", tip("lever_1", 1), 0.5 * 90**3 / (3 * 2.1e5 * 2 * 8 / 12), 1e-2)
+carried = step("pressed_1")["weak_spring_force"]
+say("pressed: no weak springs", carried == 0, carried)
+for n in FACETS:
+    for end in "", "_swapped":
+        # the weight; each normal force is weight/(2 cos 30 degrees), but the facets bear at their vertices
+        weight = n / 2 * math.sin(2 * math.pi / n) * (1 - 0.3**2)
+        pairs = step(f"logs_{n}{end}_1")["pairs"]
+        carried = sum(abs(pair["force"][2]) for pair in pairs)
+        near(f"logs_{n}{end}: the two forces carry the weight within 0.1 %", carried, weight, 1e-3)
+        for pair in pairs:
+            near(f"logs_{n}{end}, {pair['name']}: the force of round logs within 7 %", pair["normal_force"],
+                 weight / 3**0.5, 0.07)
+for law in "linear", "neohookean":
+    for n in 1, 3:
+        corner = tip(f"springback_{law}_{n}", 2)
+        near(f"springback_{law}, {n} ranks: the strip expands about its middle", corner, -0.005, 1e-9)

@@ -108,6 +108,7 @@ PETSC_INTERN PetscErrorCode StepProblemTurn(StepProblem *, Vec u);
 PETSC_INTERN PetscErrorCode StepProblemSetContact(StepProblem *, ContactLinearization, Vec u_linearized);
 PETSC_INTERN PetscErrorCode StepProblemSetBounds(StepProblem *, PetscReal increment);
 PETSC_INTERN PetscErrorCode StepProblemAdvanceBolts(StepProblem *, Vec u, StepReport *, PetscBool *again);
+PETSC_INTERN PetscErrorCode StepProblemForesee(StepProblem *, StepReport *);
 PETSC_INTERN PetscErrorCode StepProblemDestroy(StepProblem *);
 /* callbacks of TAO; more of them are in energy.c; their context is a StepProblem */
 PETSC_INTERN PetscErrorCode StepProblemConstraint(Tao, Vec, Vec, void *);
@@ -196,7 +197,6 @@ PETSC_INTERN PetscErrorCode ZeroLoadStepSolve(StepProblem *, ContactLinearizatio
   ContactSolution *, PetscBool *rests);
 
 /* solve.c: solves the problem with the present linearization of the contact */
-PETSC_INTERN PetscErrorCode StepProblemForesee(StepProblem *, StepReport *);
 PETSC_INTERN PetscErrorCode StepProblemSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 
 #endif

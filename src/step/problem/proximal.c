@@ -458,8 +458,7 @@ static PetscErrorCode ProximalTestFlow(StepProblem *p, Vec u)
 static PetscErrorCode ProximalReportRigidBodies(StepProblem *p, Vec u, StepReport *report)
 {
   PetscFunctionBegin;
-  PetscCall(ReportReason(report, PETSC_FALSE, "a rigid body that is driven by forces is not held"));
-  PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unsupported));
+  PetscCall(StepProblemForesee(p, report));
   if (!p->unsupported) PetscCall(ProximalTestFlow(p, u));
   if (p->flowing) PetscCall(ProximalReportFlow(p, report));
   else if (!p->unsupported)
