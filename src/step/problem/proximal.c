@@ -458,7 +458,7 @@ static PetscErrorCode ProximalTestFlow(StepProblem *p, Vec u)
 static PetscErrorCode ProximalReportRigidBodies(StepProblem *p, Vec u, StepReport *report)
 {
   PetscFunctionBegin;
-  PetscCall(StepProblemForesee(p, report));
+  PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unsupported));
   if (!p->unsupported) PetscCall(ProximalTestFlow(p, u));
   if (p->flowing) PetscCall(ProximalReportFlow(p, report));
   else if (!p->unsupported)
