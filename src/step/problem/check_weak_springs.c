@@ -1,6 +1,6 @@
 /*
-   Rejects solutions in which weak springs carry a considerable part of the loads or a body moves far, because nothing
-   else holds that body.
+   Rejects solutions in which weak springs carry a considerable part of the loads or a body does not come to rest,
+   because nothing else holds that body.
 */
 #include "problemimpl.h"
 #include <vector3.h>
@@ -46,61 +46,32 @@ PetscErrorCode WeakSpringsTest(const StepProblem *p, Vec u, StepReport *report)
 }
 
 /*
-   Finds the body on weak springs that moved farthest between u0 and u, relative to its size, the cube root of its
-   volume. *ratio: its motion divided by its size
+   Reports that contact updates do not bring a body on weak springs to rest. The body that moved farthest between
+   u_linearized and u, relative to its size, is named.
 */
-static PetscErrorCode WeakSpringsFindFarthest(Simulation sim, Vec u0, Vec u, PetscInt *farthest, PetscReal *ratio)
+PetscErrorCode WeakSpringsReportMotion(const StepProblem *p, Vec u_linearized, Vec u, StepReport *report)
 {
-  const Bodies   bodies  = SimulationBodies(sim);
-  const PetscInt nbodies = sim->scene->nbodies;
-  PetscReal     *volume, *moved, *weak;
-  Vec            increment;
+  const Simulation sim      = p->sim;
+  const Bodies     bodies   = SimulationBodies(sim);
+  const PetscInt   nbodies  = sim->scene->nbodies;
+  PetscInt         farthest = 0;
+  PetscReal       *volume, *moved, *weak, most = 0.0;
+  Vec              increment;
 
   PetscFunctionBegin;
-  *farthest = 0;
-  *ratio    = 0.0;
   PetscCall(PetscMalloc3(nbodies, &volume, nbodies, &moved, nbodies, &weak));
   PetscCall(SpringsMeasureVolumes(&bodies, volume));
   PetscCall(VecDuplicate(u, &increment));
-  PetscCall(VecWAXPY(increment, -1.0, u0, u));
+  PetscCall(VecWAXPY(increment, -1.0, u_linearized, u));
   PetscCall(VertexPlacesLargest(&sim->places, increment, nbodies, moved));
   PetscCall(VertexPlacesLargest(&sim->places, sim->springs.weak, nbodies, weak));
   PetscCall(VecDestroy(&increment));
   for (PetscInt b = 0; b < nbodies; ++b) {
-    if (weak[b] == 0.0 || moved[b] <= *ratio * PetscCbrtReal(volume[b])) continue;
-    *ratio    = moved[b] / PetscCbrtReal(volume[b]);
-    *farthest = b;
+    if (weak[b] == 0.0 || moved[b] <= most * PetscCbrtReal(volume[b])) continue;
+    most     = moved[b] / PetscCbrtReal(volume[b]);
+    farthest = b;
   }
   PetscCall(PetscFree3(volume, moved, weak));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Reports a contact update as failed if a body on weak springs moved farther from u_linearized than its size: tilted
-   contact faces have pushed the body out.
-*/
-PetscErrorCode WeakSpringsTestMotion(const StepProblem *p, Vec u_linearized, Vec u, StepReport *report)
-{
-  PetscInt  farthest;
-  PetscReal ratio;
-  char      what[96];
-
-  PetscFunctionBegin;
-  if (!p->sim->springs.weak || !report->converged) PetscFunctionReturn(0);
-  PetscCall(WeakSpringsFindFarthest(p->sim, u_linearized, u, &farthest, &ratio));
-  PetscCall(PetscSNPrintf(what, sizeof(what), "it moved by %g of its size", (double)ratio));
-  if (ratio > 1.0) PetscCall(WeakSpringsReport(p->sim, farthest, what, report));
-  PetscFunctionReturn(0);
-}
-
-/* Reports that contact updates do not bring a body on weak springs to rest. */
-PetscErrorCode WeakSpringsReportMotion(const StepProblem *p, Vec u_linearized, Vec u, StepReport *report)
-{
-  PetscInt  farthest;
-  PetscReal ratio;
-
-  PetscFunctionBegin;
-  PetscCall(WeakSpringsFindFarthest(p->sim, u_linearized, u, &farthest, &ratio));
-  PetscCall(WeakSpringsReport(p->sim, farthest, "each contact update moves it further", report));
+  PetscCall(WeakSpringsReport(sim, farthest, "each contact update moves it further", report));
   PetscFunctionReturn(0);
 }

@@ -170,7 +170,6 @@ PETSC_INTERN PetscErrorCode InterferenceAdd(Simulation, PetscReal time, PetscRea
 /* check_weak_springs.c: rejects solutions in which weak springs carry the loads */
 PETSC_INTERN PetscErrorCode WeakSpringsTest(const StepProblem *, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode WeakSpringsReportMotion(const StepProblem *, Vec u_linearized, Vec u, StepReport *);
-PETSC_INTERN PetscErrorCode WeakSpringsTestMotion(const StepProblem *, Vec u_linearized, Vec u, StepReport *);
 
 /*
    linear.c, optimizer.c, penalty.c: the three solvers. resume: true if the solve starts from u and from the pressures
