@@ -34,18 +34,17 @@ PetscErrorCode SpringsMeasureStiffness(const Bodies *bodies, PetscReal *largest)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Computes a stiffness per row: share x Young's modulus x size of each body, distributed to its vertices by
-   volume [force/length] */
-PetscErrorCode SpringsOfSize(const Bodies *bodies, PetscReal share, Vec stiffness)
+/* Collective. Distributes a stiffness of each body to its vertices by volume. whole[b]: stiffness of body b
+   [force/length] */
+PetscErrorCode SpringsDistribute(const Bodies *bodies, const PetscReal whole[], Vec stiffness)
 {
-  Scene              scene = bodies->scene;
   PetscReal         *volume;
   const PetscScalar *m;
   PetscScalar       *k;
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(scene->nbodies, &volume));
+  PetscCall(PetscMalloc1(bodies->scene->nbodies, &volume));
   PetscCall(SpringsMeasureVolumes(bodies, volume));
   PetscCall(VecGetLocalSize(bodies->mass, &n));
   PetscCall(VecGetArrayRead(bodies->mass, &m));
@@ -53,10 +52,26 @@ PetscErrorCode SpringsOfSize(const Bodies *bodies, PetscReal share, Vec stiffnes
   for (PetscInt i = 0; i < n; ++i) {
     const PetscInt b = bodies->places.body[i / 3];
 
-    k[i] = share * scene->bodies[b].material.young * PetscCbrtReal(volume[b]) * PetscRealPart(m[i]) / volume[b];
+    k[i] = whole[b] * PetscRealPart(m[i]) / volume[b];
   }
   PetscCall(VecRestoreArrayWrite(stiffness, &k));
   PetscCall(VecRestoreArrayRead(bodies->mass, &m));
+  PetscCall(PetscFree(volume));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Computes a stiffness per row: share x Young's modulus x size of each body [force/length] */
+PetscErrorCode SpringsOfSize(const Bodies *bodies, PetscReal share, Vec stiffness)
+{
+  Scene      scene = bodies->scene;
+  PetscReal *volume;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(scene->nbodies, &volume));
+  PetscCall(SpringsMeasureVolumes(bodies, volume));
+  for (PetscInt b = 0; b < scene->nbodies; ++b)
+    volume[b] = share * scene->bodies[b].material.young * PetscCbrtReal(volume[b]);
+  PetscCall(SpringsDistribute(bodies, volume, stiffness));
   PetscCall(PetscFree(volume));
   PetscFunctionReturn(0);
 }

@@ -100,7 +100,7 @@ PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));
   PetscCall(TaoGetKSP(*tao, &ksp));
   PetscCall(StiffnessSetModes(sim, ksp, p->K));
-  PetscCall(WeakModesGive(sim, *tao));
+  PetscCall(StiffnessGiveMotions(sim, *tao));
   if (*ours && sim->solved->subspace) PetscCall(TaoIPFilterSetSubspace(*tao, sim->solved->subspace));
   PetscCheck(*ours || !p->friction.T, sim->comm, PETSC_ERR_SUP,
     "friction needs -tao_type ipfilter; other optimizers do not support it");

@@ -44,19 +44,6 @@ static PetscErrorCode OptimizerSuspectFriction(StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/*
-   Finds whether contact forces can balance the loads, and reports the bodies that they cannot hold. Nothing is tested
-   in a dynamic analysis, where inertia balances any load. With friction this function is called before a solve, because
-   a solve of a problem without a solution takes long.
-*/
-static PetscErrorCode OptimizerForesee(StepProblem *p, StepReport *report)
-{
-  PetscFunctionBegin;
-  if (!p->lower && !SimulationIsDynamic(p->sim))
-    PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unsupported));
-  PetscFunctionReturn(0);
-}
-
 /* Explains a failed solve: reports the bodies that contact cannot hold, or otherwise a list of likely causes. */
 static PetscErrorCode OptimizerDiagnose(StepProblem *p, StepReport *report)
 {
@@ -64,7 +51,7 @@ static PetscErrorCode OptimizerDiagnose(StepProblem *p, StepReport *report)
   char *unbounded;
 
   PetscFunctionBegin;
-  if (!p->friction.T) PetscCall(OptimizerForesee(p, report));
+  PetscCall(StepProblemForesee(p, report));
   if (p->unsupported) PetscFunctionReturn(0);
   PetscCall(PetscStrstr(report->reason, "unbounded", &unbounded));
   if (unbounded) {
@@ -161,8 +148,6 @@ PetscErrorCode OptimizerSolve(StepProblem *p, PetscBool resume, Vec u, StepRepor
   PetscLogDouble t0, t1;
 
   PetscFunctionBegin;
-  if (p->friction.T && !resume) PetscCall(OptimizerForesee(p, report));
-  if (p->unsupported) PetscFunctionReturn(0);
   PetscCall(OptimizerCreate(p, &tao, &ours));
   PetscCall(StepProblemStart(p, resume, tao, u, &valid));
   if (valid) {

@@ -186,6 +186,19 @@ PetscErrorCode StepProblemSetBounds(StepProblem *p, PetscReal increment)
   PetscFunctionReturn(0);
 }
 
+/*
+   Finds, once for each problem, whether contact forces can balance the loads, and reports the bodies that they cannot
+   hold. Nothing is tested in a dynamic analysis, where inertia balances any load.
+*/
+PetscErrorCode StepProblemForesee(StepProblem *p, StepReport *report)
+{
+  PetscFunctionBegin;
+  if (p->foreseen || p->lower || SimulationIsDynamic(p->sim)) PetscFunctionReturn(0);
+  p->foreseen = PETSC_TRUE;
+  PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unsupported));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode StepProblemDestroy(StepProblem *p)
 {
   PetscFunctionBegin;
