@@ -152,10 +152,10 @@ static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
   PetscFunctionReturn(0);
 }
 
-/* Returns whether the problem has constraints that may lack an interior */
-static PetscBool RelaxApplies(const TAO_IPFILTER *ip)
+/* Returns whether the problem has constraints that may lack an interior and have not been relaxed */
+PetscBool IPRelaxApplies(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(ip->mi || (ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n)));
+  return (PetscBool)(!ip->relax->times && (ip->mi || (ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n))));
 }
 
 /* Relaxes the constraints if RelaxVanished() has been true for several consecutive iterates */
@@ -166,7 +166,7 @@ PetscErrorCode IPRelax(Tao tao)
   PetscBool      vanished;
 
   PetscFunctionBegin;
-  if (!RelaxApplies(ip) || ip->relax->times || ip->bar->free) PetscFunctionReturn(0);
+  if (!IPRelaxApplies(ip) || ip->bar->free) PetscFunctionReturn(0);
   PetscCall(RelaxVanished(tao, &vanished));
   ip->relax->nvanished = vanished ? ip->relax->nvanished + 1 : 0;
   if (ip->relax->nvanished >= patience) PetscCall(RelaxConstraints(tao, IP_RELAX_FIRST));
@@ -183,7 +183,7 @@ PetscErrorCode IPRelaxInstead(Tao tao, PetscBool *relaxed)
 
   PetscFunctionBegin;
   *relaxed = PETSC_FALSE;
-  if (RelaxApplies(ip) && ip->relax->times < 2) PetscCall(RelaxVanished(tao, relaxed));
+  if (IPRelaxApplies(ip) || ip->relax->times == 1) PetscCall(RelaxVanished(tao, relaxed));
   if (*relaxed) PetscCall(RelaxConstraints(tao, ip->relax->times ? 1.0 : IP_RELAX_FIRST));
   PetscFunctionReturn(0);
 }
