@@ -174,15 +174,24 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   PetscFunctionReturn(0);
 }
 
-/*
-   Returns whether constraints are violated by more than the last iterations of a solve leave, relative to all
-   constraints or to the terms of one
-*/
+/* Returns whether constraints are violated by more than the tolerance, relative to all constraints or to the terms of
+   one */
 static PetscBool StillViolated(const TAO_IPFILTER *ip)
 {
-  const PetscReal limit = PetscMax(100.0 * ip->tol, 1e-6);
+  return (PetscBool)(ip->kkt->primal > ip->tol || ip->kkt->own > PetscMax(ip->tol, IP_ACCEPTABLE_TOL));
+}
 
-  return (PetscBool)(ip->kkt->primal > limit || ip->kkt->own > limit);
+/* Ends the solve if the present iterate is acceptable. solved: a direction was found */
+static PetscErrorCode AcceptIfGoodEnough(Tao tao, PetscBool solved)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (IPAcceptable(ip) && !ip->rec->falls && IPConstraintsMet(tao) && !(solved && ip->bar->free))
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
+      "acceptable: no step reduces the KKT error %g further; the tolerance is %g", (double)IPBothErrors(ip),
+      (double)ip->tol));
+  PetscFunctionReturn(0);
 }
 
 /*
@@ -198,12 +207,8 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
   PetscBool       ok = PETSC_FALSE, infeasible = PETSC_FALSE, relaxed;
 
   PetscFunctionBegin;
-  if (IPAcceptable(ip) && !ip->rec->falls && IPConstraintsMet(tao) && !(solved && ip->bar->free)) {
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-      "acceptable: no step reduces the KKT error %g further; the tolerance is %g", (double)IPBothErrors(ip),
-      (double)ip->tol));
-    PetscFunctionReturn(0);
-  }
+  if (!violated) PetscCall(AcceptIfGoodEnough(tao, solved));
+  if (tao->reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
   if (!solved && ip->lin->failed) {
     PetscCall(EndLinear(tao));
     PetscFunctionReturn(0);
@@ -219,6 +224,8 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
     PetscCall(IPMeritMeasure(tao)); /* measured by the line search only if there was a direction */
     PetscCall(IPRestore(tao, &ok, &infeasible));
     if (!ok) PetscCall(IPComputeKKT(tao));
+    if (!ok) PetscCall(AcceptIfGoodEnough(tao, solved));
+    if (tao->reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
   }
   if (ok) {
     ip->search->tag = 'R';
