@@ -225,8 +225,8 @@ static PetscErrorCode TestWithoutMultipliers(Tao tao, PetscBool *stationary)
 
   PetscFunctionBegin;
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
-  *stationary =
-    (PetscBool)(gradient == 0.0 && !ip->terms->n && ip->kkt->primal <= ip->tol && ip->kkt->own <= ip->tol && !ip->relax->times);
+  *stationary = (PetscBool)(gradient == 0.0 && !ip->terms->n && ip->kkt->primal <= ip->tol && ip->kkt->own <= ip->tol &&
+                            !ip->relax->times);
   if (!*stationary) PetscFunctionReturn(0);
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->at.z[b]) PetscCall(VecSet(ip->at.z[b], 0.0));

@@ -65,8 +65,8 @@ PetscErrorCode IPDegenerateFritzJohn(Tao tao, PetscBool *holds)
 
   PetscFunctionBegin;
   *holds = PETSC_FALSE;
-  if (!ip->me || IPRelaxApplies(ip) || ip->opt->scaling == IP_SCALING_NONE || k->primal > ip->tol || k->violation > ip->tol ||
-      k->complementarity > ip->tol)
+  if (!ip->me || IPRelaxApplies(ip) || ip->opt->scaling == IP_SCALING_NONE || k->primal > ip->tol ||
+      k->violation > ip->tol || k->complementarity > ip->tol)
     PetscFunctionReturn(0);
   PetscCall(DegenerateForceAtStart(tao, &force));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));

@@ -26,9 +26,6 @@ struct _n_IPRecord {
   PetscInt             nidle;                  /* convergence.c: number of consecutive steps that did not lower the
                                                   objective, but do not show that it cannot fall */
   PetscInt             nacceptable;            /* number of consecutive acceptable iterates */
-  PetscInt             nstraight;     /* number of consecutive full steps with a shift along which the objective fell
-                                         linearly */
-  PetscReal            last_f;        /* objective before the next such step */
   PetscInt             napplications; /* filtered subspace method: number of applications of the preconditioner */
   PetscInt             nreduced, npivots; /* filtered subspace method: number of reduced problems; number of active
                                              sets tried in them */
