@@ -31,7 +31,6 @@ static PetscErrorCode ResetSolve(Tao tao)
   *ip->bar         = (IPBarrier){.free = (PetscBool)(ip->opt->barrier == IP_BARRIER_MEHROTRA && !ip->qn->B),
             .curved                    = (PetscBool)(ip->qn->B != NULL)};
   *ip->search      = (IPSearch){.theta0 = -1.0, .tag = ' ', .slow = ip->search->slow};
-  *ip->watch       = (IPWatchdog){.left = 0};
   *ip->relax       = (IPRelaxation){.least_slack = PETSC_INFINITY, .least_bound = PETSC_INFINITY};
   *ip->shift       = (IPShift){.delta = 0.0};
   *ip->first       = (IPFirst){.f = 0.0, .energy = -1.0};
@@ -46,8 +45,9 @@ static PetscErrorCode ResetSolve(Tao tao)
 
 /*
    Returns whether the present iterate is better than the best one. It is if its violation is smaller, or if both
-   violations are within the tolerance and its KKT error is not larger. If one of the two iterates is acceptable, only
-   the KKT errors are compared. If both are equally good, the present one is better.
+   violations are within the tolerance and its objective is not larger. If one of the two iterates is acceptable, or
+   norm terms are present, which no objective contains, the KKT errors are compared. If both are equally good, the
+   present one is better.
 */
 static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
 {
@@ -57,7 +57,9 @@ static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
 
   if (acceptable || ip->rec->best_error <= IP_ACCEPTABLE_TOL)
     return (PetscBool)(acceptable && (ip->rec->falls || IPBothErrors(ip) <= same * ip->rec->best_error));
-  return (PetscBool)(violation < best || (violation == best && IPBothErrors(ip) <= same * ip->rec->best_error));
+  if (ip->terms->n)
+    return (PetscBool)(violation < best || (violation == best && IPBothErrors(ip) <= same * ip->rec->best_error));
+  return (PetscBool)(violation < best || (violation == best && ip->at.f <= ip->best.f));
 }
 
 /* Stores the current iterate as the best one if it is better */
@@ -196,15 +198,14 @@ static PetscErrorCode AcceptIfGoodEnough(Tao tao, PetscBool solved)
 
 /*
    Handles a step for which no direction was found (solved: false) or no step length. The fallbacks are, in this order:
-   use the monotone rule for mu for some iterations; relax constraints without an interior; reduce the violation alone
-   (restoration).
+   use the monotone rule for mu for some iterations; reduce the violation alone (restoration).
 */
 static PetscErrorCode Recover(Tao tao, PetscBool solved)
 {
   TAO_IPFILTER   *ip         = (TAO_IPFILTER *)tao->data;
   const PetscInt  iterations = 10;
   const PetscBool violated   = StillViolated(ip);
-  PetscBool       ok = PETSC_FALSE, infeasible = PETSC_FALSE, relaxed;
+  PetscBool       ok = PETSC_FALSE, infeasible = PETSC_FALSE;
 
   PetscFunctionBegin;
   if (!violated) PetscCall(AcceptIfGoodEnough(tao, solved));
@@ -217,10 +218,7 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
     PetscCall(IPBarrierHold(tao, iterations));
     PetscFunctionReturn(0);
   }
-  if (!violated) {
-    PetscCall(IPRelaxInstead(tao, &relaxed));
-    if (relaxed) PetscFunctionReturn(0);
-  } else {
+  if (violated) {
     PetscCall(IPMeritMeasure(tao)); /* measured by the line search only if there was a direction */
     PetscCall(IPRestore(tao, &ok, &infeasible));
     if (!ok) PetscCall(IPComputeKKT(tao));
@@ -274,7 +272,6 @@ static PetscErrorCode RestoreIfCut(Tao tao)
   ip->search->ncut = 0;
   PetscCall(IPComputeKKT(tao));
   if (!StillViolated(ip)) PetscFunctionReturn(0);
-  PetscCall(IPWatchdogEnd(ip->watch));
   PetscCall(IPMeritMeasure(tao));
   PetscCall(IPRestore(tao, &ok, &infeasible));
   if (ok) ip->search->tag = 'R';
@@ -299,7 +296,6 @@ static PetscErrorCode TakeNewtonStep(Tao tao)
   PetscCall(IPStiffnessUpdate(tao));
   PetscCall(IPComputeDirection(tao, &solved));
   if (solved) PetscCall(IPLineSearch(tao, &ok));
-  if (!ok) PetscCall(IPWatchdogReturn(tao, &ok));
   if (!ok) {
     PetscCall(Recover(tao, solved));
     PetscFunctionReturn(0);
@@ -467,7 +463,6 @@ static PetscErrorCode EndSolve(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPDirectDestroy(ip->direct));
-  PetscCall(IPWatchdogEnd(ip->watch));
   PetscCall(EndMethod(tao));
   PetscCall(RestoreBest(tao));
   PetscCall(IPConvergeRefined(tao));

@@ -39,11 +39,6 @@ PETSC_INTERN PetscErrorCode IPDirectionAssemble(Tao);
 /* curvature.c */
 PETSC_INTERN PetscErrorCode IPNegativeCurvature(Tao, PetscBool *found);
 
-/* watchdog.c */
-PETSC_INTERN PetscErrorCode IPWatchdogBegin(Tao, PetscReal, PetscReal);
-PETSC_INTERN PetscErrorCode IPWatchdogReturn(Tao, PetscBool *);
-PETSC_INTERN PetscErrorCode IPWatchdogEnd(IPWatchdog *);
-
 /* linesearch.c */
 PETSC_INTERN PetscErrorCode IPLineSearch(Tao, PetscBool *);
 PETSC_INTERN PetscErrorCode IPSearchTrial(Tao, PetscReal, PetscReal *, PetscReal *, PetscBool *);
@@ -74,7 +69,6 @@ PETSC_INTERN PetscErrorCode IPStartPoint(Tao);
 /* relax.c */
 PETSC_INTERN PetscBool      IPRelaxApplies(const TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode IPRelax(Tao);
-PETSC_INTERN PetscErrorCode IPRelaxInstead(Tao, PetscBool *);
 
 /* restore.c */
 PETSC_INTERN PetscErrorCode IPRestore(Tao, PetscBool *, PetscBool *);
