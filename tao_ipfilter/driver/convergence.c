@@ -48,12 +48,13 @@ static PetscBool Violated(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->kkt->violation > small);
 }
 
-/* Returns whether the violation is also small relative to the constraints' own terms (own.c) */
-static PetscBool OwnMet(const TAO_IPFILTER *ip)
+/*
+   Returns whether the violation is also at most `limit` relative to the constraints' own terms (own.c). A relaxation
+   violates constraints whose terms vanish by more.
+*/
+static PetscBool OwnMet(const TAO_IPFILTER *ip, PetscReal limit)
 {
-  const PetscReal trace = 1e-6;
-
-  return (PetscBool)(ip->kkt->own <= PetscMax(trace, ip->tol));
+  return (PetscBool)(ip->kkt->own <= PetscMax(ip->relax->times ? IP_ACCEPTABLE_TOL : limit, ip->tol));
 }
 
 /* Returns whether both measures of the KKT error are within the tolerance, and the absolute tolerances are met */
@@ -61,7 +62,7 @@ static PetscBool Converged(const TAO_IPFILTER *ip)
 {
   const IPKKT *k = ip->kkt;
 
-  if (IPBothErrors(ip) > ip->tol || !OwnMet(ip)) return PETSC_FALSE;
+  if (IPBothErrors(ip) > ip->tol || !OwnMet(ip, ip->tol)) return PETSC_FALSE;
   return (PetscBool)(k->inf_du <= IPAbsoluteTolerance(ip, ip->opt->dual_inf_tol, 1.0) &&
                      k->inf_pr <= IPAbsoluteTolerance(ip, ip->opt->constr_viol_tol, 1e-4) &&
                      k->inf_compl <= IPAbsoluteTolerance(ip, ip->opt->compl_inf_tol, 1e-4));
@@ -70,7 +71,7 @@ static PetscBool Converged(const TAO_IPFILTER *ip)
 /* Returns whether both measures of the KKT error are within the acceptable tolerance */
 PetscBool IPAcceptable(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(IPBothErrors(ip) <= IP_ACCEPTABLE_TOL && OwnMet(ip));
+  return (PetscBool)(IPBothErrors(ip) <= IP_ACCEPTABLE_TOL && OwnMet(ip, IP_ACCEPTABLE_TOL));
 }
 
 /* Computes the size of the unknowns with which steps are compared: at least a small fraction of the first size */
@@ -306,7 +307,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
       "converged: the gradient of the objective is zero, and the constraints are met"));
   } else if (Converged(ip) && IPConstraintsMet(tao)) {
     PetscCall(ConvergeUnlessDegenerate(tao));
-  } else if (fritz_john && OwnMet(ip) && IPConstraintsMet(tao)) {
+  } else if (fritz_john && OwnMet(ip, IP_ACCEPTABLE_TOL) && IPConstraintsMet(tao)) {
     const PetscBool acceptable = (PetscBool)(IPBothErrors(ip) <= IP_ACCEPTABLE_TOL);
 
     PetscCall(IPSetReason(tao, acceptable ? TAO_CONVERGED_STEPTOL : TAO_DIVERGED_USER,
