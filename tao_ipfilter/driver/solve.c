@@ -31,6 +31,7 @@ static PetscErrorCode ResetSolve(Tao tao)
   *ip->bar         = (IPBarrier){.free = (PetscBool)(ip->opt->barrier == IP_BARRIER_MEHROTRA && !ip->qn->B),
             .curved                    = (PetscBool)(ip->qn->B != NULL)};
   *ip->search      = (IPSearch){.theta0 = -1.0, .tag = ' ', .slow = ip->search->slow};
+  *ip->watch       = (IPWatchdog){.left = 0};
   *ip->relax       = (IPRelaxation){.least_slack = PETSC_INFINITY, .least_bound = PETSC_INFINITY};
   *ip->shift       = (IPShift){.delta = 0.0};
   *ip->first       = (IPFirst){.f = 0.0, .energy = -1.0};
@@ -272,6 +273,7 @@ static PetscErrorCode RestoreIfCut(Tao tao)
   ip->search->ncut = 0;
   PetscCall(IPComputeKKT(tao));
   if (!StillViolated(ip)) PetscFunctionReturn(0);
+  PetscCall(IPWatchdogEnd(ip->watch));
   PetscCall(IPMeritMeasure(tao));
   PetscCall(IPRestore(tao, &ok, &infeasible));
   if (ok) ip->search->tag = 'R';
@@ -296,6 +298,7 @@ static PetscErrorCode TakeNewtonStep(Tao tao)
   PetscCall(IPStiffnessUpdate(tao));
   PetscCall(IPComputeDirection(tao, &solved));
   if (solved) PetscCall(IPLineSearch(tao, &ok));
+  if (!ok) PetscCall(IPWatchdogReturn(tao, &ok));
   if (!ok) {
     PetscCall(Recover(tao, solved));
     PetscFunctionReturn(0);
@@ -463,6 +466,7 @@ static PetscErrorCode EndSolve(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPDirectDestroy(ip->direct));
+  PetscCall(IPWatchdogEnd(ip->watch));
   PetscCall(EndMethod(tao));
   PetscCall(RestoreBest(tao));
   PetscCall(IPConvergeRefined(tao));

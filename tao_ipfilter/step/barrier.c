@@ -153,7 +153,7 @@ PetscErrorCode IPBarrierUpdate(Tao tao)
     PetscFunctionReturn(0);
   }
   was_free = ip->bar->free;
-  if (was_free && ip->search->nshort >= IP_BARRIER_SHORT) ip->bar->hold = IP_BARRIER_SHORT;
+  if (was_free && ip->watch->nshort >= IP_BARRIER_SHORT) ip->bar->hold = IP_BARRIER_SHORT;
   ip->bar->free = (PetscBool)(BarrierProgresses(ip) && ip->bar->hold == 0 && !ip->bar->curved);
   if (ip->bar->hold > 0) ip->bar->hold--;
   if (ip->bar->free) PetscFunctionReturn(0);

@@ -249,6 +249,38 @@ static PetscErrorCode SearchCorrect(Tao tao, PetscReal alpha, PetscReal slope, P
 }
 
 /*
+   Takes a step of the watchdog, if it is active: the longest step that the bounds allow, without a test. The new point
+   is compared with the iterate at which the watchdog began. *taken: whether such a step was taken, or the iteration
+   returned to that iterate.
+*/
+static PetscErrorCode SearchWatched(Tao tao, PetscReal alpha, PetscReal slope, PetscReal dual, PetscBool *taken)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPWatchdog   *watch = ip->watch;
+  PetscReal     theta = 0.0, phi = 0.0;
+  PetscBool     finite = PETSC_FALSE, accepted = PETSC_FALSE, objective = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(IPWatchdogBegin(tao, alpha, slope));
+  *taken = (PetscBool)(watch->left > 0);
+  if (!*taken) PetscFunctionReturn(0);
+  ip->search->theta   = watch->theta;
+  ip->search->phi     = watch->phi;
+  ip->search->ntrials = 1;
+  PetscCall(IPSearchTrial(tao, alpha, &theta, &phi, &finite));
+  if (finite) PetscCall(SearchAccepts(tao, watch->alpha, watch->slope, theta, phi, &accepted, &objective));
+  if (accepted) {
+    PetscCall(SearchAccept(tao, alpha, dual, objective, PETSC_FALSE));
+    PetscCall(IPWatchdogEnd(watch));
+  } else if (finite && watch->left > 1) {
+    PetscCall(IPSearchTakeStep(tao, alpha, dual));
+    ip->search->tag = 'w';
+    watch->left--;
+  } else PetscCall(IPWatchdogReturn(tao, taken));
+  PetscFunctionReturn(0);
+}
+
+/*
    Returns whether the Newton steps shrink by a constant factor only (linear convergence). This happens if gradient and
    curvature vanish at the same point.
 */
@@ -292,6 +324,8 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
   least               = SearchSmallestStep(ip, slope);
   ip->search->ntrials = ip->search->ndefined = 0;
   *ok                                        = PETSC_FALSE;
+  PetscCall(SearchWatched(tao, alpha, slope, dual, ok));
+  if (*ok) PetscFunctionReturn(0);
   for (; alpha >= least && !*ok; alpha *= 0.5) {
     PetscReal theta = 0.0, phi = 0.0;
     PetscBool finite = PETSC_FALSE, objective = PETSC_FALSE;
@@ -305,6 +339,6 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
   }
   if (*ok) PetscCall(SearchKeepSlow(tao));
   ip->search->ncut  = *ok && ip->search->alpha < small ? ip->search->ncut + 1 : 0;
-  ip->search->nshort = *ok && ip->search->alpha < longest ? ip->search->nshort + 1 : 0;
+  ip->watch->nshort = *ok && ip->search->alpha < longest ? ip->watch->nshort + 1 : 0;
   PetscFunctionReturn(0);
 }

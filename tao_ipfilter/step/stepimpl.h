@@ -39,6 +39,11 @@ PETSC_INTERN PetscErrorCode IPDirectionAssemble(Tao);
 /* curvature.c */
 PETSC_INTERN PetscErrorCode IPNegativeCurvature(Tao, PetscBool *found);
 
+/* watchdog.c */
+PETSC_INTERN PetscErrorCode IPWatchdogBegin(Tao, PetscReal, PetscReal);
+PETSC_INTERN PetscErrorCode IPWatchdogReturn(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPWatchdogEnd(IPWatchdog *);
+
 /* linesearch.c */
 PETSC_INTERN PetscErrorCode IPLineSearch(Tao, PetscBool *);
 PETSC_INTERN PetscErrorCode IPSearchTrial(Tao, PetscReal, PetscReal *, PetscReal *, PetscBool *);
