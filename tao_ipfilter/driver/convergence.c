@@ -302,7 +302,6 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   if (!Converged(ip)) PetscCall(TestWithoutMultipliers(tao, &stationary));
   PetscCall(IPDegenerateFritzJohn(tao, &fritz_john));
   PetscCall(IPTestUnbounded(tao, &lowest, &unbounded));
-  if (ip->watch->left) unbounded = PETSC_FALSE; /* steps of the watchdog are taken without a test */
   if (stationary) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL,
       "converged: the gradient of the objective is zero, and the constraints are met"));

@@ -166,12 +166,12 @@ PetscErrorCode IPTestUnboundedRays(Tao tao, PetscReal *f, PetscBool *unbounded)
 
 /*
    Finds whether the objective is unbounded: it has fallen far, and a ray proves that it falls further, or the iterates
-   diverge (IPOPT's diverging_iterates_tol). The fall alone may be large only beside a start at which the objective
+   diverge: the unknowns have grown by the same factor. The fall alone may be large only beside a start at which the objective
    happened to be small.
 */
 PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
 {
-  const PetscReal first = ((TAO_IPFILTER *)tao->data)->first->x, diverging = 1e20;
+  const PetscReal first = ((TAO_IPFILTER *)tao->data)->first->x;
   PetscReal       size;
 
   PetscFunctionBegin;
@@ -180,6 +180,6 @@ PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
   if (!*unbounded) PetscFunctionReturn(0);
   PetscCall(IPTestUnboundedRays(tao, f, unbounded));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  if (size > diverging * (first > 0.0 ? first : 1.0)) *unbounded = PETSC_TRUE;
+  if (size > IP_UNBOUNDED_FACTOR * (first > 0.0 ? first : 1.0)) *unbounded = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
