@@ -2,8 +2,8 @@
 #include "blockamgimpl.h"
 
 /*
-   Computes the size of A v - A^T v relative to that of A v, for a vector v that has a component along every eigenvector.
-   Both are measured for A scaled to a diagonal of ones, so that units have no influence.
+   Computes the size of A v - A^T v relative to that of A v, for a vector v that has a component along every
+   eigenvector. Both are measured for A scaled to a diagonal of ones, so that units have no influence.
 */
 static PetscErrorCode SymmetryMeasure(Mat A, PetscReal *difference)
 {

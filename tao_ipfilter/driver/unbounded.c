@@ -166,8 +166,8 @@ PetscErrorCode IPTestUnboundedRays(Tao tao, PetscReal *f, PetscBool *unbounded)
 
 /*
    Finds whether the objective is unbounded: it has fallen far, and a ray proves that it falls further, or the iterates
-   diverge: the unknowns have grown by the same factor. The fall alone may be large only beside a start at which the objective
-   happened to be small.
+   diverge: the unknowns have grown by the same factor. The fall alone may be large only beside a start at which the
+   objective happened to be small.
 */
 PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
 {

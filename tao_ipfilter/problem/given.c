@@ -49,8 +49,8 @@ static PetscErrorCode CheckProblem(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Checks what the caller has set, and the layouts of masses, bounds and starting values. Vectors for constraints that do
-   not exist are not used. */
+/* Checks what the caller has set, and the layouts of masses, bounds and starting values. Vectors for constraints that
+   do not exist are not used. */
 PetscErrorCode IPGivenCheck(Tao tao)
 {
   const IPGiven *given = ((TAO_IPFILTER *)tao->data)->given;

@@ -26,7 +26,7 @@ struct _n_IPRecord {
   PetscInt             nidle;                  /* convergence.c: number of consecutive steps that did not lower the
                                                   objective, but do not show that it cannot fall */
   PetscInt             nacceptable;            /* number of consecutive acceptable iterates */
-  PetscInt             napplications; /* filtered subspace method: number of applications of the preconditioner */
+  PetscInt             napplications;     /* filtered subspace method: number of applications of the preconditioner */
   PetscInt             nreduced, npivots; /* filtered subspace method: number of reduced problems; number of active
                                              sets tried in them */
   PetscInt             ndirections;       /* filtered subspace method: number of iterations that added a direction,

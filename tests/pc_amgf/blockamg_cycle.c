@@ -248,8 +248,8 @@ static PetscErrorCode CheckContrast(MatType type, PetscInt first)
 }
 
 /*
-   Prescribed values on a face, whose rows are those of the identity and whose columns stay: the operator is not symmetric.
-   CG keeps the prescribed zeros only if the preconditioner does.
+   Prescribed values on a face, whose rows are those of the identity and whose columns stay: the operator is not
+   symmetric. CG keeps the prescribed zeros only if the preconditioner does.
 */
 static PetscErrorCode CheckPrescribed(MatType type)
 {
