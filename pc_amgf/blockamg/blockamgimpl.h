@@ -141,9 +141,13 @@ typedef struct {
 } BlockHierarchy;
 
 typedef struct {
-  PC              hypre; /* BoomerAMG, which sets up the hierarchy; NULL except during the set-up */
+  PC              hypre; /* BoomerAMG, which sets up the hierarchy; NULL except during the set-up, or if the operator is
+                            not symmetric: then its own cycle is used */
   BlockHierarchy *h;
-  char            why[200]; /* why there is no hierarchy; empty if there is one */
+  char            why[200];  /* why there is no hierarchy; empty if there is one */
+  PetscBool       symmetric; /* whether the operator is symmetric, tested once for each pattern: */
+  PetscObjectId   tested;    /* the operator of the last test, and its pattern */
+  PetscObjectState pattern;
 } PC_BlockAMG;
 
 /* Returns whether the diagonal entries of the unknowns, or ghosts, at positions p and q differ much */
@@ -223,7 +227,10 @@ PETSC_INTERN PetscErrorCode BlockHierarchyIsFinite_Private(const BlockHierarchy 
 PETSC_INTERN PetscErrorCode BlockHierarchyDestroy_Private(BlockHierarchy **);
 /* cycle.c */
 PETSC_INTERN PetscErrorCode PCApply_BlockAMG(PC, Vec, Vec);
+PETSC_INTERN PetscErrorCode PCApplyTranspose_BlockAMG(PC, Vec, Vec);
 PETSC_INTERN PetscErrorCode PCBlockAMGApplyProduct_BlockAMG(PC, Vec r, Vec z, Vec product);
+/* symmetry.c */
+PETSC_INTERN PetscErrorCode BlockTestSymmetry_Private(PC);
 /* setup.c */
 PETSC_INTERN PetscErrorCode PCSetUp_BlockAMG(PC);
 /* view.c */
