@@ -54,16 +54,13 @@ static PetscErrorCode StartMultiplyTangent(StepProblem *p, Tao tao, Vec u, Vec e
 /* Solves K w = -b for the tangent K in p->K, to a tolerance that suffices for a start */
 static PetscErrorCode StartSolve(StepProblem *p, Vec b, Vec w)
 {
-  const PetscReal rtol = 1e-3, applications = 30.0, solves = 2.0;
+  const PetscReal rtol = 1e-3;
   const PetscInt  most = 100;
   KSP             ksp;
-  PC              pc;
 
   PetscFunctionBegin;
   PetscCall(LinearCreateKSP(p->sim, p->K, rtol, &ksp));
   PetscCall(KSPSetTolerances(ksp, rtol, PETSC_DEFAULT, PETSC_DEFAULT, most)); /* an option of the user does not count */
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCAMGFExpect(pc, applications, solves));
   PetscCall(KSPSolve(ksp, b, w));
   PetscCall(VecScale(w, -1.0));
   PetscCall(KSPDestroy(&ksp));
