@@ -105,61 +105,61 @@ typedef struct {
 
 /* Functions of this folder. The files are listed such that each depends only on those before it. */
 
-/* log.c */
+/* log_events.c */
 PETSC_INTERN PetscLogEvent PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply, PC_BLOCKAMG_SetUp,
   PC_BLOCKAMG_Convert, PC_BLOCKAMG_Apply;
 PETSC_INTERN PetscErrorCode PCAMGFLogRegister_Private(void);
-/* stamp.c */
+/* matrix_stamps.c */
 PETSC_INTERN PetscErrorCode MatGetStamp_AMGF(Mat, AMGFStamp *);
 PETSC_INTERN PetscBool      AMGFStampSamePattern(const AMGFStamp *, const AMGFStamp *);
 PETSC_INTERN PetscBool      AMGFStampSameValues(const AMGFStamp *, const AMGFStamp *);
-/* detect.c */
+/* detect_stiff_rows.c */
 PETSC_INTERN PetscErrorCode PCAMGFDetectRows_Private(Mat, PetscReal, IS *);
 PETSC_INTERN PetscErrorCode PCAMGFFindContrast_Private(Mat, PetscBool, PetscReal *);
-/* subspace.c */
+/* filtered_subspace.c */
 PETSC_INTERN PetscErrorCode PCAMGFUpdateSubspace_Private(PC, PetscBool *);
 PETSC_INTERN PetscErrorCode PCAMGFResetSubspace_Private(PC_AMGF *);
 PETSC_INTERN PetscErrorCode PCAMGFSubspaceIsStale_Private(PC, PetscBool *);
-/* rows.c */
+/* thin_rows.c */
 PETSC_INTERN PetscErrorCode MatGetThinRows_AMGF(Mat, IS, PetscBool, Mat *);
 /* galerkin.c */
 PETSC_INTERN PetscErrorCode PCAMGFUpdateGalerkin_Private(PC, PetscBool);
 PETSC_INTERN PetscErrorCode PCAMGFResetGalerkin_Private(PC_AMGF *);
-/* direct.c */
+/* filter_solver.c */
 PETSC_INTERN PetscErrorCode PCAMGFDirectBegin_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFDirectRenew_Private(KSP);
 PETSC_INTERN PetscErrorCode PCAMGFDirectSetUp_Private(KSP, Mat);
 PETSC_INTERN PetscErrorCode PCAMGFGetFilterPivots_AMGF(PC, PetscInt *);
 /* boomeramg.c */
 PETSC_INTERN PetscErrorCode PCAMGFConfigureBoomerAMG_Private(PC, PetscInt, PetscBool own);
-/* inner.c */
+/* inner_solvers.c */
 PETSC_INTERN PetscErrorCode PCAMGFPrefixInner_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFConfigureInner_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFSetBlockAMG_Private(PC, PetscBool);
-/* lag.c */
+/* rebuild_amg.c */
 PETSC_INTERN PetscInt       PCAMGFLagEvery_Private(const PC_AMGF *);
 PETSC_INTERN PetscErrorCode PCAMGFLagDecide_Private(PC, PetscBool *);
 PETSC_INTERN PetscErrorCode PCAMGFLagRebuilt_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFLagReset_Private(AMGFLag *);
 PETSC_INTERN PetscErrorCode PCPreSolve_AMGF(PC, KSP, Vec, Vec);
 PETSC_INTERN PetscErrorCode PCPostSolve_AMGF(PC, KSP, Vec, Vec);
-/* factor.c */
+/* factor_operator.c */
 PETSC_INTERN PetscErrorCode PCAMGFFactorReset_Private(AMGFFactor *);
 PETSC_INTERN PetscErrorCode PCAMGFFactorIsUsed_Private(PC, PetscBool *);
 PETSC_INTERN PetscErrorCode PCAMGFFactorSetUp_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFSetFactor_AMGF(PC, PCAMGFFactorUse);
 PETSC_INTERN PetscErrorCode PCAMGFGetFactored_AMGF(PC, PetscBool *);
-/* setup.c */
+/* set_up_amgf.c */
 PETSC_INTERN PetscErrorCode PCSetUp_AMGF(PC);
-/* cycle.c */
+/* filter_cycle.c */
 PETSC_INTERN PetscErrorCode PCApply_AMGF(PC, Vec, Vec);
 PETSC_INTERN PetscErrorCode PCApplyTranspose_AMGF(PC, Vec, Vec);
 PETSC_INTERN PetscErrorCode PCAMGFApplyProduct_AMGF(PC, Vec r, Vec z, Vec product);
 /* api.c, in addition to the public functions */
 PETSC_INTERN PetscErrorCode PCAMGFComposeFunctions_Private(PC, PetscBool attach);
-/* opts.c */
+/* amgf_options.c */
 PETSC_INTERN PetscErrorCode PCSetFromOptions_AMGF(PC, AMGFOptionItems);
-/* view.c */
+/* view_amgf.c */
 PETSC_INTERN PetscErrorCode PCView_AMGF(PC, PetscViewer);
 /* amgf.c */
 PETSC_EXTERN PetscErrorCode PCCreate_AMGF(PC);

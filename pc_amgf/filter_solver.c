@@ -95,6 +95,7 @@ static PetscErrorCode DirectFactorHere(KSP solver, PetscBool first, PCFailedReas
   PetscOptions options;
   const char  *prefix;
   PetscBool    given, mumps;
+  Mat          Aw;
 
   PetscFunctionBegin;
   PetscCall(KSPGetPC(solver, &pc));
@@ -102,6 +103,9 @@ static PetscErrorCode DirectFactorHere(KSP solver, PetscBool first, PCFailedReas
   PetscCall(PCGetOptionsPrefix(pc, &prefix));
   PetscCall(PetscOptionsHasName(options, prefix, "-pc_type", &given));
   if (first && !given) PetscCall(DirectChoose(pc, &mumps));
+  PetscCall(KSPGetOperators(solver, NULL, &Aw));
+  PetscCall(
+    MatSetOption(Aw, PetscDefined(USE_COMPLEX) ? MAT_HERMITIAN : MAT_SPD, PETSC_TRUE)); /* not copied with A_w */
   PetscCall(
     KSPSetErrorIfNotConverged(solver, PETSC_FALSE)); /* an error on these ranks alone would let the others wait */
   PetscCall(KSPSetUp(solver));

@@ -1,4 +1,4 @@
-/* Options of PCAMGF itself; those of the inner solvers are read in inner.c */
+/* Options of PCAMGF itself; those of the inner solvers are read in inner_solvers.c */
 #include "amgfimpl.h"
 
 /* Sets the lag from the value of -pc_amgf_amg_lag: a whole number, or "auto" */
