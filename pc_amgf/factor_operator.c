@@ -5,8 +5,8 @@
 const char *const PCAMGFFactorUses[] = {"false", "true", "auto", "PCAMGFFactorUse", "PC_AMGF_FACTOR_", NULL};
 
 /*
-   Number of unknowns up to which `auto` factors the operator. For elastic bodies meshed with hexahedra, one CG solve
-   with the AMG then takes about as long as one factorization and its solves.
+   Number of unknowns up to which `auto` factors the operator. Whole runs of contact of 12,000 to 13,000 unknowns take
+   0.8 to 1.2 of the time with AMG, and one of 30,000 unknowns takes 1.4 of it.
 */
 #define FACTOR_UNKNOWNS 15000
 
