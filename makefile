@@ -16,7 +16,7 @@ include share/configuration.mk
 PLUGIN  := lib/libpetscamgf.so
 LIBRARY := lib/libcontact.a
 # With complex scalars the plugin is PCAMGF alone
-only_real       := pc_amgf/blockamg/*.c pc_amgf/cholesky/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c
+only_real       := pc_amgf/blockamg/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c
 plugin_sources  := $(wildcard pc_amgf/*.c src/plugin/*.c $(if $(PETSC_COMPLEX),,$(only_real)))
 plugin_objects  := $(patsubst %.c,build/%.o,$(plugin_sources))
 library_objects := $(filter-out build/src/plugin/%,$(patsubst %.c,build/%.o,$(wildcard src/*/*.c src/*/*/*.c)))
@@ -25,7 +25,7 @@ programs        := $(if $(PETSC_COMPLEX),,bin/contact)
 # What is linked changes when a source file comes or goes, not only when one changes
 source_list := build/sources.list
 
-.PHONY: all complex demo demo-published check check-all stress scene-stress clean help dependencies \
+.PHONY: all complex demo demo-published check check-all check-plugin stress scene-stress clean help dependencies \
   print-contact-libs FORCE
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -104,6 +104,10 @@ TESTS_PARALLEL = $(if $(PARALLEL),-j$(shell expr $(CORES) + 1))
 check: dependencies
 	@$(MAKE) --no-print-directory -f tests/makefile $(TESTS_PARALLEL) check
 
+# PCAMGF alone: neither the mechanics library nor contact is built
+check-plugin: dependencies
+	@$(MAKE) --no-print-directory -f tests/makefile $(TESTS_PARALLEL) check BUILD=$(PLUGIN) TESTS='amgf_* blockamg_*'
+
 # Also tests that are long: those that have _long in their names, and programs on every number of ranks that they are
 # for
 check-all: dependencies
@@ -139,6 +143,7 @@ help:
 	@echo 'make check           installs what is missing, builds, tests every feature; last line: N passed, N failed'
 	@echo '    TESTS="scene_* output_*"  runs only these tests'
 	@echo '    TIMEOUT=300               time limit of a run [s]'
+	@echo 'make check-plugin    builds and tests the preconditioner alone, two minutes'
 	@echo 'make check-all       the same with the long tests: finer meshes, published figures, more numbers of ranks'
 	@echo 'make stress          difficult contact problems, 2 hours; tables in build/stress/report.md'
 	@echo '    STRESS="units --only *hertz*"  runs only these; STRESS=--resume continues an interrupted run'

@@ -30,10 +30,6 @@
 /* The key under which an IS (filtered unknowns) or a Mat (filter interpolation) is composed on the Pmat */
 #define PCAMGF_FILTER_KEY "amgf_filter"
 
-/* The key under which a Vec of the coordinates of the nodes, three for each, may be composed on the Pmat. A
-   factorization on one rank then finds its order in less time. */
-#define PCAMGF_COORDINATES_KEY "amgf_coordinates"
-
 /*E
   PCAMGFCycle - order in which the AMG application B and the filter Q = P (P^T A P)^-1 P^T are combined
 
@@ -53,7 +49,7 @@ PETSC_EXTERN const char *const PCAMGFCycles[];
   Values:
 + PC_AMGF_FACTOR_FALSE - never
 . PC_AMGF_FACTOR_TRUE  - always
-- PC_AMGF_FACTOR_AUTO  - if it is estimated to be faster for the number of applications given to `PCAMGFExpect()`
+- PC_AMGF_FACTOR_AUTO  - if the operator is small
 
   Level: intermediate
 E*/
@@ -95,12 +91,10 @@ PETSC_EXTERN PetscErrorCode PCAMGFSetAMGLag(PC, PetscInt);
 PETSC_EXTERN PetscErrorCode PCAMGFGetAMGAge(PC, PetscInt *);
 PETSC_EXTERN PetscErrorCode PCAMGFGetAMGPC(PC, PC *);
 PETSC_EXTERN PetscErrorCode PCAMGFGetFilterKSP(PC, KSP *);
-PETSC_EXTERN PetscErrorCode PCAMGFSetFilterRanks(PC, PetscInt);
 PETSC_EXTERN PetscErrorCode PCAMGFGetFilterPivots(PC, PetscInt *);
 PETSC_EXTERN PetscErrorCode PCAMGFGetCounts(PC, PCAMGFCounts *);
 PETSC_EXTERN PetscErrorCode PCAMGFSetFactor(PC, PCAMGFFactorUse);
-PETSC_EXTERN PetscErrorCode PCAMGFExpect(PC, PetscReal applications, PetscReal solves);
-PETSC_EXTERN PetscErrorCode PCAMGFGetFactored(PC, PetscBool *factored, const char *why[]);
+PETSC_EXTERN PetscErrorCode PCAMGFGetFactored(PC, PetscBool *);
 PETSC_EXTERN PetscErrorCode PCAMGFApplyProduct(PC, Vec r, Vec z, Vec product);
 
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetSlackMass(Tao, Vec);
@@ -124,7 +118,6 @@ PETSC_EXTERN PetscErrorCode TaoIPFilterGetSubspace(Tao, PetscContainer *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetSubspace(Tao, PetscContainer);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSolveActive(PetscContainer, Vec, Vec, PetscInt, PetscReal, Vec, Vec, PetscInt *,
   PetscBool *);
-PETSC_EXTERN PetscErrorCode TaoIPFilterSetSolvesToCome(Tao, PetscInt);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetRounding(Tao, PetscReal);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetModes(Tao, Mat);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetInterrupt(Tao, PetscErrorCode (*)(void *, PetscBool *), void *);

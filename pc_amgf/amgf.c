@@ -9,7 +9,6 @@ static PetscErrorCode PCReset_AMGF(PC pc)
   PetscCall(PCReset(amgf->amg));
   PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_FALSE));
   PetscCall(KSPReset(amgf->filter));
-  PetscCall(PCAMGFFewRanksReset_Private(&amgf->few));
   PetscCall(PCAMGFResetGalerkin_Private(amgf));
   PetscCall(PCAMGFResetSubspace_Private(amgf));
   PetscCall(PCAMGFLagReset_Private(&amgf->lag));
@@ -50,13 +49,10 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
                                       `amgf_amg_`; `hypre`: BoomerAMG with its own cycle
 .  -amgf_filter_ksp_type <preonly>  - the Krylov method of the filtered system, with all of its options under the
                                       prefix `amgf_filter_`
-.  -amgf_filter_pc_type <cholesky>  - its preconditioner, the direct solver; `lu` with complex scalars
-.  -pc_amgf_filter_ranks <0>        - number of ranks of the direct solver, unless its type is given; 0: one for every
-                                      10,000 rows
-.  -pc_amgf_factor <false>          - `true`: B is a Cholesky factorization of the operator by MUMPS, with the options
-                                      prefix `amgf_factor_`; `auto`: B is the factorization if that is estimated to be
-                                      faster, see `PCAMGFExpect()`
--  -pc_amgf_factor_share <0.4>      - auto: largest fraction of the machine's memory that the factors may take
+.  -amgf_filter_pc_type <cholesky>  - its preconditioner, the direct solver; `lu` with complex scalars; `telescope` on
+                                      several ranks
+-  -pc_amgf_factor <false>          - `true`: B is a Cholesky factorization of the operator, with the options prefix
+                                      `amgf_factor_`; `auto`: if the operator is small, see `PCAMGFSetFactor()`
 
    Level: intermediate
 
@@ -77,9 +73,6 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    `-pc_amgf_filter_file`; `-pc_amgf_detect`. Without a subspace, or if it is empty, the preconditioner is B. If no
    subspace was given or detected, one warning is printed; `PCAMGFSetFilterOptional()` turns it off.
 
-   A factorization on one rank (`PCAMGFSetFactor()`) finds its order in less time if a `Vec` of the nodes' coordinates,
-   three for each, is composed on the Pmat under "amgf_coordinates".
-
    If PETSc has hypre, the default AMG has the hierarchy of hypre's BoomerAMG: HMIS coarsening, ext+i interpolation of
    at most 4 entries per row, no aggressive level, strength threshold 0.25, or 0.7 for block size 3. Its V-cycle has one
    sweep of Gauss-Seidel, forward on the way down and backward on the way up. With real scalars and an operator of type
@@ -92,9 +85,10 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
    Without hypre the default AMG is `PCGAMG`. With complex scalars its interpolation is not smoothed: the restriction of
    `PCGAMG` is the transpose without conjugation, and B would not be Hermitian.
 
-   The default filter solver is `KSPPREONLY` with a Cholesky factorization by MUMPS, or LU with complex scalars. A small
-   system is factored on the first few ranks (`PCAMGFSetFilterRanks()`). If PETSc has no MUMPS, its own factorization is
-   used, on several ranks redundantly on every rank (`PCREDUNDANT`). Options set by the user take precedence.
+   The default filter solver is `KSPPREONLY` with a Cholesky factorization by MUMPS, or LU with complex scalars. On
+   several ranks it is inside a `PCTELESCOPE`, so that one rank for every 10,000 rows solves; the options of the
+   factorization then have the prefix `amgf_filter_telescope_`. If PETSc has no MUMPS, its own factorization is used, on
+   several ranks redundantly on every rank (`PCREDUNDANT`). Options set by the user take precedence.
 
    The filter, and the product of A with its corrections, use the rows of the Pmat. The product with the whole matrix
    in `bfb` uses the Pmat too, unless `PCSetUseAmat()`.
@@ -118,8 +112,8 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
 
 .seealso: `PCAMGFSetCycle()`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterInterpolation()`, `PCAMGFSetAMGLag()`,
           `PCAMGFSetFilterActive()`, `PCAMGFSetFilterOptional()`, `PCAMGFGetFilterSize()`, `PCAMGFGetAMGPC()`,
-          `PCAMGFGetFilterKSP()`, `PCAMGFSetFilterRanks()`, `PCAMGFGetFilterPivots()`, `PCAMGFGetCounts()`,
-          `PCAMGFSetFactor()`, `PCAMGFExpect()`, `PCAMGFGetFactored()`, `PCAMGFGetAMGAge()`, `PCBLOCKAMG`,
+          `PCAMGFGetFilterKSP()`, `PCAMGFGetFilterPivots()`, `PCAMGFGetCounts()`,
+          `PCAMGFSetFactor()`, `PCAMGFGetFactored()`, `PCAMGFGetAMGAge()`, `PCBLOCKAMG`,
           `PCCOMPOSITE`, `PCDEFLATION`
 M*/
 PetscErrorCode PCCreate_AMGF(PC pc)
@@ -128,11 +122,10 @@ PetscErrorCode PCCreate_AMGF(PC pc)
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&amgf));
-  pc->data              = amgf;
-  amgf->cycle           = PC_AMGF_FBF;
-  amgf->active          = PETSC_TRUE;
-  amgf->lag.every       = AMGF_LAG_UNSET;
-  amgf->factor.fraction = 0.4;
+  pc->data        = amgf;
+  amgf->cycle     = PC_AMGF_FBF;
+  amgf->active    = PETSC_TRUE;
+  amgf->lag.every = AMGF_LAG_UNSET;
   PetscCall(PCCreate(PetscObjectComm((PetscObject)pc), &amgf->amg));
   PetscCall(PetscObjectIncrementTabLevel((PetscObject)amgf->amg, (PetscObject)pc, 1));
   PetscCall(KSPCreate(PetscObjectComm((PetscObject)pc), &amgf->filter));

@@ -46,41 +46,15 @@ typedef struct {
   PetscInt  history;  /* number of entries of the KSP's residual history before the present solve */
 } AMGFLag;
 
-/* A Cholesky factorization of the operator, which is used instead of the AMG as the preconditioner B */
+/* A factorization of the operator, which is used instead of the AMG as the preconditioner B */
 typedef struct {
   PCAMGFFactorUse use;
-  PetscBool       on;       /* whether B is the factorization instead of the AMG */
-  PetscBool       failed;   /* the last factorization failed */
-  PetscReal       fraction; /* for the automatic choice: largest memory of the factors, as a fraction of the machine's
-                             memory */
+  PetscBool       on;     /* whether the last set-up used the factorization */
+  PetscBool       failed; /* the last factorization failed */
   Mat             F;
-  PetscBool       own;                    /* F are factors of cholesky/, not of MUMPS */
-  AMGFStamp       analysed;               /* stamp of the operator that was analysed */
-  PetscReal       flops, entries, memory; /* costs of the factors: operations, entries, memory [bytes] */
-  char            why[160];               /* explanation of the last choice */
+  PetscInt        negative; /* number of negative pivots */
+  AMGFStamp       analysed; /* stamp of the operator that was analysed */
 } AMGFFactor;
-
-/* Solver of the filtered system A_w on the first few ranks only */
-typedef struct {
-  PetscInt    wanted;   /* number of ranks requested by PCAMGFSetFilterRanks(); 0: chosen from the size of A_w */
-  PetscMPIInt nranks;   /* number of ranks that solve; 0: not set up */
-  PetscBool   solves;   /* whether this rank is one of them */
-  AMGFStamp   stamp;    /* stamp of A_w at the last set-up */
-  MPI_Comm    comm;     /* on the solving ranks: the communicator of these ranks; elsewhere: that of the other ranks */
-  PC          pc;       /* direct solver for A; NULL on ranks that do not solve */
-  Mat         gathered; /* A_w on all ranks, with all rows on the solving ranks */
-  Mat         rows;     /* this rank's rows of `gathered` */
-  Mat         A;        /* A_w on the communicator of the solving ranks; NULL elsewhere */
-  Vec         spread;   /* vector of all ranks with the layout of `gathered`; NULL if all ranks solve with A_w itself */
-  Vec         b, x;     /* right-hand side and solution on the solving ranks; NULL elsewhere */
-  VecScatter  scatter;  /* from vectors of A_w to `spread` */
-} AMGFFewRanks;
-
-/* Estimated times of the two candidates for B: a factorization, or AMG [s] */
-typedef struct {
-  PetscReal factor, solve; /* of one factorization; of one solve with its factors */
-  PetscReal setup, apply;  /* of one set-up of the AMG; of one application */
-} AMGFCosts;
 
 /* The subspace range(P): either selected unknowns (rows), or the range of a general interpolation P */
 typedef struct {
@@ -125,73 +99,67 @@ typedef struct {
   Vec          rc, ec, wc; /* vectors of length n_c: restricted residual, correction, work */
   Vec          w[2];       /* work vectors of length n */
 
-  AMGFLag      lag;
-  AMGFFactor   factor;
-  AMGFFewRanks few;
+  AMGFLag    lag;
+  AMGFFactor factor;
 } PC_AMGF;
 
 /* Functions of this folder. The files are listed such that each depends only on those before it. */
 
-/* log.c */
+/* log_events.c */
 PETSC_INTERN PetscLogEvent PC_AMGF_AMGSetUp, PC_AMGF_AMGApply, PC_AMGF_FltSetUp, PC_AMGF_FltApply, PC_BLOCKAMG_SetUp,
   PC_BLOCKAMG_Convert, PC_BLOCKAMG_Apply;
 PETSC_INTERN PetscErrorCode PCAMGFLogRegister_Private(void);
-/* stamp.c */
+/* matrix_stamps.c */
 PETSC_INTERN PetscErrorCode MatGetStamp_AMGF(Mat, AMGFStamp *);
 PETSC_INTERN PetscBool      AMGFStampSamePattern(const AMGFStamp *, const AMGFStamp *);
 PETSC_INTERN PetscBool      AMGFStampSameValues(const AMGFStamp *, const AMGFStamp *);
-/* detect.c */
+/* detect_stiff_rows.c */
 PETSC_INTERN PetscErrorCode PCAMGFDetectRows_Private(Mat, PetscReal, IS *);
 PETSC_INTERN PetscErrorCode PCAMGFFindContrast_Private(Mat, PetscBool, PetscReal *);
-/* subspace.c */
+/* filtered_subspace.c */
 PETSC_INTERN PetscErrorCode PCAMGFUpdateSubspace_Private(PC, PetscBool *);
 PETSC_INTERN PetscErrorCode PCAMGFResetSubspace_Private(PC_AMGF *);
 PETSC_INTERN PetscErrorCode PCAMGFSubspaceIsStale_Private(PC, PetscBool *);
-/* rows.c */
+/* thin_rows.c */
 PETSC_INTERN PetscErrorCode MatGetThinRows_AMGF(Mat, IS, PetscBool, Mat *);
 /* galerkin.c */
 PETSC_INTERN PetscErrorCode PCAMGFUpdateGalerkin_Private(PC, PetscBool);
 PETSC_INTERN PetscErrorCode PCAMGFResetGalerkin_Private(PC_AMGF *);
-/* direct.c */
-PETSC_INTERN PetscErrorCode PCAMGFSetDirectSolver_Private(PC, PetscBool *);
-/* fewranks.c */
-PETSC_INTERN PetscErrorCode PCAMGFFewRanksBegin_Private(PC, AMGFFewRanks *);
-PETSC_INTERN PetscErrorCode PCAMGFFewRanksReset_Private(AMGFFewRanks *);
-PETSC_INTERN PetscErrorCode PCAMGFSetFilterRanks_AMGF(PC, PetscInt);
+/* filter_solver.c */
+PETSC_INTERN PetscErrorCode PCAMGFDirectBegin_Private(PC);
+PETSC_INTERN PetscErrorCode PCAMGFDirectRenew_Private(KSP);
+PETSC_INTERN PetscErrorCode PCAMGFDirectSetUp_Private(KSP, Mat);
 PETSC_INTERN PetscErrorCode PCAMGFGetFilterPivots_AMGF(PC, PetscInt *);
 /* boomeramg.c */
 PETSC_INTERN PetscErrorCode PCAMGFConfigureBoomerAMG_Private(PC, PetscInt, PetscBool own);
-/* inner.c */
+/* inner_solvers.c */
 PETSC_INTERN PetscErrorCode PCAMGFPrefixInner_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFConfigureInner_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFSetBlockAMG_Private(PC, PetscBool);
-/* lag.c */
+/* rebuild_amg.c */
 PETSC_INTERN PetscInt       PCAMGFLagEvery_Private(const PC_AMGF *);
 PETSC_INTERN PetscErrorCode PCAMGFLagDecide_Private(PC, PetscBool *);
 PETSC_INTERN PetscErrorCode PCAMGFLagRebuilt_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFLagReset_Private(AMGFLag *);
 PETSC_INTERN PetscErrorCode PCPreSolve_AMGF(PC, KSP, Vec, Vec);
 PETSC_INTERN PetscErrorCode PCPostSolve_AMGF(PC, KSP, Vec, Vec);
-/* memory.c */
-PETSC_INTERN PetscErrorCode PCAMGFSumMemory_Private(MPI_Comm, PetscReal, PetscReal *);
-PETSC_INTERN PetscErrorCode PCAMGFGetMemory_Private(MPI_Comm, PetscReal *);
-/* factor.c */
+/* factor_operator.c */
 PETSC_INTERN PetscErrorCode PCAMGFFactorReset_Private(AMGFFactor *);
+PETSC_INTERN PetscErrorCode PCAMGFFactorIsUsed_Private(PC, PetscBool *);
 PETSC_INTERN PetscErrorCode PCAMGFFactorSetUp_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFSetFactor_AMGF(PC, PCAMGFFactorUse);
-PETSC_INTERN PetscErrorCode PCAMGFExpect_AMGF(PC, PetscReal, PetscReal);
-PETSC_INTERN PetscErrorCode PCAMGFGetFactored_AMGF(PC, PetscBool *, const char *[]);
-/* setup.c */
+PETSC_INTERN PetscErrorCode PCAMGFGetFactored_AMGF(PC, PetscBool *);
+/* set_up_amgf.c */
 PETSC_INTERN PetscErrorCode PCSetUp_AMGF(PC);
-/* cycle.c */
+/* filter_cycle.c */
 PETSC_INTERN PetscErrorCode PCApply_AMGF(PC, Vec, Vec);
 PETSC_INTERN PetscErrorCode PCApplyTranspose_AMGF(PC, Vec, Vec);
 PETSC_INTERN PetscErrorCode PCAMGFApplyProduct_AMGF(PC, Vec r, Vec z, Vec product);
 /* api.c, in addition to the public functions */
 PETSC_INTERN PetscErrorCode PCAMGFComposeFunctions_Private(PC, PetscBool attach);
-/* opts.c */
+/* amgf_options.c */
 PETSC_INTERN PetscErrorCode PCSetFromOptions_AMGF(PC, AMGFOptionItems);
-/* view.c */
+/* view_amgf.c */
 PETSC_INTERN PetscErrorCode PCView_AMGF(PC, PetscViewer);
 /* amgf.c */
 PETSC_EXTERN PetscErrorCode PCCreate_AMGF(PC);

@@ -42,15 +42,13 @@ static inline PetscErrorCode AMGFMumpsFactors(MatType type, MatFactorType factor
 
 /* Control parameters and results of MUMPS. Without MUMPS the parameters are ignored, and the results are 0. */
 #if defined(AMGF_HAVE_MUMPS)
-  #define AMGFMumpsSetIcntl  MatMumpsSetIcntl
-  #define AMGFMumpsSetCntl   MatMumpsSetCntl
-  #define AMGFMumpsGetInfog  MatMumpsGetInfog
-  #define AMGFMumpsGetRinfog MatMumpsGetRinfog
+  #define AMGFMumpsSetIcntl MatMumpsSetIcntl
+  #define AMGFMumpsGetIcntl MatMumpsGetIcntl
+  #define AMGFMumpsGetInfog MatMumpsGetInfog
 #else
-  #define AMGFMumpsSetIcntl(F, icntl, value)   ((void)(F), (void)(icntl), (void)(value), 0)
-  #define AMGFMumpsSetCntl(F, cntl, value)     ((void)(F), (void)(cntl), (void)(value), 0)
-  #define AMGFMumpsGetInfog(F, infog, value)   ((void)(F), (void)(infog), *(value) = 0, 0)
-  #define AMGFMumpsGetRinfog(F, rinfog, value) ((void)(F), (void)(rinfog), *(value) = 0.0, 0)
+  #define AMGFMumpsSetIcntl(F, icntl, value) ((void)(F), (void)(icntl), (void)(value), 0)
+  #define AMGFMumpsGetIcntl(F, icntl, value) ((void)(F), (void)(icntl), *(value) = 0, 0)
+  #define AMGFMumpsGetInfog(F, infog, value) ((void)(F), (void)(infog), *(value) = 0, 0)
 #endif
 
 #endif

@@ -32,7 +32,6 @@ static PetscErrorCode CreateKSP(Tao tao)
   PetscCall(KSPGetPC(tao->ksp, &pc));
   PetscCall(PCSetType(pc, PCAMGF));
   PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
-  PetscCall(PCAMGFSetFactor(pc, PC_AMGF_FACTOR_AUTO));
   PetscFunctionReturn(0);
 }
 
@@ -196,9 +195,8 @@ static PetscErrorCode SolverCreate(Tao tao)
   The filtered subspace method, `-tao_ipfilter_subspace`, is for linear inequalities that involve few unknowns, the set
   W. A quadratic objective is minimized exactly over span{e_i, i in W} + span(P), by an active set method on the first
   rank. The `PC` of the Krylov method for H is applied to the remaining residual, which gives the next direction in P.
-  With `-tao_ipfilter_pc_amgf_factor` auto a factorization replaces the AMG there as soon as it is estimated to be
-  cheaper for the expected number of solves: `PCAMGFExpect()`, `TaoIPFilterSetSolvesToCome()`. With false the AMG is
-  always used.
+  With `-tao_ipfilter_pc_amgf_factor` auto a factorization replaces the AMG there if H is small, see
+  `PCAMGFSetFactor()`.
 
   A nonquadratic objective with such constraints is minimized by Newton's method. This method solves its quadratic
   models to a fraction of the current residual. For each new Hessian the products with the directions are computed

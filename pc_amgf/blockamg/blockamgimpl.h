@@ -168,7 +168,7 @@ static inline PetscBool BlockHasContrast(const BlockLevel *level, int p, int q)
 
 /* Functions of this folder. The files are listed such that each depends only on those before it. */
 
-/* rows.c */
+/* local_rows.c */
 PETSC_INTERN PetscErrorCode BlockConvertToAIJ_Private(Mat, Mat *);
 PETSC_INTERN PetscErrorCode BlockRowsGet_Private(Mat, BlockRows *);
 PETSC_INTERN PetscErrorCode BlockRowsRestore_Private(BlockRows *);
@@ -225,15 +225,15 @@ PETSC_INTERN PetscErrorCode BlockHierarchyAddLevels_Private(BlockHierarchy *, Pe
   Mat interpolations[]);
 PETSC_INTERN PetscErrorCode BlockHierarchyIsFinite_Private(const BlockHierarchy *, PetscBool *);
 PETSC_INTERN PetscErrorCode BlockHierarchyDestroy_Private(BlockHierarchy **);
-/* cycle.c */
+/* v_cycle.c */
 PETSC_INTERN PetscErrorCode PCApply_BlockAMG(PC, Vec, Vec);
 PETSC_INTERN PetscErrorCode PCApplyTranspose_BlockAMG(PC, Vec, Vec);
 PETSC_INTERN PetscErrorCode PCBlockAMGApplyProduct_BlockAMG(PC, Vec r, Vec z, Vec product);
 /* symmetry.c */
 PETSC_INTERN PetscErrorCode BlockTestSymmetry_Private(PC);
-/* setup.c */
+/* take_hierarchy.c */
 PETSC_INTERN PetscErrorCode PCSetUp_BlockAMG(PC);
-/* view.c */
+/* view_hierarchy.c */
 PETSC_INTERN PetscErrorCode PCView_BlockAMG(PC, PetscViewer);
 /* blockamg.c */
 PETSC_EXTERN PetscErrorCode PCCreate_BlockAMG(PC);

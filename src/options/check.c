@@ -13,7 +13,7 @@ static PetscErrorCode OptionsGuess(const char name[], size_t length, char guess[
   PetscInt     n      = 0;
 
   PetscFunctionBegin;
-  for (const char *const *ours = OptionsOurs; *ours && n < 512; ++ours) known[n++] = *ours;
+  for (const char *ours; n < 512 && (ours = OptionGetOurs(n)); ++n) known[n] = ours;
   for (const char *const *usual = OptionsUsual; *usual && n < 512; ++usual) known[n++] = *usual;
   PetscCall(OptionsNearest(n, known, name + prefix, &nearest));
   PetscCall(PetscSNPrintf(guess, length, "%.*s%s", (int)prefix, name, nearest));

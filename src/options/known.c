@@ -3,59 +3,83 @@
 #include <string.h>
 #include <strings.h>
 
-/* All options of pc_amgf, tao_ipfilter, src and apps. tests/doc/options.py compares the list with the sources. */
-const char *const OptionsOurs[] = {"accuracy", "accuracy_adaptive", "accuracy_max_dofs", "accuracy_of",
-  "accuracy_order", "accuracy_share", "accuracy_view", "checkpoint", "checkpoint_every", "contact_free", "contact_gap",
-  "contact_gap_tol", "contact_normals", "contact_penalty", "contact_quadrature", "contact_search_depth",
-  "contact_smooth", "contact_update_tol", "contact_updates", "displacement_bounds", "effects_view",
-  "elasticity_mat_type", "elasticity_quadrature", "error_estimate", "load_max_cuts", "load_steps", "load_warm_start",
-  "model", "output", "output_gauss", "pc_amgf_amg_lag", "pc_amgf_cycle", "pc_amgf_detect", "pc_amgf_factor",
-  "pc_amgf_factor_share", "pc_amgf_filter_file", "pc_amgf_filter_ranks", "progress_every", "quiet", "refine", "report",
-  "restart", "scene_check", "summary", "tao_ipfilter_barrier", "tao_ipfilter_compl_inf_tol",
-  "tao_ipfilter_constr_viol_tol", "tao_ipfilter_delta_max", "tao_ipfilter_direct", "tao_ipfilter_direct_memory",
-  "tao_ipfilter_dual_inf_tol", "tao_ipfilter_dual_init", "tao_ipfilter_equality", "tao_ipfilter_eta_phi",
-  "tao_ipfilter_filter_switch", "tao_ipfilter_forcing", "tao_ipfilter_gamma_phi", "tao_ipfilter_kkt",
-  "tao_ipfilter_max_soc", "tao_ipfilter_monitor", "tao_ipfilter_mu_init", "tao_ipfilter_mu_reductions_first",
-  "tao_ipfilter_proximal", "tao_ipfilter_scaling", "tao_ipfilter_slack_init", "tao_ipfilter_start",
-  "tao_ipfilter_subspace", "tao_ipfilter_subspace_max", "tao_ipfilter_tol", "traceback", NULL};
-
 /*
-   Those of our options that are Boolean, and true without a value. Options in none of this and the next two lists need
-   a number.
+   All options of pc_amgf, tao_ipfilter, src and apps, in order: name, kind, and the words of which the value must be
+   one, if it allows a few words only. tests/doc/options.py compares the list with the sources.
 */
-static const char *const OptionsSwitches[] = {"accuracy_adaptive", "accuracy_view", "contact_free", "contact_smooth",
-  "effects_view", "error_estimate", "load_warm_start", "output_gauss", "quiet", "scene_check", "tao_ipfilter_direct",
-  "tao_ipfilter_monitor", "traceback", NULL};
-
-/* Options that need an integer */
-static const char *const OptionsCounts[] = {"accuracy_order", "checkpoint_every", "contact_quadrature",
-  "contact_updates", "displacement_bounds", "elasticity_quadrature", "load_max_cuts", "load_steps",
-  "pc_amgf_filter_ranks", "refine", "tao_ipfilter_max_soc", "tao_ipfilter_mu_reductions_first",
-  "tao_ipfilter_subspace_max", NULL};
-
-/* Options that need a word or a name */
-static const char *const OptionsWords[] = {"accuracy_of", "checkpoint", "contact_gap", "contact_normals",
-  "elasticity_mat_type", "model", "output", "pc_amgf_amg_lag", "pc_amgf_cycle", "pc_amgf_factor", "pc_amgf_filter_file",
-  "report", "restart", "summary", "tao_ipfilter_barrier", "tao_ipfilter_equality", "tao_ipfilter_forcing",
-  "tao_ipfilter_kkt", "tao_ipfilter_scaling", "tao_ipfilter_start", "tao_ipfilter_subspace", NULL};
-
-/* Options whose value is one of a few words. tests/doc/options.py compares the list with the sources. */
 static const struct {
-  const char *name, *words[5];
-} OptionsChoices[] = {
-  {"accuracy_of", {"energy", "force", "pressure", "displacement", NULL}},
-  {"contact_gap", {"auto", "mortar", "node", "dual", NULL}},
-  {"contact_normals", {"nodal", "facet", NULL}},
-  {"model", {"energy", "quadratic", NULL}},
-  {"pc_amgf_cycle", {"bfb", "fbf", "additive", NULL}},
-  {"pc_amgf_factor", {"false", "true", "auto", NULL}},
-  {"tao_ipfilter_barrier", {"monotone", "mehrotra", NULL}},
-  {"tao_ipfilter_equality", {"auto", "augmented", "condensed", NULL}},
-  {"tao_ipfilter_forcing", {"adaptive", "fixed", NULL}},
-  {"tao_ipfilter_kkt", {"relative", "mass", NULL}},
-  {"tao_ipfilter_scaling", {"problem", "gradient", "none", NULL}},
-  {"tao_ipfilter_start", {"cold", "predict", "warm", NULL}},
-  {"tao_ipfilter_subspace", {"false", "true", "auto", NULL}},
+  const char *name;
+  OptionKind  kind;
+  const char *words[5];
+} OptionsOurs[] = {
+  {"accuracy", OPTION_NUMBER, {NULL}},
+  {"accuracy_adaptive", OPTION_SWITCH, {NULL}},
+  {"accuracy_max_dofs", OPTION_NUMBER, {NULL}},
+  {"accuracy_of", OPTION_WORD, {"energy", "force", "pressure", "displacement", NULL}},
+  {"accuracy_order", OPTION_COUNT, {NULL}},
+  {"accuracy_share", OPTION_NUMBER, {NULL}},
+  {"accuracy_view", OPTION_SWITCH, {NULL}},
+  {"checkpoint", OPTION_WORD, {NULL}},
+  {"checkpoint_every", OPTION_COUNT, {NULL}},
+  {"contact_free", OPTION_SWITCH, {NULL}},
+  {"contact_gap", OPTION_WORD, {"auto", "mortar", "node", "dual", NULL}},
+  {"contact_gap_tol", OPTION_NUMBER, {NULL}},
+  {"contact_normals", OPTION_WORD, {"nodal", "facet", NULL}},
+  {"contact_penalty", OPTION_NUMBER, {NULL}},
+  {"contact_quadrature", OPTION_COUNT, {NULL}},
+  {"contact_search_depth", OPTION_NUMBER, {NULL}},
+  {"contact_smooth", OPTION_SWITCH, {NULL}},
+  {"contact_update_tol", OPTION_NUMBER, {NULL}},
+  {"contact_updates", OPTION_COUNT, {NULL}},
+  {"displacement_bounds", OPTION_COUNT, {NULL}},
+  {"effects_view", OPTION_SWITCH, {NULL}},
+  {"elasticity_mat_type", OPTION_WORD, {NULL}},
+  {"elasticity_quadrature", OPTION_COUNT, {NULL}},
+  {"error_estimate", OPTION_SWITCH, {NULL}},
+  {"load_max_cuts", OPTION_COUNT, {NULL}},
+  {"load_steps", OPTION_COUNT, {NULL}},
+  {"load_warm_start", OPTION_SWITCH, {NULL}},
+  {"model", OPTION_WORD, {"energy", "quadratic", NULL}},
+  {"output", OPTION_WORD, {NULL}},
+  {"output_gauss", OPTION_SWITCH, {NULL}},
+  {"pc_amgf_amg_lag", OPTION_WORD, {NULL}},
+  {"pc_amgf_cycle", OPTION_WORD, {"bfb", "fbf", "additive", NULL}},
+  {"pc_amgf_detect", OPTION_NUMBER, {NULL}},
+  {"pc_amgf_factor", OPTION_WORD, {"false", "true", "auto", NULL}},
+  {"pc_amgf_filter_file", OPTION_WORD, {NULL}},
+  {"progress_every", OPTION_NUMBER, {NULL}},
+  {"quiet", OPTION_SWITCH, {NULL}},
+  {"refine", OPTION_COUNT, {NULL}},
+  {"report", OPTION_WORD, {NULL}},
+  {"restart", OPTION_WORD, {NULL}},
+  {"scene_check", OPTION_SWITCH, {NULL}},
+  {"summary", OPTION_WORD, {NULL}},
+  {"tao_ipfilter_barrier", OPTION_WORD, {"monotone", "mehrotra", NULL}},
+  {"tao_ipfilter_compl_inf_tol", OPTION_NUMBER, {NULL}},
+  {"tao_ipfilter_constr_viol_tol", OPTION_NUMBER, {NULL}},
+  {"tao_ipfilter_delta_max", OPTION_NUMBER, {NULL}},
+  {"tao_ipfilter_direct", OPTION_SWITCH, {NULL}},
+  {"tao_ipfilter_direct_memory", OPTION_NUMBER, {NULL}},
+  {"tao_ipfilter_dual_inf_tol", OPTION_NUMBER, {NULL}},
+  {"tao_ipfilter_dual_init", OPTION_NUMBER, {NULL}},
+  {"tao_ipfilter_equality", OPTION_WORD, {"auto", "augmented", "condensed", NULL}},
+  {"tao_ipfilter_eta_phi", OPTION_NUMBER, {NULL}},
+  {"tao_ipfilter_filter_switch", OPTION_NUMBER, {NULL}},
+  {"tao_ipfilter_forcing", OPTION_WORD, {"adaptive", "fixed", NULL}},
+  {"tao_ipfilter_gamma_phi", OPTION_NUMBER, {NULL}},
+  {"tao_ipfilter_kkt", OPTION_WORD, {"relative", "mass", NULL}},
+  {"tao_ipfilter_max_soc", OPTION_COUNT, {NULL}},
+  {"tao_ipfilter_monitor", OPTION_SWITCH, {NULL}},
+  {"tao_ipfilter_mu_init", OPTION_NUMBER, {NULL}},
+  {"tao_ipfilter_mu_reductions_first", OPTION_COUNT, {NULL}},
+  {"tao_ipfilter_proximal", OPTION_NUMBER, {NULL}},
+  {"tao_ipfilter_scaling", OPTION_WORD, {"problem", "gradient", "none", NULL}},
+  {"tao_ipfilter_slack_init", OPTION_NUMBER, {NULL}},
+  {"tao_ipfilter_start", OPTION_WORD, {"cold", "predict", "warm", NULL}},
+  {"tao_ipfilter_subspace", OPTION_WORD, {"false", "true", "auto", NULL}},
+  {"tao_ipfilter_subspace_max", OPTION_COUNT, {NULL}},
+  {"tao_ipfilter_tol", OPTION_NUMBER, {NULL}},
+  {"traceback", OPTION_SWITCH, {NULL}},
 };
 
 /* Options prefixes of PETSc objects that are created later */
@@ -101,6 +125,20 @@ static size_t OptionAllPrefixes(const char name[])
   return all;
 }
 
+/* Returns the place of a name in OptionsOurs; -1: it is not there */
+static PetscInt OptionFind(const char name[])
+{
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(OptionsOurs); ++k) {
+    if (!strcasecmp(name, OptionsOurs[k].name)) return (PetscInt)k;
+  }
+  return -1;
+}
+
+const char *OptionGetOurs(PetscInt k)
+{
+  return k < (PetscInt)PETSC_STATIC_ARRAY_LENGTH(OptionsOurs) ? OptionsOurs[k].name : NULL;
+}
+
 static const char *const OptionsAMGF[] = {"pc_amgf_", NULL};
 
 size_t OptionPrefixLength(const char name[])
@@ -118,9 +156,9 @@ PetscBool OptionIsKnown(const char name[])
 {
   const char *suffix = name + OptionAllPrefixes(name);
 
-  if (OptionIsOneOf(name, OptionsOurs)) return PETSC_TRUE;
+  if (OptionFind(name) >= 0) return PETSC_TRUE;
   if (!strncasecmp(name, "no_", 3) && OptionIsKnown(name + 3)) return PETSC_TRUE;
-  if (OptionBeginning(suffix, OptionsAMGF)) return OptionIsOneOf(suffix, OptionsOurs);
+  if (OptionBeginning(suffix, OptionsAMGF)) return (PetscBool)(OptionFind(suffix) >= 0);
   if (!strcasecmp(suffix, "h") || !strcasecmp(suffix, "v")) return PETSC_TRUE;
   return OptionBeginning(suffix, OptionsKinds) ? PETSC_TRUE : PETSC_FALSE;
 }
@@ -129,28 +167,23 @@ PetscBool OptionGetKind(const char name[], OptionKind *kind)
 {
   static const char *const counts[]  = {"ksp_max_it", "tao_max_it", NULL};
   static const char *const numbers[] = {"ksp_rtol", "tao_gatol", NULL};
-  const char              *ours = name + OptionPrefixLength(name), *petscs = name + OptionAllPrefixes(name);
+  const char              *petscs    = name + OptionAllPrefixes(name);
+  const PetscInt           ours      = OptionFind(name + OptionPrefixLength(name));
 
   if (OptionIsOneOf(petscs, counts) || OptionIsOneOf(petscs, numbers)) {
     *kind = OptionIsOneOf(petscs, counts) ? OPTION_COUNT : OPTION_NUMBER;
     return PETSC_TRUE;
   }
-  if (OptionIsOneOf(ours, OptionsSwitches)) *kind = OPTION_SWITCH;
-  else if (OptionIsOneOf(ours, OptionsCounts)) *kind = OPTION_COUNT;
-  else if (OptionIsOneOf(ours, OptionsWords)) *kind = OPTION_WORD;
-  else *kind = OPTION_NUMBER;
-  return OptionIsOneOf(ours, OptionsOurs);
+  if (ours >= 0) *kind = OptionsOurs[ours].kind;
+  return (PetscBool)(ours >= 0);
 }
 
 /* Gets the words of which the option's value must be one. Returns false if the option allows any value. */
 PetscBool OptionGetChoices(const char name[], const char *const **words)
 {
-  const char *ours = name + OptionPrefixLength(name);
+  const PetscInt ours = OptionFind(name + OptionPrefixLength(name));
 
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(OptionsChoices); ++k) {
-    if (strcasecmp(ours, OptionsChoices[k].name)) continue;
-    *words = OptionsChoices[k].words;
-    return PETSC_TRUE;
-  }
-  return PETSC_FALSE;
+  if (ours < 0 || !OptionsOurs[ours].words[0]) return PETSC_FALSE;
+  *words = OptionsOurs[ours].words;
+  return PETSC_TRUE;
 }

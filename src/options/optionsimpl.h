@@ -15,9 +15,11 @@ typedef enum {
   OPTION_KINDS
 } OptionKind;
 
-PETSC_INTERN const char *const OptionsOurs[], *const OptionsUsual[];
-PETSC_INTERN PetscBool OptionIsKnown(const char name[]);
-/* returns false if the option is not one of OptionsOurs */
+PETSC_INTERN const char *const OptionsUsual[];
+/* returns the k-th name of our options; NULL after the last */
+PETSC_INTERN const char *OptionGetOurs(PetscInt k);
+PETSC_INTERN PetscBool   OptionIsKnown(const char name[]);
+/* returns false if the option is not one of ours */
 PETSC_INTERN PetscBool OptionGetKind(const char name[], OptionKind *);
 /* returns false if any value is allowed */
 PETSC_INTERN PetscBool OptionGetChoices(const char name[], const char *const **words);

@@ -5,7 +5,6 @@ static PetscBool initialized = PETSC_FALSE;
 
 #if !defined(PETSC_USE_COMPLEX)
   #include "pc_amgf/blockamg/blockamgimpl.h"
-  #include "pc_amgf/cholesky/solver.h"
 PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao);
 #endif
 PETSC_EXTERN PetscErrorCode PetscDLLibraryRegister_petscamgf(void);
@@ -37,7 +36,6 @@ PetscErrorCode PetscAMGFInitializePackage(void)
   PetscCall(PCRegister(PCAMGF, PCCreate_AMGF));
 #if !defined(PETSC_USE_COMPLEX)
   PetscCall(PCRegister(PCBLOCKAMG, PCCreate_BlockAMG));
-  PetscCall(AMGFCholeskyRegister());
   PetscCall(TaoRegister(TAOIPFILTER, TaoCreate_IPFilter));
 #endif
   PetscCall(PCAMGFLogRegister_Private());

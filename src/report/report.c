@@ -76,7 +76,7 @@ PetscErrorCode ReportPreconditioner(KSP ksp, const PCAMGFCounts *before, StepRep
     PetscCall(PCAMGFGetFilterSize(pc, &report->filter_dofs));
     report->amg_applications += counts.amg_applies - before->amg_applies;
     report->amg_setups += counts.amg_setups - before->amg_setups;
-    PetscCall(PCAMGFGetFactored(pc, &report->factored, NULL));
+    PetscCall(PCAMGFGetFactored(pc, &report->factored));
   } else {
     report->amg_applications = 0;
     for (PetscInt i = 0; i < report->nksp; ++i) report->amg_applications += report->ksp_iterations[i];

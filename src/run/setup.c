@@ -58,7 +58,6 @@ static PetscErrorCode SimulationSetUpTangent(Simulation sim)
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
   PetscCall(TiesCreateTangent(&constraints, &sim->K));
-  PetscCall(PetscObjectCompose((PetscObject)sim->K, PCAMGF_COORDINATES_KEY, (PetscObject)sim->places.x));
   if (linear || sim->ties.C) PetscCall(TiesTangent(&constraints, sim->path->u, sim->K));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);

@@ -114,21 +114,3 @@ PetscErrorCode PathAdvance(LoadPath *path, PetscReal time, Vec *u)
   *u                      = oldest;
   PetscFunctionReturn(0);
 }
-
-/*
-   Estimates how many solves with the present stiffness follow until the end of the load program. *n: number of these
-   solves, including the present one; at least two solves per load step are assumed if the gap is linearized more than
-   once. If the bodies are not linear, only the present load step counts.
-*/
-PetscErrorCode PathSolvesToCome(Simulation sim, PetscInt *n)
-{
-  const PetscReal updates = sim->scene->npairs && sim->scene->contact_updates > 1 ? 2.0 : 1.0;
-  PetscReal       steps   = PetscMax((PetscReal)sim->scene->nsteps - sim->path->time, 1.0);
-  PetscBool       linear;
-
-  PetscFunctionBegin;
-  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
-  if (!linear) steps = 1.0;
-  *n = (PetscInt)(updates * steps);
-  PetscFunctionReturn(0);
-}

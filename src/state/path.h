@@ -25,7 +25,6 @@ struct _n_LoadPath {
 PETSC_INTERN PetscErrorCode PathContinue(Simulation, PetscReal time, Vec u);
 PETSC_INTERN PetscErrorCode PathIsSmooth(Simulation, PetscReal time, PetscBool *smooth);
 PETSC_INTERN PetscErrorCode PathPressureScale(Simulation, PetscReal time, PetscReal *scale);
-PETSC_INTERN PetscErrorCode PathSolvesToCome(Simulation, PetscInt *);
 PETSC_INTERN PetscErrorCode PathAdvance(LoadPath *, PetscReal time, Vec *u);
 
 #endif

@@ -17,11 +17,12 @@
 #include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/stiffness.h"
 #include "pc_amgf/mumps.h"
+#include "pc_amgf/sparse_factors.h"
 
 PetscErrorCode IPAugmentedDestroy(IPAugmented *aug)
 {
   PetscFunctionBegin;
-  PetscCall(KSPDestroy(&aug->ksp));
+  PetscCall(MatDestroy(&aug->F));
   PetscCall(MatDestroy(&aug->K));
   PetscCall(MatDestroy(&aug->shift));
   PetscCall(VecDestroy(&aug->rhs));
@@ -31,49 +32,19 @@ PetscErrorCode IPAugmentedDestroy(IPAugmented *aug)
   PetscFunctionReturn(0);
 }
 
-/* Checks that the PC is a Cholesky factorization. Only its factors tell the inertia. */
-static PetscErrorCode AugmentedCheckType(PC pc)
-{
-  const char *prefix;
-  PCType      type;
-  PetscBool   cholesky;
-
-  PetscFunctionBegin;
-  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCCHOLESKY, &cholesky));
-  PetscCall(PCGetType(pc, &type));
-  PetscCall(PCGetOptionsPrefix(pc, &prefix));
-  PetscCheck(cholesky, PetscObjectComm((PetscObject)pc), PETSC_ERR_SUP,
-    "-%spc_type must be cholesky, not %s: TAOIPFILTER needs the inertia of the augmented system of equality "
-    "constraints",
-    prefix, type);
-  PetscFunctionReturn(0);
-}
-
-/* Creates the KSP of the factorization, with the options prefix -tao_ipfilter_augmented_, and the matrix -delta I */
+/* Creates the matrix -delta I */
 static PetscErrorCode AugmentedCreate(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
   IPAugmented  *aug  = ip->aug;
   MPI_Comm      comm = PetscObjectComm((PetscObject)tao);
-  PC            pc;
   PetscInt      m;
   PetscBool     mumps;
 
   PetscFunctionBegin;
-  if (aug->shift) PetscFunctionReturn(0); /* the last to be created */
-  PetscCall(KSPDestroy(&aug->ksp));
+  if (aug->shift) PetscFunctionReturn(0);
   PetscCall(AMGFMumpsFactors(MATSEQAIJ, MAT_FACTOR_CHOLESKY, &mumps));
   PetscCheck(mumps, comm, PETSC_ERR_SUP, "TAOIPFILTER needs a PETSc with MUMPS for equality constraints");
-  PetscCall(KSPCreate(comm, &aug->ksp));
-  PetscCall(PetscObjectIncrementTabLevel((PetscObject)aug->ksp, (PetscObject)tao, 1));
-  PetscCall(KSPSetOptionsPrefix(aug->ksp, ((PetscObject)tao)->prefix));
-  PetscCall(KSPAppendOptionsPrefix(aug->ksp, "tao_ipfilter_augmented_"));
-  PetscCall(KSPSetType(aug->ksp, KSPPREONLY));
-  PetscCall(KSPGetPC(aug->ksp, &pc));
-  PetscCall(PCSetType(pc, PCCHOLESKY));
-  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
-  PetscCall(KSPSetFromOptions(aug->ksp));
-  PetscCall(AugmentedCheckType(pc));
   PetscCall(VecGetLocalSize(ip->at.ce, &m));
   PetscCall(MatCreateAIJ(comm, m, m, ip->me, ip->me, 1, NULL, 0, NULL, &aug->shift));
   PetscFunctionReturn(0);
@@ -133,7 +104,7 @@ static PetscErrorCode AugmentedTake(IPAugmented *aug, Mat *K)
     PetscCall(MatDestroy(K));
     PetscFunctionReturn(0);
   }
-  PetscCall(KSPReset(aug->ksp)); /* creates a new factor object, which gets its settings again */
+  PetscCall(MatDestroy(&aug->F));
   PetscCall(MatDestroy(&aug->K));
   PetscCall(MatSetOption(*K, MAT_SYMMETRIC, PETSC_TRUE));
   aug->K = *K;
@@ -172,75 +143,26 @@ static PetscErrorCode AugmentedAssemble(Tao tao, Mat A)
 }
 
 /*
-   Sets up the KSP with the ordering "approximate minimum fill", unless the user has chosen one. PETSc reads MUMPS's
-   ordering only from the options database.
+   Factors K, with the options prefix -tao_ipfilter_augmented_. Without METIS, MUMPS would choose the ordering PORD,
+   whose analysis of the zero blocks takes longer than some factorizations. The small pivot threshold is IPOPT's;
+   delayed pivots need work space.
 */
-static PetscErrorCode AugmentedSetUpOrdered(KSP ksp)
+static PetscErrorCode AugmentedFactorOnce(Tao tao, MatFactorError *error)
 {
-  PetscOptions options;
-  const char  *prefix;
-  char         name[PETSC_MAX_OPTION_NAME];
-  PetscBool    given;
+  IPAugmented      *aug        = ((TAO_IPFILTER *)tao->data)->aug;
+  const AMGFSetting settings[] = {{"mat_mumps_icntl_6", "0"}, /* the ordering must not depend on values, which change */
+    {"mat_mumps_icntl_7", "2"},                               /* approximate minimum fill */
+    {"mat_mumps_icntl_14", "100"},                            /* work space beyond MUMPS's estimate [per cent] */
+    {"mat_mumps_icntl_24", "1"},                              /* detects null pivots, which count in the inertia */
+    {"mat_mumps_cntl_1", aug->safe ? "1e-2" : "1e-6"},        /* relative pivot threshold */
+    {NULL, NULL}};
+  const char       *prefix;
+  char              own[PETSC_MAX_OPTION_NAME];
 
   PetscFunctionBegin;
-  PetscCall(PetscObjectGetOptions((PetscObject)ksp, &options));
-  PetscCall(KSPGetOptionsPrefix(ksp, &prefix));
-  PetscCall(PetscSNPrintf(name, sizeof(name), "-%smat_mumps_icntl_7", prefix));
-  PetscCall(PetscOptionsHasName(options, NULL, name, &given));
-  if (!given) PetscCall(PetscOptionsSetValue(options, name, "2"));
-  PetscCall(KSPSetUp(ksp));
-  if (!given) PetscCall(PetscOptionsClearValue(options, name));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Factors K once. Without METIS, MUMPS would choose the ordering PORD, whose analysis of the zero blocks takes longer
-   than some factorizations; the ordering is therefore set. The pivot threshold is as small as IPOPT's, since delayed
-   pivots need work space.
-*/
-static PetscErrorCode AugmentedFactorOnce(IPAugmented *aug, PCFailedReason *failed)
-{
-  PC          pc;
-  Mat         F;
-  const char *prefix;
-
-  PetscFunctionBegin;
-  PetscCall(PetscObjectStateIncrease((PetscObject)aug->K)); /* makes PETSc factor again, even if only the work space
-                                                               has grown */
-  PetscCall(KSPSetOperators(aug->ksp, aug->K, aug->K));
-  PetscCall(KSPGetPC(aug->ksp, &pc));
-  PetscCall(PCGetOptionsPrefix(pc, &prefix));
-  PetscCall(MatSetOptionsPrefixFactor(aug->K, prefix)); /* PCSetUp() sets the prefix too late for a factor that already
-                                                   exists */
-  PetscCall(PCFactorSetUpMatSolverType(pc));
-  PetscCall(PCFactorGetMatrix(pc, &F));
-  PetscCall(MatFactorClearError(F));
-  PetscCall(AMGFMumpsSetIcntl(F, 6, 0)); /* the ordering must not depend on values, which change */
-  PetscCall(AMGFMumpsSetIcntl(F, 14, aug->relaxation));
-  PetscCall(AMGFMumpsSetIcntl(F, 24, 1)); /* detects null pivots, which count in the inertia */
-  PetscCall(AMGFMumpsSetCntl(F, 1, aug->pivot));
-  PetscCall(AugmentedSetUpOrdered(aug->ksp));
-  PetscCall(PCGetFailedReason(pc, failed));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, failed, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)aug->ksp)));
-  PetscFunctionReturn(0);
-}
-
-/* Factors K, and repeats the factorization with more work space as long as MUMPS reports too little */
-static PetscErrorCode AugmentedFactorWithin(IPAugmented *aug, PCFailedReason *failed)
-{
-  const PetscInt  first = 100; /* work space beyond MUMPS's estimate [per cent] */
-  const PetscReal pivot = 1e-6;
-
-  PetscFunctionBegin;
-  if (!aug->relaxation) (void)AMGFMumpsMoreSpace(first, &aug->relaxation);
-  if (aug->pivot == 0.0) aug->pivot = pivot;
-  PetscCall(AugmentedFactorOnce(aug, failed));
-  while (*failed == PC_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(first, &aug->relaxation)) {
-    PetscCall(KSPReset(aug->ksp)); /* otherwise PETSc would report MUMPS's error as an error of the analysis */
-    PetscCall(AugmentedFactorOnce(aug, failed));
-  }
-  /* A failed factorization must not be reused. */
-  if (*failed != PC_NOERROR) PetscCall(KSPReset(aug->ksp));
+  PetscCall(TaoGetOptionsPrefix(tao, &prefix));
+  PetscCall(PetscSNPrintf(own, sizeof(own), "%stao_ipfilter_augmented_", prefix ? prefix : ""));
+  PetscCall(AMGFMumpsFactor(aug->K, own, settings, NULL, &aug->F, error));
   PetscFunctionReturn(0);
 }
 
@@ -265,9 +187,7 @@ static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *si
 {
   TAO_IPFILTER  *ip  = (TAO_IPFILTER *)tao->data;
   IPAugmented   *aug = ip->aug;
-  PC             pc;
-  PCFailedReason failed;
-  Mat            F;
+  MatFactorError error;
   PetscInt       negative, zero, positive, n;
   PetscBool      undefined = PETSC_TRUE;
 
@@ -278,12 +198,12 @@ static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *si
     PetscCall(IPResidualNotANumber(tao));
     PetscFunctionReturn(0);
   }
-  PetscCall(AugmentedFactorWithin(aug, &failed));
-  *singular = (PetscBool)(failed == PC_FACTOR_NUMERIC_ZEROPIVOT || failed == PC_FACTOR_STRUCT_ZEROPIVOT);
+  PetscCall(AugmentedFactorOnce(tao, &error));
+  *singular = (PetscBool)(error == MAT_FACTOR_NUMERIC_ZEROPIVOT || error == MAT_FACTOR_STRUCT_ZEROPIVOT);
   if (*singular) PetscFunctionReturn(0);
-  if (failed != PC_NOERROR) {
+  if (error) {
     PetscCall(PetscStrncpy(ip->lin->why,
-      failed == PC_FACTOR_OUTMEMORY ? "MUMPS has not enough memory for the augmented system"
+      error == MAT_FACTOR_OUTMEMORY ? "MUMPS has not enough memory for the augmented system"
                                     : "MUMPS failed on the augmented system",
       sizeof(ip->lin->why)));
     ip->rec->fallbacks.failures++;
@@ -291,9 +211,7 @@ static PetscErrorCode AugmentedFactor(Tao tao, PetscBool *inertia, PetscBool *si
     ip->lin->reason = KSP_DIVERGED_PC_FAILED;
     PetscFunctionReturn(0);
   }
-  PetscCall(KSPGetPC(aug->ksp, &pc));
-  PetscCall(PCFactorGetMatrix(pc, &F));
-  PetscCall(MatGetInertia(F, &negative, &zero, &positive));
+  PetscCall(MatGetInertia(aug->F, &negative, &zero, &positive));
   PetscCall(VecGetSize(tao->solution, &n));
   *singular = (PetscBool)(zero > 0 || negative + positive < n + ip->me);
   *inertia  = (PetscBool)(!*singular && negative == ip->me);
@@ -371,7 +289,7 @@ static PetscErrorCode AugmentedRefine(Tao tao)
     }
     if (needless || !(ip->lin->norm > exact * rhs) || !(ip->lin->norm <= 0.5 * before) || k == limit) break;
     before = ip->lin->norm;
-    PetscCall(KSPSolve(aug->ksp, aug->residual, aug->correction));
+    PetscCall(MatSolve(aug->F, aug->residual, aug->correction));
     PetscCall(VecAXPY(aug->sol, 1.0, aug->correction));
     ip->rec->fallbacks.refinements++;
   }
@@ -419,23 +337,22 @@ static PetscErrorCode AugmentedFactorRegular(Tao tao, PetscBool *inertia)
 */
 static PetscErrorCode AugmentedSolveRefined(Tao tao, PetscBool *usable)
 {
-  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  IPAugmented    *aug  = ip->aug;
-  const PetscReal safe = 1e-2, coarse = 1e-6;
-  PCFailedReason  failed = PC_NOERROR;
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  IPAugmented    *aug    = ip->aug;
+  const PetscReal coarse = 1e-6;
+  MatFactorError  error  = MAT_FACTOR_NOERROR;
   PetscBool       again  = PETSC_FALSE;
 
   PetscFunctionBegin;
   do {
-    if (again) PetscCall(AugmentedFactorWithin(aug, &failed));
-    if (failed == PC_NOERROR) {
-      PetscCall(KSPSolve(aug->ksp, aug->rhs, aug->sol));
-      PetscCall(KSPGetConvergedReason(aug->ksp, &ip->lin->reason));
-    } else ip->lin->reason = KSP_DIVERGED_PC_FAILED;
-    *usable = (PetscBool)(ip->lin->reason > 0);
+    if (again) PetscCall(AugmentedFactorOnce(tao, &error));
+    *usable         = (PetscBool)!error;
+    ip->lin->reason = *usable ? KSP_CONVERGED_ITS : KSP_DIVERGED_PC_FAILED;
+    if (*usable) PetscCall(MatSolve(aug->F, aug->rhs, aug->sol));
     if (*usable) PetscCall(AugmentedRefine(tao));
-    again = (PetscBool)(*usable && aug->pivot < safe && ip->lin->backward_error > coarse);
-    if (again) aug->pivot = safe;
+    again = (PetscBool)(*usable && !aug->safe && ip->lin->backward_error > coarse);
+    if (again) aug->safe = PETSC_TRUE;
+    if (again) PetscCall(MatDestroy(&aug->F)); /* MUMPS reads the threshold before its analysis */
   } while (again);
   PetscFunctionReturn(0);
 }
@@ -511,7 +428,7 @@ PetscErrorCode IPAugmentedMultipliers(Tao tao)
   if (!inertia) PetscFunctionReturn(0);
   PetscCall(VecScale(ip->rx, -1.0));
   PetscCall(AugmentedJoin(ip->aug->rhs, ip->rx, ip->at.y, PETSC_FALSE));
-  PetscCall(KSPSolve(ip->aug->ksp, ip->aug->rhs, ip->aug->sol));
+  PetscCall(MatSolve(ip->aug->F, ip->aug->rhs, ip->aug->sol));
   PetscCall(AugmentedJoin(ip->aug->sol, ip->rx, ip->at.y, PETSC_TRUE));
   PetscFunctionReturn(0);
 }

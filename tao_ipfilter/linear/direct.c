@@ -12,6 +12,7 @@
 #include "tao_ipfilter/solver/quasinewton.h"
 #include "tao_ipfilter/solver/record.h"
 #include "pc_amgf/mumps.h"
+#include "pc_amgf/sparse_factors.h"
 
 PetscErrorCode IPDirectDestroy(IPDirect *direct)
 {
@@ -56,37 +57,6 @@ static PetscErrorCode DirectTakeMatrix(Mat A, IPDirect *direct)
   PetscFunctionReturn(0);
 }
 
-/* Lets MUMPS analyse the matrix and predict the memory of the factors. direct->F is NULL if the analysis failed. */
-static PetscErrorCode DirectAnalyse(Tao tao)
-{
-  TAO_IPFILTER  *ip     = (TAO_IPFILTER *)tao->data;
-  IPDirect      *direct = ip->direct;
-  MatFactorError error;
-  MatFactorInfo  info;
-  const char    *prefix;
-  char           own[PETSC_MAX_PATH_LEN];
-  PetscInt       estimate;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetFactor(direct->A, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &direct->F));
-  PetscCall(TaoGetOptionsPrefix(tao, &prefix));
-  PetscCall(PetscSNPrintf(own, sizeof(own), "%stao_ipfilter_direct_", prefix ? prefix : ""));
-  PetscCall(MatSetOptionsPrefix(direct->F, own));
-  PetscCall(AMGFMumpsSetIcntl(direct->F, 6, 0));  /* the ordering must not depend on values, which change */
-  PetscCall(AMGFMumpsSetIcntl(direct->F, 8, 1));  /* scale by the diagonal of the matrix to be factored */
-  PetscCall(AMGFMumpsSetIcntl(direct->F, 13, 1)); /* with ScaLAPACK, MUMPS would not count the negative pivots of the
-                                                     root node */
-  PetscCall(AMGFMumpsSetIcntl(direct->F, 14, direct->relaxation));
-  PetscCall(MatFactorInfoInitialize(&info));
-  PetscCall(MatCholeskyFactorSymbolic(direct->F, direct->A, NULL, &info));
-  PetscCall(MatFactorGetError(direct->F, &error));
-  if (error == MAT_FACTOR_NOERROR) {
-    PetscCall(AMGFMumpsGetInfog(direct->F, 17, &estimate));
-    direct->memory = (PetscReal)estimate;
-  } else PetscCall(MatDestroy(&direct->F));
-  PetscFunctionReturn(0);
-}
-
 /*
    Computes a lower bound of the memory of the factors [1e6 bytes]: half of the matrix. If it exceeds the limit, no
    analysis is made.
@@ -113,35 +83,26 @@ static PetscErrorCode DirectAllows(TAO_IPFILTER *ip, PetscReal memory, PetscBool
   PetscFunctionReturn(0);
 }
 
-/*
-   Factors the matrix, and repeats this with more work space if MUMPS's estimate was too small. Later matrices get the
-   same work space. If the factorization fails, the factors are destroyed.
-*/
+/* Factors the matrix; *error: MAT_FACTOR_OUTMEMORY also if the factors may not be so large, see DirectAllows() */
 static PetscErrorCode DirectFactorWithin(Tao tao, MatFactorError *error)
 {
+  static const AMGFSetting settings[] = {
+    {"mat_mumps_icntl_6", "0"}, /* the ordering must not depend on values, which change */
+    {"mat_mumps_icntl_8", "1"}, /* scale by the diagonal of the matrix to be factored */
+    AMGF_COUNT_ALL_PIVOTS, {NULL, NULL}};
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
-  IPDirect     *direct = ip->direct;
-  MatFactorInfo info;
-  PetscBool     again, allows;
+  PetscReal     memory = ip->opt->direct_memory;
+  PetscBool     allows;
+  const char   *prefix;
+  char          own[PETSC_MAX_OPTION_NAME];
 
   PetscFunctionBegin;
-  PetscCall(MatFactorInfoInitialize(&info));
-  if (!direct->relaxation) (void)AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, &direct->relaxation);
-  do {
-    *error = MAT_FACTOR_OTHER;
-    PetscCall(PetscStrncpy(ip->lin->why, "MUMPS failed on the whole matrix", sizeof(ip->lin->why)));
-    if (!direct->F) PetscCall(DirectAnalyse(tao));
-    if (!direct->F) break;
-    PetscCall(DirectAllows(ip, direct->memory, &allows));
-    if (!allows) break;
-    PetscCall(MatCholeskyFactorNumeric(direct->F, direct->A, &info));
-    PetscCall(MatFactorGetError(direct->F, error));
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, error, 1, MPI_INT, MPI_MAX, PetscObjectComm((PetscObject)tao)));
-    PetscCall(PetscInfo(tao, "MUMPS on the whole matrix, %g MB: error %d\n", (double)direct->memory, (int)*error));
-    again =
-      (PetscBool)(*error == MAT_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, &direct->relaxation));
-    if (*error != MAT_FACTOR_NOERROR) PetscCall(MatDestroy(&direct->F));
-  } while (again);
+  PetscCall(TaoGetOptionsPrefix(tao, &prefix));
+  PetscCall(PetscSNPrintf(own, sizeof(own), "%stao_ipfilter_direct_", prefix ? prefix : ""));
+  PetscCall(AMGFMumpsFactor(ip->direct->A, own, settings, &memory, &ip->direct->F, error));
+  PetscCall(PetscInfo(tao, "MUMPS on the whole matrix, %g MB: error %d\n", (double)memory, (int)*error));
+  PetscCall(PetscStrncpy(ip->lin->why, "MUMPS failed on the whole matrix", sizeof(ip->lin->why)));
+  PetscCall(DirectAllows(ip, memory, &allows));
   PetscFunctionReturn(0);
 }
 

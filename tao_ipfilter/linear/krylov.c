@@ -268,7 +268,7 @@ PetscErrorCode IPKrylovIndefinite(Tao tao, PetscBool *indefinite)
   PetscCall(KSPGetPC(tao->ksp, &pc));
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
   if (!amgf) PetscFunctionReturn(0);
-  PetscCall(PCAMGFGetFactored(pc, &factored, NULL));
+  PetscCall(PCAMGFGetFactored(pc, &factored));
   if (!factored && !ip->lin->filtered) PetscFunctionReturn(0);
   PetscCall(KrylovDrowned(tao, &drowned));
   if (drowned) PetscFunctionReturn(0);

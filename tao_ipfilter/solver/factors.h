@@ -9,25 +9,19 @@ struct _n_IPDirect {
   PetscBool        converted;     /* whether A is a converted copy of the condensed matrix */
   PetscObjectId    pattern_id;    /* object id of the matrix that MUMPS analysed */
   PetscObjectState pattern_state; /* state of its nonzero pattern */
-  PetscReal        memory;        /* memory of the factors on all ranks as predicted by MUMPS [1e6 bytes] */
   PetscInt         system;        /* number of the factored system, a value of rec.nsystems; 0: none */
-  PetscInt relaxation; /* work space beyond MUMPS's estimate in the last successful factorization [per cent]; 0: no
-                   factorization yet */
-  PetscInt negative;   /* number of negative pivots */
+  PetscInt         negative;      /* number of negative pivots */
 };
 
 /* augmented.c: the symmetric system [A J_E^T; J_E -delta] for equality constraints, and its factorization */
 struct _n_IPAugmented {
-  KSP       ksp;
-  Mat       K;
-  Mat       shift;      /* the diagonal matrix -delta I */
-  PetscReal delta;      /* diagonal value delta: that of a restoration step, or the regularization of dependent
+  Mat       K, F;     /* the system; its factors */
+  Mat       shift;    /* the diagonal matrix -delta I */
+  PetscReal delta;    /* diagonal value delta: that of a restoration step, or the regularization of dependent
                            constraints; 0: none */
-  PetscBool centered;   /* whether the regularization acts on the change of the multipliers; otherwise it acts on the
+  PetscBool centered; /* whether the regularization acts on the change of the multipliers; otherwise it acts on the
                            multipliers */
-  PetscInt  relaxation; /* work space beyond MUMPS's estimate in the last successful factorization [per cent]; 0: no
-                           factorization yet */
-  PetscReal pivot;      /* relative pivot threshold in the last successful factorization; 0: no factorization yet */
+  PetscBool safe;     /* whether the relative pivot threshold is the large one */
   Vec       rhs, sol, residual, correction;
 };
 

@@ -41,7 +41,6 @@ struct _n_IPGiven {
   Vec       warm_y;                  /* initial multipliers of the equality constraints */
   Vec       warm_lower, warm_upper;  /* initial multipliers of the bounds */
   PetscReal rounding;                /* rounding errors of the unknowns; 0: unknown */
-  PetscInt  solves_to_come;          /* number of solves with the same Hessian, including the next; 0: unknown */
   PetscErrorCode (*interrupt)(void *, PetscBool *); /* whether the user wants to end the solve */
   void *interrupt_ctx;
 };

@@ -50,15 +50,6 @@ static PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao tao, PetscContainer sp
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode TaoIPFilterSetSolvesToCome_IPFilter(Tao tao, PetscInt n)
-{
-  PetscFunctionBegin;
-  PetscCheck(n >= 1, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
-    "The number of solves to come must be at least 1, but is %" PetscInt_FMT, n);
-  ((TAO_IPFILTER *)tao->data)->given->solves_to_come = n;
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode TaoIPFilterSetModes_IPFilter(Tao tao, Mat modes)
 {
   IPGiven *given = ((TAO_IPFILTER *)tao->data)->given;
@@ -84,7 +75,6 @@ static PetscErrorCode TaoIPFilterSetInterrupt_IPFilter(Tao tao, PetscErrorCode (
 static const AMGFFunction functions[] = {
   AMGF_FUNCTION(TaoIPFilterGetSubspace, IPFilter),
   AMGF_FUNCTION(TaoIPFilterSetSubspace, IPFilter),
-  AMGF_FUNCTION(TaoIPFilterSetSolvesToCome, IPFilter),
   AMGF_FUNCTION(TaoIPFilterSetModes, IPFilter),
   AMGF_FUNCTION(TaoIPFilterSetInterrupt, IPFilter),
 };
@@ -157,33 +147,6 @@ PetscErrorCode TaoIPFilterGetSubspace(Tao tao, PetscContainer *space)
   PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscAssertPointer(space, 2);
   PetscUseMethod(tao, "TaoIPFilterGetSubspace_C", (Tao, PetscContainer *), (tao, space));
-  PetscFunctionReturn(0);
-}
-
-/*@
-  TaoIPFilterSetSolvesToCome - Sets the expected number of solves with the same Hessian, from which the filtered
-  subspace method chooses its preconditioner
-
-  Logically Collective
-
-  Input Parameters:
-+ tao - the `TAOIPFILTER`
-- n   - number of solves, including the next one; default 1
-
-  Level: advanced
-
-  Note:
-  If there are many solves, a factorization of the Hessian is cheaper than the AMG. The choice is made by
-  `PC_AMGF_FACTOR_AUTO`, which is the default of `-tao_ipfilter_pc_amgf_factor`.
-
-.seealso: `TAOIPFILTER`, `TaoIPFilterSetSubspace()`, `PCAMGFExpect()`
-@*/
-PetscErrorCode TaoIPFilterSetSolvesToCome(Tao tao, PetscInt n)
-{
-  PetscFunctionBegin;
-  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
-  PetscValidLogicalCollectiveInt(tao, n, 2);
-  PetscTryMethod(tao, "TaoIPFilterSetSolvesToCome_C", (Tao, PetscInt), (tao, n));
   PetscFunctionReturn(0);
 }
 

@@ -3,7 +3,7 @@
    needed first. All data are on the first rank.
 */
 #include "subspaceimpl.h"
-#include "pc_amgf/solver_types.h"
+#include "pc_amgf/sparse_factors.h"
 #include <petscblaslapack.h>
 
 PetscErrorCode IPComplianceDestroy(IPCompliance *c)
@@ -22,16 +22,9 @@ PetscErrorCode IPComplianceDestroy(IPCompliance *c)
 static PetscErrorCode ComplianceFactor(Mat K, Mat *F, PetscBool *definite)
 {
   MatFactorError error;
-  MatFactorInfo  info;
 
   PetscFunctionBegin;
-  PetscCall(MatFactorInfoInitialize(&info));
-  if (!*F) {
-    PetscCall(MatGetFactor(K, MATSOLVERAMGF, MAT_FACTOR_CHOLESKY, F));
-    PetscCall(MatCholeskyFactorSymbolic(*F, K, NULL, &info));
-  }
-  PetscCall(MatCholeskyFactorNumeric(*F, K, &info));
-  PetscCall(MatFactorGetError(*F, &error));
+  PetscCall(AMGFSymmetricFactor(K, NULL, F, NULL, &error));
   *definite = (PetscBool)(error == MAT_FACTOR_NOERROR);
   PetscFunctionReturn(0);
 }
@@ -54,24 +47,26 @@ PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, PetscBool *definite)
 }
 
 /*
-   Finds whether a pivot of K was clearly negative in a factorization that has failed. K is then not singular, but has a
-   negative eigenvalue.
+   Finds whether K, which is not positive definite, has a negative eigenvalue beyond rounding. K is otherwise singular,
+   and positive definite after its diagonal is increased by the square root of the rounding unit.
 */
-PetscErrorCode IPComplianceIsNegative(const IPCompliance *c, Mat K, PetscBool *negative)
+PetscErrorCode IPComplianceIsNegative(Mat K, PetscBool *negative)
 {
-  const PetscReal    clearly = 1e-3;
-  const PetscScalar *d;
-  PetscReal          pivot;
-  PetscInt           row;
-  Vec                diagonal;
+  Mat       shifted, F = NULL;
+  Vec       diagonal;
+  PetscBool definite = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(MatFactorGetErrorZeroPivot(c->F, &pivot, &row));
+  PetscCall(MatDuplicate(K, MAT_COPY_VALUES, &shifted));
   PetscCall(MatCreateVecs(K, &diagonal, NULL));
   PetscCall(MatGetDiagonal(K, diagonal));
-  PetscCall(VecGetArrayRead(diagonal, &d));
-  *negative = (PetscBool)(pivot < -clearly * PetscAbsScalar(d[row]));
-  PetscCall(VecRestoreArrayRead(diagonal, &d));
+  PetscCall(VecScale(diagonal, PETSC_SQRT_MACHINE_EPSILON));
+  PetscCall(VecAbs(diagonal));
+  PetscCall(MatDiagonalSet(shifted, diagonal, ADD_VALUES));
+  PetscCall(ComplianceFactor(shifted, &F, &definite));
+  *negative = (PetscBool)!definite;
+  PetscCall(MatDestroy(&F));
+  PetscCall(MatDestroy(&shifted));
   PetscCall(VecDestroy(&diagonal));
   PetscFunctionReturn(0);
 }

@@ -372,37 +372,6 @@ static PetscErrorCode FilteredResidual(Tao tao, const IPBasis *basis, Vec r, Pet
 }
 
 /*
-   Estimates, after at least eight more applications of the preconditioner, how many more are needed, and lets
-   IPRecycleReconsider() choose between AMG and a factorization. The estimate divides the decimal digits of the
-   KKT error that are still to be gained by the digits gained per application. These are counted since the beginning, or
-   since the last estimate if that was faster: convergence is slow until the active set settles. Before the first
-   digit is gained these rates are meaningless; the estimate is then twice the number of applications so far.
-*/
-static PetscErrorCode FilteredReconsider(Tao tao, IPRecycle *recycle, PetscBool *possible)
-{
-  TAO_IPFILTER   *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered     *f  = IPFilteredOf(tao);
-  const PetscInt  n = ip->rec->napplications, every = 8;
-  const PetscReal error = IPBothErrors(ip), least = 1.0;
-  PetscReal       gained, rate, left;
-
-  PetscFunctionBegin;
-  *possible = PETSC_TRUE;
-  if (n == 0) {
-    f->begin = f->considered = error;
-    f->nconsidered           = 0;
-  }
-  if (n - f->nconsidered < every) PetscFunctionReturn(0);
-  gained         = PetscLog10Real(f->begin / error);
-  rate           = PetscMax(gained / n, PetscLog10Real(f->considered / error) / (n - f->nconsidered));
-  left           = gained < least ? 2.0 * n : PetscLog10Real(PetscMax(error / ip->tol, 1.0)) / rate;
-  f->considered  = error;
-  f->nconsidered = n;
-  PetscCall(IPRecycleReconsider(tao, recycle, left, possible));
-  PetscFunctionReturn(0);
-}
-
-/*
    Makes one iteration: adds a direction and solves the reduced problem. If the last reduced problem was not solved
    exactly, it is solved again from the present point without a new direction. With norm terms, which are solved to a
    tolerance, the residual may lie in the span of existing directions. *done: false if no progress is possible.
@@ -424,7 +393,6 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
   PetscCall(IPRecycleGet(tao, &recycle));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
   PetscCall(FilteredResidual(tao, &recycle->basis, r, &exact));
-  if (*done && exact) PetscCall(FilteredReconsider(tao, recycle, done));
   if (*done && exact) PetscCall(FilteredAddDirection(tao, recycle, r, ip->terms->n ? &exact : done));
   f->ncentred = exact || (recycle->whole && !f->nfutile) ? 0 : f->ncentred + 1;
   if (f->ncentred > in_a_row) *done = PETSC_FALSE;
@@ -516,7 +484,6 @@ static PetscErrorCode FilteredEnd(Tao tao)
   PetscFunctionBegin;
   if (ip->method->on) {
     PetscCall(IPRecycleGet(tao, &recycle));
-    recycle->napplications = ip->rec->napplications;
     if (ip->terms->n) PetscCall(IPReducedRelease(&recycle->reduced));
     else PetscCall(IPReducedScale(&recycle->reduced, ip->rows->inequality));
   }

@@ -30,7 +30,7 @@ static PetscErrorCode ModesAreServed(PC pc, PetscBool *served)
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
   *served = (PetscBool)!amgf;
-  if (amgf) PetscCall(PCAMGFGetFactored(pc, served, NULL));
+  if (amgf) PetscCall(PCAMGFGetFactored(pc, served));
   PetscFunctionReturn(0);
 }
 

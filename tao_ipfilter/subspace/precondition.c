@@ -28,7 +28,6 @@ static PetscErrorCode PreconditionApply(Tao tao, IPRecycle *recycle, Vec r, Vec 
   PetscCall(PetscLogEventEnd(TAO_IPFilterApply, tao, r, z, NULL));
   PetscCall(VecDot(r, z, &rz));
   *product = PetscRealPart(rz);
-  recycle->ncurrent++;
   ip->rec->napplications++;
   ip->rec->ksp_iterations[ip->rec->nksp - 1]++;
   tao->ksp_its++;
@@ -118,7 +117,7 @@ static PetscErrorCode PreconditionMayImprove(Tao tao, const IPRecycle *recycle, 
 
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)recycle->pc, PCAMGF, &amgf));
-  if (amgf) PetscCall(PCAMGFGetFactored(recycle->pc, &factored, NULL));
+  if (amgf) PetscCall(PCAMGFGetFactored(recycle->pc, &factored));
   *may = (PetscBool)(!factored && !recycle->held && !IPFilteredOf(tao)->newton);
   PetscFunctionReturn(0);
 }

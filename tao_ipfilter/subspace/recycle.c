@@ -20,9 +20,7 @@ PetscErrorCode IPRecycleReset(IPRecycle *recycle)
   PetscCall(PCDestroy(&recycle->pc));
   PetscCall(IPBasisDestroy(&recycle->basis));
   PetscCall(IPReducedDestroy(&recycle->reduced));
-  recycle->K_id     = 0;
-  recycle->ncurrent = 0;
-  recycle->expected = 0.0;
+  recycle->K_id = 0;
   recycle->held = recycle->negative = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
@@ -65,7 +63,7 @@ static PetscErrorCode RecycleReadsRows(PC pc, PetscBool *rows)
   *rows = PETSC_FALSE;
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
   if (!amgf) PetscFunctionReturn(0);
-  PetscCall(PCAMGFGetFactored(pc, &factored, NULL));
+  PetscCall(PCAMGFGetFactored(pc, &factored));
   PetscCall(PCAMGFGetAMGPC(pc, &amg));
   PetscCall(PetscObjectTypeCompare((PetscObject)amg, PCBLOCKAMG, &block));
   *rows = (PetscBool)(!factored && !block);
@@ -95,38 +93,18 @@ static PetscErrorCode RecycleGetWhole(PC pc, Mat K, Mat *whole)
   PetscFunctionReturn(0);
 }
 
-/*
-   Tells PCAMGF how many applications to expect with K: `left` in this solve, and an estimate for later solves with the
-   same K. Has no effect before the first solve.
-*/
-static PetscErrorCode RecycleExpect(Tao tao, IPRecycle *recycle, PetscReal left)
-{
-  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscReal later    = 0.7,
-                  factored = 10.0; /* later: number of applications in a later solve relative to this one; factored:
-                                      number of applications in a solve with a factorization */
-  const PetscReal n        = ip->rec->napplications + left,
-                  solves   = recycle->changing ? 0.0 : PetscMax(ip->given->solves_to_come - 1, 0);
-
-  PetscFunctionBegin;
-  PetscCall(
-    PCAMGFExpect(recycle->pc, left + later * n * solves, PetscMin(factored, left) + PetscMin(factored, n) * solves));
-  PetscFunctionReturn(0);
-}
-
 /* Prints the choice of the linear solver once per solve, not at every Newton step */
 static PetscErrorCode RecycleSayChoice(Tao tao, PC pc)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscBool     factored;
-  const char   *why;
 
   PetscFunctionBegin;
-  PetscCall(PCAMGFGetFactored(pc, &factored, &why));
-  if (!ip->opt->monitor || !why[0] || (IPFilteredOf(tao)->newton && (tao->niter || ip->shift->delta > 0.0)))
+  PetscCall(PCAMGFGetFactored(pc, &factored));
+  if (!ip->opt->monitor || (IPFilteredOf(tao)->newton && (tao->niter || ip->shift->delta > 0.0)))
     PetscFunctionReturn(0);
-  PetscCall(PetscPrintf(PetscObjectComm((PetscObject)tao), "Linear solver: %s, %s\n",
-    factored ? "direct (Cholesky)" : "CG with AMG", why));
+  PetscCall(PetscPrintf(PetscObjectComm((PetscObject)tao), "Linear solver: %s\n",
+    factored ? "direct (Cholesky)" : "CG with AMG"));
   PetscFunctionReturn(0);
 }
 
@@ -160,60 +138,17 @@ static PetscErrorCode RecycleSetUpPC(Tao tao, IPRecycle *recycle, Mat A, Mat K, 
   PetscFunctionReturn(0);
 }
 
-/*
-   Estimates how many applications of the AMG a new K needs. Models of Newton's method need fewer than a quadratic
-   program, since they are solved to a larger tolerance. After the first model the number is the mean of the last
-   estimate and of the last model's applications. Solves with a factorization do not change the estimate.
-*/
-static PetscErrorCode RecycleForesee(Tao tao, IPRecycle *recycle, PetscReal *n)
-{
-  const PetscReal usual = 30.0, model = 12.0, share = 0.5;
-  PetscBool       amgf, factored = PETSC_FALSE;
-
-  PetscFunctionBegin;
-  if (recycle->expected == 0.0) recycle->expected = IPFilteredOf(tao)->newton ? model : usual;
-  else if (recycle->changing) {
-    PetscCall(PetscObjectTypeCompare((PetscObject)recycle->pc, PCAMGF, &amgf));
-    if (amgf) PetscCall(PCAMGFGetFactored(recycle->pc, &factored, NULL));
-    if (!factored) recycle->expected = (1.0 - share) * recycle->expected + share * recycle->ncurrent;
-  }
-  recycle->ncurrent = 0;
-  *n                = recycle->expected;
-  PetscFunctionReturn(0);
-}
-
 /* Sets up the preconditioner B for the Hessian K without constraints */
 static PetscErrorCode RecycleSetUpFree(Tao tao, IPRecycle *recycle, Mat K, PetscBool *possible)
 {
-  PetscReal n = 0.0;
-  Mat       whole;
+  Mat whole;
 
   PetscFunctionBegin;
-  PetscCall(RecycleForesee(tao, recycle, &n));
   PetscCall(PCSetOperators(recycle->pc, K, K));
-  PetscCall(RecycleExpect(tao, recycle, n));
   PetscCall(RecycleGetWhole(recycle->pc, K, &whole));
   PetscCall(RecycleSetUpPC(tao, recycle, whole, K, possible));
   PetscCall(MatDestroy(&whole));
   recycle->held = recycle->negative = PETSC_FALSE;
-  PetscFunctionReturn(0);
-}
-
-/* Changes from AMG to a factorization if `left` more applications make that cheaper. The directions remain valid. */
-PetscErrorCode IPRecycleReconsider(Tao tao, IPRecycle *recycle, PetscReal left, PetscBool *possible)
-{
-  PetscBool amgf, before, after;
-
-  PetscFunctionBegin;
-  *possible = PETSC_TRUE;
-  PetscCall(PetscObjectTypeCompare((PetscObject)recycle->pc, PCAMGF, &amgf));
-  if (!amgf || recycle->held) PetscFunctionReturn(0);
-  PetscCall(PCAMGFGetFactored(recycle->pc, &before, NULL));
-  PetscCall(RecycleExpect(tao, recycle, left));
-  PetscCall(PCAMGFGetFactored(recycle->pc, &after, NULL));
-  if (after != before)
-    PetscCall(RecycleSetUpPC(tao, recycle, ((TAO_IPFILTER *)tao->data)->hess->H, ((TAO_IPFILTER *)tao->data)->hess->H,
-      possible));
   PetscFunctionReturn(0);
 }
 
@@ -311,6 +246,22 @@ static PetscErrorCode RecycleGetRoom(Tao tao, PetscInt *room)
 }
 
 /*
+   Lets PCAMGF factor a small K, unless an option says otherwise. Most solves with K follow each other, while the
+   interior point method has another matrix for each solve.
+*/
+static PetscErrorCode RecycleAllowFactor(PC pc)
+{
+  PetscBool amgf;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
+  if (!amgf) PetscFunctionReturn(0);
+  PetscCall(PCAMGFSetFactor(pc, PC_AMGF_FACTOR_AUTO));
+  PetscCall(PCSetFromOptions(pc));
+  PetscFunctionReturn(0);
+}
+
+/*
    Updates the data for the present K, constraints and fixed variables. *possible: false if the preconditioner cannot be
    set up.
 */
@@ -332,6 +283,7 @@ PetscErrorCode IPRecycleUpdate(Tao tao, IPRecycle *recycle, PetscBool *possible)
     PetscCall(IPRecycleReset(recycle));
     PetscCall(PetscObjectReference((PetscObject)pc));
     recycle->pc = pc;
+    PetscCall(RecycleAllowFactor(pc));
     PetscCall(IPBasisCreate(max, tao->solution, &recycle->basis));
   }
   if (recycle->whole && ip->terms->n && IPFilteredOf(tao)->newton) {
@@ -342,7 +294,7 @@ PetscErrorCode IPRecycleUpdate(Tao tao, IPRecycle *recycle, PetscBool *possible)
     if (!recycle->held || recycle->negative) PetscCall(RecycleSetUpFree(tao, recycle, K, possible));
     if (recycle->held || !*possible) PetscCall(IPRecycleHold(tao, recycle, possible));
     new_K = PETSC_TRUE;
-  } else PetscCall(IPRecycleReconsider(tao, recycle, recycle->napplications, possible));
+  }
   recycle->K_id    = ((PetscObject)K)->id;
   recycle->K_state = state;
   PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, NULL, NULL, NULL));

@@ -72,7 +72,7 @@ static PetscErrorCode ReducedFactorFirst(IPReduced *r, PetscBool *definite)
 
   PetscFunctionBegin;
   PetscCall(IPComplianceSetUp(&r->compliance, r->KWW, definite));
-  if (!*definite) PetscCall(IPComplianceIsNegative(&r->compliance, r->KWW, &negative));
+  if (!*definite) PetscCall(IPComplianceIsNegative(r->KWW, &negative));
   if (negative) PetscFunctionReturn(0);
   if (*definite) PetscCall(IPCompanionsAreNeeded(r->KWW, &r->compliance, &singular));
   if (!*definite || singular) PetscCall(IPCompanionsTake(r->KWW, &r->companions));

@@ -161,17 +161,13 @@ typedef struct {
 
 /* Data of the filtered subspace method that later solves reuse */
 typedef struct {
-  PC               pc;            /* the Krylov method's preconditioner, set up for K alone */
-  PetscBool        held;          /* whether the preconditioner was set up for K + J^T D J instead, for bodies that
+  PC               pc;       /* the Krylov method's preconditioner, set up for K alone */
+  PetscBool        held;     /* whether the preconditioner was set up for K + J^T D J instead, for bodies that
                                      are held by constraints only */
-  PetscBool        negative;      /* K was negative along a direction, so that `held` ends when K changes */
-  PetscBool        changing;      /* K has changed since the first solve with it */
-  PetscBool        whole;         /* W contains all unknowns, since norm terms needed that */
-  PetscInt         nwidened;      /* number of consecutive solves in which W was extended to all unknowns */
-  PetscInt         napplications; /* number of applications of the preconditioner in the last solve */
-  PetscInt         ncurrent;      /* number of applications of the preconditioner of the present K */
-  PetscReal        expected;      /* number of applications of the AMG that another K is expected to need; 0: not
-                                     known yet */
+  PetscBool        negative; /* K was negative along a direction, so that `held` ends when K changes */
+  PetscBool        changing; /* K has changed since the first solve with it */
+  PetscBool        whole;    /* W contains all unknowns, since norm terms needed that */
+  PetscInt         nwidened; /* number of consecutive solves in which W was extended to all unknowns */
   PetscObjectId    K_id;
   PetscObjectState K_state;
   IPBasis          basis;
@@ -192,9 +188,6 @@ typedef struct {
   PetscInt       ncentred;            /* number of consecutive steps without a new direction */
   PetscInt       nfutile;             /* number of steps since the KKT error was last halved */
   PetscReal      halved;              /* KKT error when it was last halved */
-  PetscReal      begin, considered;   /* KKT error after the first reduced problem, and when the preconditioner was
-                                         last reconsidered */
-  PetscInt       nconsidered;         /* number of applications of the preconditioner when it was last reconsidered */
   PetscReal      residual, promised;  /* Newton's method: residual before the last step, 0: none; and of its model */
 } IPFiltered;
 
@@ -219,7 +212,7 @@ PETSC_INTERN PetscErrorCode IPBasisGetForces(const IPBasis *, PetscInt j, Vec);
 
 /* compliance.c */
 PETSC_INTERN PetscErrorCode IPComplianceSetUp(IPCompliance *, Mat K, PetscBool *definite);
-PETSC_INTERN PetscErrorCode IPComplianceIsNegative(const IPCompliance *, Mat K, PetscBool *negative);
+PETSC_INTERN PetscErrorCode IPComplianceIsNegative(Mat K, PetscBool *negative);
 PETSC_INTERN PetscErrorCode IPComplianceSetRows(IPCompliance *, Mat J, PetscInt most);
 PETSC_INTERN PetscErrorCode IPComplianceDestroy(IPCompliance *);
 PETSC_INTERN PetscErrorCode IPComplianceSolve(IPCompliance *, PetscInt k, const PetscReal[], PetscReal[]);
@@ -283,7 +276,6 @@ PETSC_INTERN PetscErrorCode IPRecycleReset(IPRecycle *);
 PETSC_INTERN PetscErrorCode IPRecycleStiffnessOfTerms(Tao, Vec Dt);
 PETSC_INTERN PetscErrorCode IPRecycleCondense(Tao, Vec D, Vec Dt, Mat *A);
 PETSC_INTERN PetscErrorCode IPRecycleHold(Tao, IPRecycle *, PetscBool *possible);
-PETSC_INTERN PetscErrorCode IPRecycleReconsider(Tao, IPRecycle *, PetscReal left, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPRecycleUpdate(Tao, IPRecycle *, PetscBool *possible);
 
 /* precondition.c */

@@ -19,32 +19,23 @@ asked = set(re.findall(r'\bPetscOptions(?!HasName|Set|Clear)\w+\([^"();]*"-(\w+)
                        sources)) | {"tao_ipfilter_" + name
                                     for name in re.findall(r'\bIP_REAL\(\s*"(\w+)"', sources)}
 calls = re.findall(r'\bPetscOptions(?:Get)?(Bool|Int|BoundedInt|String|Enum|EList|FList)\([^"();]*"-(\w+)"', sources)
-known = re.search(r"OptionsOurs\[\] = \{(.*?)\}", code("src/options/known.c"), flags=re.S)[1]
-listed = re.findall(r'"(\w+)"', known)
+rows = re.findall(r'\{"(\w+)",\s*OPTION_(\w+),\s*\{([^}]*)\}\}', code("src/options/known.c"))
+listed = [name for name, _, _ in rows]
 print("options: at most 70" if len(listed) <= 70 else "options: %d" % len(listed))
 print("the list is sorted, without repetition:", "yes" if listed == sorted(set(listed)) else "NO")
 print("asked for, but not in the list:", ", ".join(sorted(asked - OF_PETSC - set(listed))) or "none")
 print("in the list, but not asked for:", ", ".join(sorted(set(listed) - asked)) or "none")
-lists = {
-    "Bool": "Switches", "Int": "Counts", "BoundedInt": "Counts", "String": "Words", "Enum": "Words", "EList": "Words",
-    "FList": "Words"
-}
 kinds = {
-    kind: re.findall(r'"(\w+)"',
-                     re.search(r"Options%s\[\] = \{(.*?)\}" % kind, code("src/options/known.c"), flags=re.S)[1])
-    for kind in set(lists.values())
+    "Bool": "SWITCH", "Int": "COUNT", "BoundedInt": "COUNT", "String": "WORD", "Enum": "WORD", "EList": "WORD",
+    "FList": "WORD"
 }
+kind_asked = {name: kinds[call] for call, name in calls if name not in OF_PETSC}
+kind_listed = {name: kind for name, kind, _ in rows}
 print("of another kind than asked for:",
-      ", ".join(sorted({name
-                        for call, name in calls
-                        if name not in kinds[lists[call]]} - OF_PETSC)) or "none")
-print("of a kind that is not asked for:", ", ".join(sorted(set(sum(kinds.values(), [])) - {name
-                                                                                           for _, name in calls}))
-      or "none")
-choices = {
-    name: re.findall(r'"(\w+)"', words)
-    for name, words in re.findall(r'\{"(\w+)", \{([^}]*), NULL\}\}', code("src/options/known.c"))
-}
+      ", ".join(sorted(name for name, kind in kind_asked.items() if kind_listed.get(name) != kind)) or "none")
+print("of a kind that is not asked for:",
+      ", ".join(sorted(name for name, kind in kind_listed.items() if kind != kind_asked.get(name, "NUMBER"))) or "none")
+choices = {name: re.findall(r'"(\w+)"', words) for name, _, words in rows if '"' in words}
 enumerated = {name for call, name in calls if call in ("Enum", "EList")}
 print("enumerated, and without a list of words:", ", ".join(sorted(enumerated ^ set(choices))) or "none")
 arrays = [re.findall(r'"(\w+)"', words) for words in re.findall(r"\*const +\w+\[\] *= \{(.*?)\}", sources, flags=re.S)]

@@ -43,7 +43,7 @@ try -load_max_cuts -1
 try -tao_max_it true
 try -elasticity_ksp_rtol small
 try -tao_ipfilter_tol small
-try -tao_ipfilter_pc_amgf_filter_ranks many
+try -tao_ipfilter_max_soc many
 try -quiet nofile
 try -tao_ipfilter_monitor 3x
 try -contact_gap wide

@@ -1,5 +1,4 @@
-static char help[] = "PCAMGF with a factorization of the operator in place of the AMG: by option, by what is said to "
-                     "come, and not where it may not be.\n\n";
+static char help[] = "PCAMGF with a factorization of the operator in place of the AMG.\n\n";
 
 #include "amgf_problem.h"
 
@@ -45,37 +44,52 @@ static PetscErrorCode Solve(Context *c, const char what[])
   PetscCall(KSPSolve(c->ksp, c->b, c->x));
   PetscCall(KSPGetIterationNumber(c->ksp, &its));
   PetscCall(ProblemResidual(c->A, c->b, c->x, &residual));
-  PetscCall(PCAMGFGetFactored(c->pc, &factored, NULL));
+  PetscCall(PCAMGFGetFactored(c->pc, &factored));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s by %s%s\n", what, residual < 1e-7 ? "solved" : "NOT SOLVED",
     factored ? "factorization" : "AMG", its <= 2 ? ", at once" : ""));
   PetscFunctionReturn(0);
 }
 
-/* Said to come: too little, too much for the memory allowed, a lot; and after that another operator of the same
-   pattern, and the AMG again */
+/* A small operator; after that another one of the same pattern, and the AMG again */
 static PetscErrorCode CheckChoice(Mat A)
 {
   Context c;
 
   PetscFunctionBeginUser;
   PetscCall(ContextCreate(A, PC_AMGF_FACTOR_AUTO, &c));
-  PetscCall(Solve(&c, "auto, nothing said"));
-  PetscCall(PCAMGFExpect(c.pc, 0.0, 1.0));
-  PetscCall(Solve(&c, "auto, nothing to come"));
-  PetscCall(PetscOptionsSetValue(NULL, "-pc_amgf_factor_share", "0"));
-  PetscCall(KSPSetFromOptions(c.ksp));
-  PetscCall(PCAMGFExpect(c.pc, 1e6, 1.0));
-  PetscCall(Solve(&c, "auto, no memory allowed"));
-  PetscCall(PetscOptionsClearValue(NULL, "-pc_amgf_factor_share"));
-  PetscCall(PetscOptionsSetValue(NULL, "-pc_amgf_factor_share", "0.4"));
-  PetscCall(KSPSetFromOptions(c.ksp));
-  PetscCall(PetscOptionsClearValue(NULL, "-pc_amgf_factor_share"));
-  PetscCall(PCAMGFExpect(c.pc, 1e6, 1.0));
-  PetscCall(Solve(&c, "auto, much to come"));
+  PetscCall(Solve(&c, "auto, small"));
   PetscCall(MatScale(A, 2.0));
   PetscCall(Solve(&c, "another operator"));
   PetscCall(PCAMGFSetFactor(c.pc, PC_AMGF_FACTOR_FALSE));
   PetscCall(Solve(&c, "false again"));
+  PetscCall(ContextDestroy(&c));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Operators with 0, 1 and 2 negative eigenvalues, one after the other in the same solver. The factors count them; B is
+   indefinite then, and solves nevertheless.
+*/
+static PetscErrorCode CheckIndefinite(Mat A)
+{
+  Context           c;
+  PetscInt          rstart, rend, negative;
+  const PetscInt    rows[]   = {3, 77};
+  const PetscScalar values[] = {-1e3, -1e3};
+
+  PetscFunctionBeginUser;
+  PetscCall(ContextCreate(A, PC_AMGF_FACTOR_TRUE, &c));
+  PetscCall(KSPSetType(c.ksp, KSPGMRES));
+  PetscCall(MatGetOwnershipRange(A, &rstart, &rend));
+  for (PetscInt k = 0; k <= 2; k++) {
+    if (k && rows[k - 1] >= rstart && rows[k - 1] < rend)
+      PetscCall(MatSetValues(A, 1, &rows[k - 1], 1, &rows[k - 1], &values[k - 1], INSERT_VALUES));
+    PetscCall(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
+    PetscCall(Solve(&c, "indefinite"));
+    PetscCall(PCAMGFGetFilterPivots(c.pc, &negative));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  negative pivots: %" PetscInt_FMT "\n", negative));
+  }
   PetscCall(ContextDestroy(&c));
   PetscFunctionReturn(0);
 }
@@ -101,6 +115,7 @@ int main(int argc, char **argv)
   PetscCall(Solve(&c, "true"));
   PetscCall(ContextDestroy(&c));
   PetscCall(CheckChoice(A));
+  PetscCall(CheckIndefinite(A));
   PetscCall(MatDestroy(&A));
   PetscCall(PetscFinalize());
   return 0;
@@ -111,6 +126,6 @@ int main(int argc, char **argv)
    test:
       suffix: 1
       nsize: {{1 2 3}}
-      args: -type {{aij baij}}
+      args: -type {{aij baij sbaij}}
 
 TEST*/

@@ -739,37 +739,8 @@ static PetscErrorCode TestOwnHessian(void)
   PetscFunctionReturn(0);
 }
 
-/* Solvers of the augmented system that tell no inertia, and then the one that does, in the same TAOIPFILTER */
-static PetscErrorCode TestAugmentedTypes(void)
-{
-  const char *const types[] = {"lu", "jacobi", "none", "qr", "icc", "cholesky"};
-  Chain             chain;
-  Tao               tao;
-  Vec               x;
-
-  PetscFunctionBeginUser;
-  PetscCall(CreateChain(20, &chain));
-  PetscCall(VecDuplicate(chain.q.b, &x));
-  PetscCall(CreateChainSolver(&chain, PETSC_FALSE, PETSC_TRUE, PETSC_FALSE, x, &tao));
-  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(types); k++) {
-    PetscErrorCode ierr;
-
-    PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_augmented_pc_type", types[k]));
-    PetscCall(AttemptBegin());
-    ierr = TaoSolve(tao);
-    PetscCall(AttemptEnd());
-    PetscCall(AttemptCompareRanks(types[k], ierr));
-    PetscCall(AttemptPrint(ierr));
-  }
-  PetscCall(PetscOptionsClearValue(NULL, "-tao_ipfilter_augmented_pc_type"));
-  PetscCall(VecDestroy(&x));
-  PetscCall(TaoDestroy(&tao));
-  PetscCall(DestroyChain(&chain));
-  PetscFunctionReturn(0);
-}
-
-/* Options with values that they cannot have */
-static PetscErrorCode TestOptionRanges(void)
+/* Options that need a positive value */
+static PetscErrorCode TestPositiveOptions(void)
 {
   static const struct {
     const char *name, *value;
@@ -1007,7 +978,6 @@ int main(int argc, char **argv)
   PetscCall(TestSlackMass(PETSC_FALSE));
   PetscCall(TestSlackMass(PETSC_TRUE));
   PetscCall(TestOwnHessian());
-  PetscCall(TestAugmentedTypes());
   PetscCall(TestPrefix());
   PetscCall(TestUndefinedHessian(PETSC_FALSE));
   PetscCall(TestUndefinedHessian(PETSC_TRUE));

@@ -55,12 +55,9 @@ static PetscErrorCode SetUpFilterSolver(PC pc, PetscBool same)
   PetscCall(PCGetFailedReason(inner, &last));
   renew = (PetscBool)(!same || last); /* a matrix of another size needs new factors, too */
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &renew, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)pc)));
-  if (renew) {
-    PetscCall(KSPReset(amgf->filter));
-    PetscCall(PCAMGFFewRanksReset_Private(&amgf->few));
-  }
-  PetscCall(KSPSetOperators(amgf->filter, amgf->Aw, amgf->Aw));
-  PetscCall(KSPSetUp(amgf->filter));
+  if (renew) PetscCall(PCAMGFDirectRenew_Private(amgf->filter));
+  PetscCall(PCAMGFDirectSetUp_Private(amgf->filter, amgf->Aw));
+  PetscCall(KSPGetPC(amgf->filter, &inner));
   PetscCall(SetUpCheckInner(pc, inner));
   PetscFunctionReturn(0);
 }
@@ -82,7 +79,6 @@ static PetscErrorCode SetUpFilter(PC pc)
     PetscCall(SetUpWarn(pc));
     PetscCall(PCAMGFResetGalerkin_Private(amgf));
     PetscCall(KSPReset(amgf->filter));
-    PetscCall(PCAMGFFewRanksReset_Private(&amgf->few));
   }
   PetscCall(PetscLogEventEnd(PC_AMGF_FltSetUp, pc, 0, 0, 0));
   PetscFunctionReturn(0);
@@ -158,12 +154,13 @@ static PetscErrorCode SetUpWhole(PC pc)
   PetscBool   rebuild, broken = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (factor->use == PC_AMGF_FACTOR_TRUE) factor->on = PETSC_TRUE;
   PetscCall(PCAMGFLagDecide_Private(pc, &rebuild));
   if (rebuild) {
     PetscCall(PetscLogEventBegin(PC_AMGF_AMGSetUp, pc, 0, 0, 0));
+    factor->failed = PETSC_FALSE;
+    PetscCall(PCAMGFFactorIsUsed_Private(pc, &factor->on));
     if (factor->on) PetscCall(PCAMGFFactorSetUp_Private(pc));
-    if (factor->failed && factor->use == PC_AMGF_FACTOR_AUTO) factor->on = PETSC_FALSE;
+    PetscCall(PCAMGFFactorIsUsed_Private(pc, &factor->on));
     if (!factor->on) PetscCall(SetUpAMG(pc, &broken));
     PetscCall(PetscLogEventEnd(PC_AMGF_AMGSetUp, pc, 0, 0, 0));
     if (broken) PetscCall(PCAMGFLagReset_Private(&amgf->lag));

@@ -1,4 +1,4 @@
-/* Options of PCAMGF itself; those of the inner solvers are read in inner.c */
+/* Options of PCAMGF itself; those of the inner solvers are read in inner_solvers.c */
 #include "amgfimpl.h"
 
 /* Sets the lag from the value of -pc_amgf_amg_lag: a whole number, or "auto" */
@@ -28,7 +28,6 @@ PetscErrorCode PCSetFromOptions_AMGF(PC pc, AMGFOptionItems PetscOptionsObject)
   PC_AMGF        *amgf = (PC_AMGF *)pc->data;
   PCAMGFCycle     cycle;
   PetscReal       detect = amgf->detect;
-  PetscInt        ranks  = amgf->few.wanted;
   char            file[PETSC_MAX_PATH_LEN], lag[32];
   PetscBool       flg;
   PCAMGFFactorUse use;
@@ -45,10 +44,6 @@ PetscErrorCode PCSetFromOptions_AMGF(PC pc, AMGFOptionItems PetscOptionsObject)
     PetscCall(ISDestroy(&amgf->file_is));
     if (file[0]) PetscCall(PetscStrallocpy(file, &amgf->file));
   }
-  PetscCall(
-    PetscOptionsInt("-pc_amgf_filter_ranks", "Number of ranks that solve the filtered system; 0: chosen by its size",
-      "PCAMGFSetFilterRanks", ranks, &ranks, &flg));
-  if (flg) PetscCall(PCAMGFSetFilterRanks(pc, ranks));
   PetscCall(PetscOptionsReal("-pc_amgf_detect",
     "Filter the unknowns whose diagonal entry exceeds this multiple of the median; 0: off", "PCAMGF", amgf->detect,
     &detect, NULL));
@@ -62,10 +57,6 @@ PetscErrorCode PCSetFromOptions_AMGF(PC pc, AMGFOptionItems PetscOptionsObject)
   PetscCall(PetscOptionsEnum("-pc_amgf_factor", "Use a factorization instead of the AMG", "PCAMGFSetFactor",
     PCAMGFFactorUses, (PetscEnum)amgf->factor.use, (PetscEnum *)&use, &flg));
   if (flg) PetscCall(PCAMGFSetFactor(pc, use));
-  PetscCall(PetscOptionsReal("-pc_amgf_factor_share", "For auto: largest share of the machine's memory for the factors",
-    "PCAMGFSetFactor", amgf->factor.fraction, &amgf->factor.fraction, NULL));
-  PetscCheck(amgf->factor.fraction >= 0.0, PetscObjectComm((PetscObject)pc), PETSC_ERR_ARG_OUTOFRANGE,
-    "-pc_amgf_factor_share must not be negative, as %g is", (double)amgf->factor.fraction);
   PetscOptionsHeadEnd();
   PetscFunctionReturn(0);
 }

@@ -97,10 +97,15 @@ static PetscErrorCode CycleProlongAdd(PC_AMGF *amgf, Vec ec, Vec z)
 /* Computes ec = A_w^-1 rc, or ec = A_w^-H rc if `adjoint` */
 static PetscErrorCode CycleSolveFilter(PC pc, PetscBool adjoint)
 {
-  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+  PC_AMGF  *amgf = (PC_AMGF *)pc->data;
+  PetscBool telescope;
+  PC        inner;
 
   PetscFunctionBegin;
   amgf->counts.filter_applies++;
+  PetscCall(KSPGetPC(amgf->filter, &inner));
+  PetscCall(PetscObjectTypeCompare((PetscObject)inner, PCTELESCOPE, &telescope));
+  if (telescope) adjoint = PETSC_FALSE; /* PCTELESCOPE has no transpose, and A_w is Hermitian */
   PetscCall(PetscLogEventBegin(PC_AMGF_FltApply, pc, amgf->rc, amgf->ec, 0));
   if (adjoint) {
     PetscCall(CycleConjugate(amgf->rc));

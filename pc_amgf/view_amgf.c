@@ -63,7 +63,6 @@ PetscErrorCode PCView_AMGF(PC pc, PetscViewer viewer)
     "  so far: %" PetscInt_FMT " AMG set-ups, %" PetscInt_FMT " AMG applications, %" PetscInt_FMT
     " filter set-ups, %" PetscInt_FMT " filter solves\n",
     counts->amg_setups, counts->amg_applies, counts->filter_setups, counts->filter_applies));
-  if (amgf->factor.why[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "  chosen: %s\n", amgf->factor.why));
   PetscCall(
     PetscViewerASCIIPrintf(viewer, amgf->factor.on ? "  a factorization is used instead of the AMG:\n" : "  AMG:\n"));
   PetscCall(PetscViewerASCIIPushTab(viewer));

@@ -101,27 +101,6 @@ static PetscErrorCode InnerConfigureAMG(PC pc)
   PetscFunctionReturn(0);
 }
 
-/*
-   Selects the direct solver of the filtered system: MUMPS on as many ranks as its size needs. If the user has set a
-   type, or PETSc has no MUMPS, all ranks take part.
-*/
-static PetscErrorCode InnerSetFilterSolver(PC pc, PC inner)
-{
-  PetscOptions options;
-  const char  *prefix;
-  PetscBool    given, mumps;
-  PetscMPIInt  size;
-
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)pc), &size));
-  PetscCall(PetscObjectGetOptions((PetscObject)inner, &options));
-  PetscCall(PCGetOptionsPrefix(inner, &prefix));
-  PetscCall(PetscOptionsHasName(options, prefix, "-pc_type", &given));
-  PetscCall(PCAMGFSetDirectSolver_Private(inner, &mumps));
-  if (size > 1 && mumps && !given) PetscCall(PCAMGFFewRanksBegin_Private(inner, &((PC_AMGF *)pc->data)->few));
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode InnerConfigureFilter(PC pc)
 {
   KSP     filter = ((PC_AMGF *)pc->data)->filter;
@@ -134,7 +113,7 @@ static PetscErrorCode InnerConfigureFilter(PC pc)
   if (!ksptype) PetscCall(KSPSetType(filter, KSPPREONLY));
   PetscCall(KSPGetPC(filter, &inner));
   PetscCall(PCGetType(inner, &pctype));
-  if (!pctype) PetscCall(InnerSetFilterSolver(pc, inner));
+  if (!pctype) PetscCall(PCAMGFDirectBegin_Private(inner));
   PetscCall(KSPSetFromOptions(filter));
   PetscFunctionReturn(0);
 }
