@@ -130,36 +130,6 @@ PetscErrorCode IPGatherRows(Mat J, PetscInt nw, const PetscInt w[], PetscBool fi
   PetscFunctionReturn(0);
 }
 
-/* Stacks the rows of two sequential matrices */
-PetscErrorCode IPStackRows(Mat upper, Mat lower, Mat *both)
-{
-  const Mat parts[2] = {upper, lower};
-  PetscInt  m[2], n, *counts;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetSize(upper, &m[0], &n));
-  PetscCall(MatGetSize(lower, &m[1], NULL));
-  PetscCall(PetscMalloc1(m[0] + m[1], &counts));
-  for (PetscInt pass = 0; pass < 2; pass++) {
-    if (pass) PetscCall(MatCreateSeqAIJ(PETSC_COMM_SELF, m[0] + m[1], n, 0, counts, both));
-    for (PetscInt r = 0; r < m[0] + m[1]; r++) {
-      const PetscInt     b = r >= m[0];
-      const PetscInt    *columns;
-      const PetscScalar *values;
-      PetscInt           nc;
-
-      PetscCall(MatGetRow(parts[b], r - b * m[0], &nc, &columns, &values));
-      counts[r] = nc;
-      if (pass) PetscCall(MatSetValues(*both, 1, &r, nc, columns, values, INSERT_VALUES));
-      PetscCall(MatRestoreRow(parts[b], r - b * m[0], &nc, &columns, &values));
-    }
-  }
-  PetscCall(MatAssemblyBegin(*both, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(*both, MAT_FINAL_ASSEMBLY));
-  PetscCall(PetscFree(counts));
-  PetscFunctionReturn(0);
-}
-
 /* Broadcasts the first rank's verdict. An error on the first rank is raised on all ranks. */
 PetscErrorCode IPReducedBroadcast(const IPReduced *r, PetscErrorCode error, PetscBool *verdict)
 {

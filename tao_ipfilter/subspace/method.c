@@ -10,6 +10,7 @@
 #include "subspaceimpl.h"
 #include "tao_ipfilter/solver/rows.h"
 #include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/kkt.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/method.h"
@@ -80,35 +81,19 @@ static PetscErrorCode FilteredAddNeighbours(Tao tao, IS filter, IS *W)
 }
 
 /*
-   Finds whether W may contain neighbours of the constraints' unknowns: not with Newton's method, since K may be
-   indefinite there, and not if norm terms stick, since their method needs K_WW^-1 for all rows
-*/
-static PetscErrorCode FilteredMayAddNeighbours(Tao tao, PetscBool *may)
-{
-  const IPTerms *terms   = ((TAO_IPFILTER *)tao->data)->terms;
-  PetscReal      largest = 0.0;
-
-  PetscFunctionBegin;
-  if (terms->n && terms->coefficient) PetscCall(VecMax(terms->coefficient, NULL, &largest));
-  *may = (PetscBool)(!IPFilteredOf(tao)->newton && largest < IP_TERM_STICKS);
-  PetscFunctionReturn(0);
-}
-
-/*
    Chooses W: the unknowns of the constraints, one or two layers of neighbours, and W of earlier solves with the same K.
    With the neighbours, W and its factors need not change when the contact area moves. They are left out if there are
-   too many of them.
+   too many of them, or factors are computed for each system anyway: with norm terms, and in Newton's method.
 */
 static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt most, IS *W)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
   const IS      filter = ip->cond->filter;
-  PetscBool     same = PETSC_FALSE, wide = PETSC_FALSE;
+  PetscBool     same = PETSC_FALSE, wide = (PetscBool)(!IPFilteredOf(tao)->newton && !ip->terms->n);
   PetscInt      n = 1;
   IS            rest, all;
 
   PetscFunctionBegin;
-  PetscCall(FilteredMayAddNeighbours(tao, &wide));
   if (wide) PetscCall(IPReducedIsOf(before, ip->hess->H, &same));
   if (same) {
     PetscCall(ISDifference(filter, before->W, &rest));
@@ -138,19 +123,6 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt
 }
 
 /*
-   Decides whether W contains all unknowns from the beginning of a solve. A quadratic objective keeps the factors, so
-   that W remains as it is. For other objectives each Newton step needs new factors, and directions are cheaper: they
-   are tried again unless they failed in the last solves, too.
-*/
-static void FilteredBeginWhole(Tao tao, IPRecycle *recycle)
-{
-  const PetscInt most = 2;
-
-  if (!recycle->whole) recycle->nwidened = 0;
-  if (IPFilteredOf(tao)->newton && recycle->nwidened < most) recycle->whole = PETSC_FALSE;
-}
-
-/*
    Sets W. *few: whether there are constraints, and they involve few unknowns. What is few is decided only with
    -tao_ipfilter_subspace auto and without norm terms.
 */
@@ -167,9 +139,7 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
   PetscCall(ISGetSize(ip->cond->filter, &touched));
   *few = (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n || touched <= fraction * n));
   PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
-  FilteredBeginWhole(tao, recycle);
-  if (*few && ip->terms->n && recycle->whole) PetscCall(IPFilteredTakeAll(tao, &IPFilteredOf(tao)->W));
-  else if (*few) PetscCall(FilteredChooseW(tao, &recycle->reduced, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
+  if (*few) PetscCall(FilteredChooseW(tao, &recycle->reduced, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);
 }
 
@@ -285,28 +255,19 @@ static PetscErrorCode FilteredCentreHere(Tao tao, const IPBasis *basis)
 
   PetscFunctionBegin;
   IPFilteredOf(tao)->f = ip->at.f;
-  PetscCall(IPFilteredCentre(tao, basis, tao->solution, tao->solution, tao->gradient, ip->at.c));
+  PetscCall(IPFilteredCentre(tao, basis, tao->solution, tao->gradient, ip->at.c));
   PetscFunctionReturn(0);
 }
 
-/*
-   Solves the reduced problem and moves to its solution. If Newton's method for norm terms fails, W is extended to all
-   unknowns and the problem is solved again.
-*/
+/* Solves the reduced problem and moves to its solution */
 static PetscErrorCode FilteredSolveReduced(Tao tao, IPRecycle *recycle, PetscBool *solved)
 {
-  IPReduced *reduced = &recycle->reduced;
-  Vec        v, force;
+  Vec v, force;
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPFilteredSolve(tao, &recycle->basis, v, force, solved));
-  if (!*solved && reduced->simply) {
-    PetscCall(IPFilteredWiden(tao, recycle, solved));
-    if (*solved) PetscCall(FilteredCentreHere(tao, &recycle->basis));
-    if (*solved) PetscCall(IPFilteredSolve(tao, &recycle->basis, v, force, solved));
-  }
   if (*solved) PetscCall(FilteredMove(tao, v, force, solved));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v));
@@ -364,8 +325,7 @@ static PetscErrorCode FilteredResidual(Tao tao, const IPBasis *basis, Vec r, Pet
   PetscCall(VecISSet(r, f->W, 0.0));
   PetscCall(VecNorm(r, NORM_2, &off));
   *exact = (PetscBool)(off > 0.5 * all &&
-                       (!f->reduced->met || f->ncentred ||
-                         PetscMax(ip->kkt->primal, ip->kkt->complementarity) <= PetscMax(ip->tol, ip->kkt->dual)));
+                       (f->ncentred || PetscMax(ip->kkt->primal, ip->kkt->complementarity) <= PetscMax(ip->tol, ip->kkt->dual)));
   if (f->nfutile && f->nfutile % for_long == 0) *exact = PETSC_FALSE;
   if (*exact && !f->ncentred) PetscCall(IPModesAreBalanced(tao, basis, r, exact));
   PetscFunctionReturn(0);
@@ -373,8 +333,7 @@ static PetscErrorCode FilteredResidual(Tao tao, const IPBasis *basis, Vec r, Pet
 
 /*
    Makes one iteration: adds a direction and solves the reduced problem. If the last reduced problem was not solved
-   exactly, it is solved again from the present point without a new direction. With norm terms, which are solved to a
-   tolerance, the residual may lie in the span of existing directions. *done: false if no progress is possible.
+   exactly, it is solved again from the present point without a new direction. *done: false if no progress is possible.
 */
 static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
 {
@@ -393,8 +352,8 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
   PetscCall(IPRecycleGet(tao, &recycle));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
   PetscCall(FilteredResidual(tao, &recycle->basis, r, &exact));
-  if (*done && exact) PetscCall(FilteredAddDirection(tao, recycle, r, ip->terms->n ? &exact : done));
-  f->ncentred = exact || (recycle->whole && !f->nfutile) ? 0 : f->ncentred + 1;
+  if (*done && exact) PetscCall(FilteredAddDirection(tao, recycle, r, done));
+  f->ncentred = exact ? 0 : f->ncentred + 1;
   if (f->ncentred > in_a_row) *done = PETSC_FALSE;
   if (*done && !exact) PetscCall(FilteredCentreHere(tao, &recycle->basis));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &r));
@@ -403,6 +362,31 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
     tao->niter++;
     ip->rec->ndirections++;
   } else PetscCall(IPRecycleReset(recycle));
+  PetscFunctionReturn(0);
+}
+
+/* Takes one step of the laws of norm terms, whose systems add directions as they need them */
+static PetscErrorCode FilteredStepTerms(Tao tao, PetscBool *done)
+{
+  TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscInt patience = 60;
+  PetscReal      enough   = IP_FORCING_LAST * ip->tol * IPErrorBoundForceUnit(ip), violation;
+  PetscBool      moved;
+  Vec            v, force;
+
+  PetscFunctionBegin;
+  tao->ksp_its         = 0;
+  ip->rec->nacceptable = ip->rec->ntiny = 0;
+  *done = IPFilteredProgresses(IPFilteredOf(tao), IPBothErrors(ip), patience);
+  if (!*done) PetscFunctionReturn(0);
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(IPFilteredStepLaws(tao, enough, v, force, &violation, done));
+  PetscCall(FilteredMove(tao, v, force, &moved));
+  *done = (PetscBool)(*done && moved);
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v));
+  if (*done) tao->niter++;
   PetscFunctionReturn(0);
 }
 
@@ -420,8 +404,9 @@ static PetscErrorCode FilteredFirst(Tao tao, IPRecycle *recycle, PetscBool *foun
   f->halved                = PETSC_INFINITY;
   f->residual              = 0.0;
   ip->mu                   = 0.0;
-  if (f->newton) PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
-  else {
+  if (f->newton || ip->terms->n) PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
+  if (!f->newton && ip->terms->n) PetscCall(IPFilteredBeginLaws(tao));
+  else if (!f->newton) {
     PetscCall(FilteredCentreHere(tao, &recycle->basis));
     PetscCall(FilteredSolveReduced(tao, recycle, found));
   }
@@ -484,8 +469,7 @@ static PetscErrorCode FilteredEnd(Tao tao)
   PetscFunctionBegin;
   if (ip->method->on) {
     PetscCall(IPRecycleGet(tao, &recycle));
-    if (ip->terms->n) PetscCall(IPReducedRelease(&recycle->reduced));
-    else PetscCall(IPReducedScale(&recycle->reduced, ip->rows->inequality));
+    if (!ip->terms->n) PetscCall(IPReducedScale(&recycle->reduced, ip->rows->inequality));
   }
   PetscCall(IPFilteredDestroy(IPFilteredOf(tao)));
   PetscFunctionReturn(0);
@@ -496,6 +480,7 @@ static PetscErrorCode FilteredStepOfKind(Tao tao, PetscBool *done)
 {
   PetscFunctionBegin;
   if (IPFilteredOf(tao)->newton) PetscCall(IPNewtonSubspaceStep(tao, done));
+  else if (((TAO_IPFILTER *)tao->data)->terms->n) PetscCall(FilteredStepTerms(tao, done));
   else PetscCall(FilteredStep(tao, done));
   if (*done) ((TAO_IPFILTER *)tao->data)->method->multipliers = PETSC_TRUE;
   PetscFunctionReturn(0);

@@ -49,7 +49,7 @@ PetscErrorCode IPModesAppend(Tao tao, IPRecycle *recycle)
   PetscFunctionBegin;
   if (!modes || basis->has_modes) PetscFunctionReturn(0);
   PetscCall(ModesAreServed(recycle->pc, &served));
-  if (served || recycle->held || recycle->whole) PetscFunctionReturn(0);
+  if (served || recycle->held) PetscFunctionReturn(0);
   PetscCall(IPModesGetNumber(tao, &n));
   PetscCall(IPBasisDropOldest(basis, basis->n + n - basis->max));
   PetscCall(VecDuplicate(tao->solution, &d));

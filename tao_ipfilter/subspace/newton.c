@@ -40,39 +40,26 @@ static PetscErrorCode NewtonModelResidual(Tao tao, Vec d, Vec force, Vec r, Pets
 static PetscErrorCode NewtonCentreModel(Tao tao, const IPBasis *basis, Vec d)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  Vec           x, gradient, c;
+  Vec           gradient, c;
 
   PetscFunctionBegin;
-  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &x));
-  if (ip->terms->n) PetscCall(VecWAXPY(x, 1.0, d, tao->solution));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &gradient));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &c));
   PetscCall(MatMultAdd(ip->hess->H, d, tao->gradient, gradient));
   PetscCall(IPFixedZero(tao, gradient));
   PetscCall(MatMultAdd(ip->jac->inequality, d, ip->at.c, c));
-  PetscCall(IPFilteredCentre(tao, basis, x, d, gradient, c));
+  PetscCall(IPFilteredCentre(tao, basis, d, gradient, c));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &c));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &gradient));
-  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &x));
   PetscFunctionReturn(0);
 }
 
-/*
-   Computes the model's minimizer d in V, and the forces of the constraints there. Where the reduced friction problem is
-   not solved with few unknowns in W, W is extended to all unknowns.
-*/
+/* Computes the model's minimizer d in V, and the forces of the constraints there */
 static PetscErrorCode NewtonMinimizeModel(Tao tao, IPRecycle *recycle, Vec d, Vec force, PetscBool *solved)
 {
-  Vec centre = IPFilteredOf(tao)->centre;
-
   PetscFunctionBegin;
   PetscCall(IPFilteredSolve(tao, &recycle->basis, d, force, solved));
-  if (!*solved && recycle->reduced.simply) {
-    PetscCall(IPFilteredWiden(tao, recycle, solved));
-    if (*solved) PetscCall(NewtonCentreModel(tao, &recycle->basis, centre));
-    if (*solved) PetscCall(IPFilteredSolve(tao, &recycle->basis, d, force, solved));
-  }
-  if (*solved) PetscCall(VecAXPY(d, 1.0, centre));
+  if (*solved) PetscCall(VecAXPY(d, 1.0, IPFilteredOf(tao)->centre));
   PetscFunctionReturn(0);
 }
 
@@ -118,6 +105,27 @@ static PetscErrorCode NewtonSolveModel(Tao tao, IPRecycle *recycle, PetscReal ta
     *solved = (PetscBool)(added || norm <= enough);
   } while (added);
   if (*solved) IPFilteredOf(tao)->promised = norm;
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &r));
+  PetscFunctionReturn(0);
+}
+
+/* Solves the model with norm terms until its residual is below `target` and the laws hold */
+static PetscErrorCode NewtonSolveLaws(Tao tao, PetscReal target, Vec d, Vec force, PetscBool *solved)
+{
+  const PetscReal enough = 1e-3; /* relative violation of the laws: later models change more */
+  PetscReal       norm   = PETSC_INFINITY, violation = PETSC_INFINITY;
+  PetscBool       done   = PETSC_TRUE;
+  Vec             r;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
+  PetscCall(IPFilteredBeginLaws(tao));
+  while (done && !(norm <= target && violation <= enough)) {
+    PetscCall(IPFilteredStepLaws(tao, 0.5 * target, d, force, &violation, &done));
+    PetscCall(NewtonModelResidual(tao, d, force, r, &norm));
+  }
+  *solved                        = done;
+  IPFilteredOf(tao)->promised = norm;
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &r));
   PetscFunctionReturn(0);
 }
@@ -390,7 +398,8 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPRecycle *recycle, Vec d, Vec for
       PetscCall(IPRecycleUpdate(tao, recycle, &convex));
       if (convex) PetscCall(IPFilteredSetUp(tao, recycle, &convex));
     }
-    if (convex) PetscCall(NewtonSolveModel(tao, recycle, target, d, force, &convex));
+    if (convex && ip->terms->n) PetscCall(NewtonSolveLaws(tao, target, d, force, &convex));
+    else if (convex) PetscCall(NewtonSolveModel(tao, recycle, target, d, force, &convex));
     *found = convex;
     if (!convex) continue;
     PetscCall(NewtonSearch(tao, d, force, &downhill, found));

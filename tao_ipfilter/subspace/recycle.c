@@ -286,11 +286,7 @@ PetscErrorCode IPRecycleUpdate(Tao tao, IPRecycle *recycle, PetscBool *possible)
     PetscCall(RecycleAllowFactor(pc));
     PetscCall(IPBasisCreate(max, tao->solution, &recycle->basis));
   }
-  if (recycle->whole && ip->terms->n && IPFilteredOf(tao)->newton) {
-    recycle->changing = PETSC_TRUE; /* no directions, so that no preconditioner is needed */
-    state             = 0;          /* the preconditioner is not that of K */
-  } else if (recycle->K_id != ((PetscObject)K)->id || recycle->K_state != state) {
-    recycle->changing = (PetscBool)(recycle->K_id == ((PetscObject)K)->id);
+  if (recycle->K_id != ((PetscObject)K)->id || recycle->K_state != state) {
     if (!recycle->held || recycle->negative) PetscCall(RecycleSetUpFree(tao, recycle, K, possible));
     if (recycle->held || !*possible) PetscCall(IPRecycleHold(tao, recycle, possible));
     new_K = PETSC_TRUE;

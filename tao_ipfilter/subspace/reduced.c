@@ -3,31 +3,10 @@
      min 1/2 v^T K v + g^T v,  J v + c >= 0,  v = E w + P y,
    where E has the columns e_i, i in W. Its data have the size of the constraints. They are gathered on the first rank,
    which solves the problem. K_WW is factored once as long as W and K are unchanged, with companions (companions.c) if
-   it is singular. Each norm term adds two rows.
+   it is singular.
 */
 #include "subspaceimpl.h"
-#include "tao_ipfilter/solver/terms.h"
 #include <petscblaslapack.h>
-
-/* Gathers J_W, followed by T_W if there are norm terms */
-static PetscErrorCode ReducedGatherJacobian(const IPReduced *r, Mat J, const IPTerms *terms, PetscInt nw,
-  const PetscInt w[], Mat *S)
-{
-  Mat JW, TW;
-
-  PetscFunctionBegin;
-  if (!terms->n) {
-    PetscCall(IPGatherRows(J, nw, w, r->first, S));
-    PetscFunctionReturn(0);
-  }
-  PetscCall(IPGatherRows(J, nw, w, r->first, &JW));
-  PetscCall(IPGatherRows(terms->T, nw, w, r->first, &TW));
-  *S = NULL;
-  PetscCall(IPReducedAgree(r, r->first ? IPStackRows(JW, TW, S) : (PetscErrorCode)0));
-  PetscCall(MatDestroy(&TW));
-  PetscCall(MatDestroy(&JW));
-  PetscFunctionReturn(0);
-}
 
 /* Destroys the data of the constraints, but not the space */
 PetscErrorCode IPReducedRelease(IPReduced *r)
@@ -38,14 +17,9 @@ PetscErrorCode IPReducedRelease(IPReduced *r)
   PetscCall(VecScatterDestroy(&r->to_rows));
   PetscCall(VecDestroy(&r->on_rows));
   PetscCall(VecDestroy(&r->scale));
-  PetscCall(VecScatterDestroy(&r->to_terms));
-  PetscCall(VecDestroy(&r->on_terms));
-  if (r->laws) PetscCall(r->lawsops->destroy(&r->laws));
   PetscCall(IPComplianceSetRows(&r->compliance, NULL, 0));
   PetscCall(IPActiveSetDestroy(&r->set));
   PetscCall(PetscFree5(s->JZ, s->h, s->lambda, s->gap, s->y));
-  PetscCall(PetscFree(s->base));
-  PetscCall(PetscFree2(s->spring, s->start));
   PetscFunctionReturn(0);
 }
 
@@ -222,30 +196,26 @@ static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IP
   PetscFunctionReturn(0);
 }
 
-/* Sets up the system's rows on this rank; on all but the first there are none. JW: J_W, followed by T_W */
-static PetscErrorCode ReducedSetLocalRows(IPReduced *r, Mat JW, PetscBool *definite)
+/* Sets up the system's rows on this rank; on all but the first there are none. JW: J_W */
+static PetscErrorCode ReducedSetLocalRows(IPReduced *r, Mat JW)
 {
   IPReducedSystem *s = &r->system;
 
   PetscFunctionBegin;
-  s->m = r->m + 2 * r->nterms;
+  s->m = r->m;
   PetscCall(
     PetscMalloc5((size_t)s->m * (size_t)s->kmax, &s->JZ, s->m, &s->h, s->m, &s->lambda, s->m, &s->gap, s->kmax, &s->y));
-  PetscCall(PetscCalloc1(s->m, &s->base));
   PetscCall(PetscArrayzero(s->lambda, s->m));
   PetscCall(PetscArrayzero(s->y, s->kmax));
-  if (!r->nterms) PetscCall(IPActiveSetCreate(r->m, &r->set));
-  PetscCall(IPComplianceSetRows(&r->compliance, JW, r->nterms ? 0 : s->kmax));
+  PetscCall(IPActiveSetCreate(r->m, &r->set));
+  PetscCall(IPComplianceSetRows(&r->compliance, JW, s->kmax));
   if (r->first) PetscCall(IPComplianceMultiply(&r->compliance, s->k, r->Z, s->JZ));
   if (!s->k) PetscCall(ReducedAppendCompanions(r));
-  if (r->nterms)
-    PetscCall(r->lawsops->create(r->m, r->nterms, s->kmax, r->KWW, r->compliance.F, JW, &r->laws, definite));
   PetscFunctionReturn(0);
 }
 
-/* Sets up the constraints and norm terms for the present space and its directions */
-static PetscErrorCode ReducedSetRows(IPReduced *r, const IPLawsOps *ops, Mat J, const IPTerms *terms, Vec c,
-  PetscBool *definite)
+/* Sets up the constraints for the present space and its directions */
+static PetscErrorCode ReducedSetRows(IPReduced *r, Mat J, Vec c)
 {
   IS              all;
   Mat             JW;
@@ -254,20 +224,15 @@ static PetscErrorCode ReducedSetRows(IPReduced *r, const IPLawsOps *ops, Mat J, 
 
   PetscFunctionBegin;
   PetscCall(IPReducedRelease(r));
-  r->lawsops = ops;
-  if (r->first) {
-    PetscCall(VecGetSize(c, &r->m));
-    r->nterms = terms->n;
-  }
+  if (r->first) PetscCall(VecGetSize(c, &r->m));
   PetscCall(ISAllGather(r->W, &all));
   PetscCall(ISGetSize(all, &nw));
   PetscCall(ISGetIndices(all, &w));
-  PetscCall(ReducedGatherJacobian(r, J, terms, nw, w, &JW));
+  PetscCall(IPGatherRows(J, nw, w, r->first, &JW));
   PetscCall(ISRestoreIndices(all, &w));
   PetscCall(ISDestroy(&all));
   PetscCall(VecScatterCreateToZero(c, &r->to_rows, &r->on_rows));
-  if (terms->n) PetscCall(VecScatterCreateToZero(terms->t, &r->to_terms, &r->on_terms));
-  PetscCall(IPReducedBroadcast(r, ReducedSetLocalRows(r, JW, definite), definite));
+  PetscCall(IPReducedAgree(r, ReducedSetLocalRows(r, JW)));
   PetscCall(MatDestroy(&JW));
   PetscFunctionReturn(0);
 }
@@ -287,8 +252,8 @@ PetscErrorCode IPReducedIsOf(const IPReduced *r, Mat K, PetscBool *same)
    Sets up the reduced problem. The factors of K_WW are reused while K and W are unchanged, and K_WW^-1 Q_W while the
    directions are unchanged. *definite: false if K_WW is not positive definite.
 */
-PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, const IPTerms *terms, IS W, Vec x,
-  Vec c, const IPBasis *basis, PetscBool *definite)
+PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, IS W, Vec x, Vec c, const IPBasis *basis,
+  PetscBool *definite)
 {
   PetscFunctionBegin;
   PetscCall(IPReducedIsOf(r, K, definite));
@@ -299,33 +264,18 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, const IPLawsOps *ops, Mat K, Mat J, 
     PetscCall(PetscLogEventEnd(TAO_IPFilterFactor, K, NULL, NULL, NULL));
   } else if (r->generation != basis->generation) r->system.k = r->companions.n;
   r->generation = basis->generation;
-  if (*definite) PetscCall(ReducedSetRows(r, ops, J, terms, c, definite));
+  if (*definite) PetscCall(ReducedSetRows(r, J, c));
   if (!*definite) PetscCall(IPReducedDestroy(r));
   PetscFunctionReturn(0);
 }
 
-/*
-   Sets the initial active set to the rows whose `guess` is positive, and the initial forces of constraints and norm
-   terms
-*/
-PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess, Vec force, const IPTerms *terms)
+/* Sets the initial active set: the rows whose `guess` is positive */
+PetscErrorCode IPReducedGuess(IPReduced *r, Vec guess)
 {
-  IPReducedSystem *s    = &r->system;
-  IPLawsData       data = {0};
-
   PetscFunctionBegin;
-  if (r->laws) PetscCall(r->lawsops->getdata(r->laws, &data));
-  PetscCall(IPReducedFetch(r->to_rows, guess, r->on_rows, r->m, s->gap));
-  for (PetscInt i = 0; i < r->m; i++) {
-    PetscBool *active = r->laws ? data.closed : r->set.active;
-
-    active[i] = (PetscBool)(s->gap[i] > 0.0);
-  }
+  PetscCall(IPReducedFetch(r->to_rows, guess, r->on_rows, r->m, r->system.gap));
+  for (PetscInt i = 0; i < r->m; i++) r->set.active[i] = (PetscBool)(r->system.gap[i] > 0.0);
   r->set.factored = PETSC_FALSE;
-  if (r->laws) PetscCall(r->lawsops->restart(r->laws));
-  if (!terms->n) PetscFunctionReturn(0);
-  PetscCall(IPReducedFetch(r->to_rows, force, r->on_rows, r->m, s->lambda));
-  PetscCall(IPReducedFetch(r->to_terms, terms->force, r->on_terms, 2 * r->nterms, s->lambda + r->m));
   PetscFunctionReturn(0);
 }
 
@@ -342,12 +292,6 @@ static PetscErrorCode ReducedCenterFirst(IPReduced *r, const PetscReal pg[])
   IPReducedSystem *s = &r->system;
 
   PetscFunctionBegin;
-  if (s->spring) PetscCall(PetscArraycpy(s->start, s->gap, s->m));
-  if (r->laws) {
-    PetscCall(PetscArraycpy(s->base, s->lambda, s->m));
-    PetscCall(IPComplianceSpread(&r->compliance, s->base, r->z));
-    for (PetscInt i = 0; i < r->n; i++) r->g[i] -= r->z[i];
-  }
   PetscCall(IPComplianceSolve(&r->compliance, 1, r->g, r->x));
   PetscCall(IPComplianceMultiply(&r->compliance, 1, r->x, s->h));
   s->length = 0.0;
@@ -360,18 +304,12 @@ static PetscErrorCode ReducedCenterFirst(IPReduced *r, const PetscReal pg[])
   PetscFunctionReturn(0);
 }
 
-/*
-   Sets the point to which v is relative: its gradient g, P^T g, constraint values c and, with norm terms, their values.
-   With norm terms the present forces are subtracted from g.
-*/
-PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, Vec value, const PetscReal pg[])
+/* Sets the point to which v is relative: its gradient g, P^T g, and constraint values c */
+PetscErrorCode IPReducedCenter(IPReduced *r, Vec gradient, Vec c, const PetscReal pg[])
 {
-  IPReducedSystem *s = &r->system;
-
   PetscFunctionBegin;
   PetscCall(IPReducedFetch(r->to_W, gradient, r->on_W, r->n, r->g));
-  PetscCall(IPReducedFetch(r->to_rows, c, r->on_rows, r->m, s->gap));
-  if (value) PetscCall(IPReducedFetch(r->to_terms, value, r->on_terms, 2 * r->nterms, s->gap + r->m));
+  PetscCall(IPReducedFetch(r->to_rows, c, r->on_rows, r->m, r->system.gap));
   PetscCall(IPReducedAgree(r, r->first ? ReducedCenterFirst(r, pg) : (PetscErrorCode)0));
   PetscFunctionReturn(0);
 }
@@ -433,29 +371,23 @@ PetscErrorCode IPReducedForget(IPReduced *r, const IPBasis *basis)
   r->generation = basis->generation;
   r->system.k   = r->companions.n;
   r->set.k      = 0;
-  if (r->laws) PetscCall(r->lawsops->forget(r->laws));
   if (r->first) PetscCall(PetscArrayzero(r->system.y, r->system.kmax));
   PetscFunctionReturn(0);
 }
 
-/* Computes w = K_WW^-1 (J_W^T (lambda - base) - g) by a solve */
+/* Computes w = K_WW^-1 (J_W^T lambda - g) by a solve */
 static PetscErrorCode ReducedRecoverBySolve(IPReduced *r, PetscReal w[])
 {
-  const IPReducedSystem *s = &r->system;
-  PetscReal             *change;
-
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(s->m, &change));
-  for (PetscInt i = 0; i < s->m; i++) change[i] = IPReducedForce(s, i);
-  PetscCall(IPComplianceSpread(&r->compliance, change, r->z));
-  PetscCall(PetscFree(change));
+  PetscCall(IPComplianceSpread(&r->compliance, r->system.lambda, r->z));
   for (PetscInt i = 0; i < r->n; i++) r->z[i] -= r->g[i];
   PetscCall(IPComplianceSolve(&r->compliance, 1, r->z, w));
   PetscFunctionReturn(0);
 }
 
-/* Computes w = K_WW^-1 (J_W^T (lambda - base) - g - Q_W y) without a solve, from columns that are known. r->x:
-   K_WW^-1 g */
+/*
+   Computes w = K_WW^-1 (J_W^T lambda - g - Q_W y), from columns of K_WW^-1 J_W^T if they are known. r->x: K_WW^-1 g
+*/
 static PetscErrorCode ReducedRecoverFirst(IPReduced *r, PetscReal w[])
 {
   const IPReducedSystem *s     = &r->system;
@@ -464,7 +396,7 @@ static PetscErrorCode ReducedRecoverFirst(IPReduced *r, PetscReal w[])
   PetscBool              known;
 
   PetscFunctionBegin;
-  PetscCall(IPComplianceExpand(&r->compliance, s->lambda, w, &known)); /* never with norm terms, so that base is zero */
+  PetscCall(IPComplianceExpand(&r->compliance, s->lambda, w, &known));
   if (known)
     for (PetscInt i = 0; i < r->n; i++) w[i] -= r->x[i];
   else PetscCall(ReducedRecoverBySolve(r, w));
@@ -490,25 +422,20 @@ static PetscErrorCode ReducedRecover(IPReduced *r, Vec v)
 static PetscErrorCode ReducedSolveFirst(IPReduced *r, PetscBool *solved)
 {
   PetscFunctionBegin;
-  if (r->laws) PetscCall(r->lawsops->solve(r->laws, &r->system, r->simply, &r->nsteps, &r->nactive, &r->met, solved));
-  else {
-    PetscCall(IPActiveSetSolve(&r->set, &r->compliance, &r->system, &r->nsteps, solved));
-    r->nactive = r->set.n;
-    r->met     = *solved;
-  }
+  PetscCall(IPActiveSetSolve(&r->set, &r->compliance, &r->system, &r->nsteps, solved));
+  r->nactive = r->set.n;
   PetscFunctionReturn(0);
 }
 
 /*
    Solves the reduced problem. y: coefficients of the directions, on all ranks; v: its entries in W are set to w; force:
-   lambda; terms: forces of the norm terms, or NULL. Sets r->nactive, r->nsteps, and r->met, whether the laws hold to
-   the requested tolerance.
+   lambda. Sets r->nactive and r->nsteps.
 */
-PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved)
+PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, PetscBool *solved)
 {
   IPReducedSystem *s    = &r->system;
   MPI_Comm         comm = PetscObjectComm((PetscObject)v);
-  PetscInt         counts[3];
+  PetscInt         counts[2];
 
   PetscFunctionBegin;
   *solved = PETSC_FALSE;
@@ -516,16 +443,13 @@ PetscErrorCode IPReducedSolve(IPReduced *r, PetscReal y[], Vec v, Vec force, Vec
   if (!*solved) PetscFunctionReturn(0);
   PetscCall(ReducedRecover(r, v));
   PetscCall(IPReducedSpread(r->to_rows, r->m, s->lambda, r->on_rows, force));
-  if (terms) PetscCall(IPReducedSpread(r->to_terms, 2 * r->nterms, s->lambda + r->m, r->on_terms, terms));
   PetscCallMPI(MPI_Bcast(s->y, (PetscMPIInt)s->k, MPIU_REAL, 0, comm));
   PetscCall(PetscArraycpy(y, s->y + r->companions.n, s->k - r->companions.n));
   counts[0] = r->nsteps;
   counts[1] = r->nactive;
-  counts[2] = r->met;
-  PetscCallMPI(MPI_Bcast(counts, 3, MPIU_INT, 0, comm));
+  PetscCallMPI(MPI_Bcast(counts, 2, MPIU_INT, 0, comm));
   r->nsteps  = counts[0];
   r->nactive = counts[1];
-  r->met     = (PetscBool)counts[2];
   PetscFunctionReturn(0);
 }
 
@@ -562,8 +486,7 @@ PetscErrorCode IPReducedScale(IPReduced *r, Vec scale)
 
 /*
    Solves K v - J^T lambda = f in the subspace, with J v = c in the rows that were active at the last solution and
-   lambda = 0 in the others. Only the entries of f in W are used. *solved: false if there are no constraints, or if
-   there are norm terms.
+   lambda = 0 in the others. Only the entries of f in W are used. *solved: false if there are no constraints.
 */
 PetscErrorCode IPReducedSolveActive(IPReduced *r, const IPBasis *basis, Vec f, Vec c, Vec v, Vec force,
   PetscBool *solved)
@@ -572,7 +495,7 @@ PetscErrorCode IPReducedSolveActive(IPReduced *r, const IPBasis *basis, Vec f, V
 
   PetscFunctionBegin;
   *solved =
-    (PetscBool)(r->to_rows && !r->to_terms && r->generation == basis->generation && s->k == r->companions.n + basis->n);
+    (PetscBool)(r->to_rows && r->generation == basis->generation && s->k == r->companions.n + basis->n);
   if (!*solved) PetscFunctionReturn(0);
   PetscCall(IPReducedFetch(r->to_W, f, r->on_W, r->n, r->g));
   if (r->scale) PetscCall(VecPointwiseMult(force, c, r->scale));

@@ -50,46 +50,18 @@ static inline PetscReal *IPComplianceColumn(const IPCompliance *c, PetscInt row)
   return c->C + (size_t)c->column[row] * (size_t)c->m;
 }
 
-/*
-   The contact problem after elimination of w, as in active_set.c and laws.c. Its rows are the constraints, followed by
-   two rows per norm term.
-*/
+/* The contact problem after elimination of w, as in active_set.c. Its rows are the constraints. */
 typedef struct {
-  PetscInt   m, k, kmax;     /* number of rows; number of coordinates y (companions and directions); largest number
-                                  of coordinates */
+  PetscInt   m, k, kmax;     /* number of rows; number of coordinates y; largest number of coordinates */
   PetscReal *JZ, *T, *h, *t; /* JZ, with columns of length m; T, with columns of length kmax; right-hand sides h
                                   and t */
   PetscReal *G;              /* diagonal of P^T K P */
   PetscInt   ncompanions, *companion; /* number of companions; the unknown of W to which each belongs */
   PetscReal *lambda, *gap, *y;        /* forces of the rows; their motions; coordinates */
-  PetscReal *base;     /* forces that h and t already contain, since without them bodies held by constraints
-                                  only would move far; zero without norm terms */
-  PetscReal  length;   /* size of the terms of a gap, for tolerances */
-  PetscReal  rounding; /* size of the rounding errors of a gap */
-  PetscBool  soft;     /* some motions have almost no stiffness without constraints */
-  PetscBool  guessed;  /* the initial forces of the constraints are a guess, not those of a state of equilibrium */
-  PetscErrorCode (*interrupt)(void *, PetscBool *); /* whether the user wants to end the solve; may be NULL */
-  void      *interrupt_ctx;
-  PetscReal *spring, *start; /* per row: stiffness D of the spring that K_WW contains for it; its motion at which the
-                                  spring is relaxed. NULL: no springs */
+  PetscReal  length;                  /* size of the terms of a gap, for tolerances */
+  PetscReal  rounding;                /* size of the rounding errors of a gap */
+  PetscBool  soft;                    /* some motions have almost no stiffness without constraints */
 } IPReducedSystem;
-
-/* Returns the force of a row on K_WW and its springs, less those that h and t contain: f - base + D (v - start) */
-static inline PetscReal IPReducedForce(const IPReducedSystem *s, PetscInt row)
-{
-  const PetscReal spring = s->spring ? s->spring[row] * (s->gap[row] - s->start[row]) : 0.0;
-
-  return s->lambda[row] - s->base[row] + spring;
-}
-
-/* Finds whether the user wants to end the solve. Only on the first rank. */
-static inline PetscErrorCode IPReducedInterrupted(const IPReducedSystem *s, PetscBool *stop)
-{
-  PetscFunctionBegin;
-  *stop = PETSC_FALSE;
-  if (s->interrupt) PetscCall(s->interrupt(s->interrupt_ctx, stop));
-  PetscFunctionReturn(0);
-}
 
 /* The active constraints, and the factors for them */
 typedef struct {
@@ -103,35 +75,6 @@ typedef struct {
   PetscReal  shift; /* addition to the diagonal of H, relative to the directions' energies */
 } IPActiveSet;
 
-/* Data that the laws of constraints and norm terms receive, on the first rank */
-typedef struct {
-  PetscReal *limit, *coefficient; /* per term: limit and coefficient of its bound; a negative coefficient: the bound
-                                     is the limit */
-  PetscReal *rigid;               /* two entries per term: unit direction along which the term cannot move; zero:
-                                     none */
-  PetscBool *closed;              /* constraints that are closed initially */
-  PetscReal *shift;               /* two entries per term: by which the laws have shifted the term's reference since
-                                     the last IPReducedChangeTerms() */
-  PetscInt   nreleased;           /* number of terms that the laws have released or shifted so far */
-} IPLawsData;
-
-/*
-   Interface of a solver for the reduced problem with norm terms, which has m constraints, n terms, and the rows R.
-   register.c stores the implementation.
-*/
-typedef struct _p_IPLaws *IPLaws;
-typedef struct _n_IPLawsOps {
-  PetscErrorCode (*create)(PetscInt m, PetscInt n, PetscInt kmax, Mat K, Mat factors, Mat R, IPLaws *,
-    PetscBool *definite); /* K: K_WW, with its factors */
-  PetscErrorCode (*getdata)(IPLaws, IPLawsData *);
-  PetscErrorCode (*restart)(IPLaws); /* called after the initially closed rows were changed */
-  PetscErrorCode (*forget)(IPLaws);  /* called after the directions were replaced */
-  PetscErrorCode (*solve)(IPLaws, const IPReducedSystem *, PetscBool simply, PetscInt *steps, PetscInt *nactive,
-    PetscBool *met, PetscBool *solved); /* sets the coefficients of terms that it releases to zero, and
-                                                 shifts references */
-  PetscErrorCode (*destroy)(IPLaws *);
-} IPLawsOps;
-
 /*
    The reduced problem; n and m are zero on ranks other than the first. Later solves reuse the space (K_WW and Z), but
    not the constraints.
@@ -143,20 +86,16 @@ typedef struct {
   IS               W;
   Mat              KWW;          /* K_WW, including the companions' springs */
   PetscInt         generation;   /* generation of the basis when Z was computed */
-  PetscInt         n, m, nterms; /* sizes: of W, number of constraints, number of norm terms */
-  VecScatter       to_W, to_rows, to_terms;
-  Vec              on_W, on_rows, on_terms;
+  PetscInt         n, m;         /* sizes: of W, number of constraints */
+  VecScatter       to_W, to_rows;
+  Vec              on_W, on_rows;
   Vec              scale;   /* scales of the rows, set after a solve; NULL: all are 1 */
-  const IPLawsOps *lawsops; /* NULL: no implementation is registered */
-  IPLaws           laws;    /* NULL without norm terms, and on ranks other than the first */
   IPCompliance     compliance;
   IPCompanions     companions; /* the displacements of the companions are the first coordinates of y */
   IPReducedSystem  system;
   IPActiveSet      set;
   PetscReal       *Z, *g, *x, *z; /* K_WW^-1 Q_W; gradient at the centre; K_WW^-1 g; work */
   PetscInt         nsteps, nactive;
-  PetscBool        simply; /* with norm terms: stop if Newton's method fails, since W can be extended */
-  PetscBool        met;    /* whether the last solution satisfies the laws to the requested tolerance */
 } IPReduced;
 
 /* Data of the filtered subspace method that later solves reuse */
@@ -165,14 +104,26 @@ typedef struct {
   PetscBool        held;     /* whether the preconditioner was set up for K + J^T D J instead, for bodies that
                                      are held by constraints only */
   PetscBool        negative; /* K was negative along a direction, so that `held` ends when K changes */
-  PetscBool        changing; /* K has changed since the first solve with it */
-  PetscBool        whole;    /* W contains all unknowns, since norm terms needed that */
-  PetscInt         nwidened; /* number of consecutive solves in which W was extended to all unknowns */
   PetscObjectId    K_id;
   PetscObjectState K_state;
   IPBasis          basis;
   IPReduced        reduced;
 } IPRecycle;
+
+/*
+   Interface of a solver for problems with norm terms (friction), which works in the same space. register.c stores the
+   implementation. Its functions are collective.
+*/
+typedef struct _p_IPLaws *IPLaws;
+typedef struct _n_IPLawsOps {
+  PetscErrorCode (*create)(Tao, IPRecycle *, IS W, IPLaws *); /* for the present Hessian, constraints and terms */
+  PetscErrorCode (*begin)(IPLaws, Vec gradient, Vec c, Vec values, Vec force,
+    Vec terms); /* moves to a point with these values of constraints and terms, and these forces */
+  PetscErrorCode (*step)(IPLaws, PetscReal enough, Vec x, Vec force, Vec terms, PetscReal *violation,
+    PetscInt *nclosed, PetscBool *done); /* takes a step. enough: residual [2-norm] that may be left; x: the point,
+                                            relative to the begin; violation: relative violation of the laws */
+  PetscErrorCode (*destroy)(IPLaws *);
+} IPLawsOps;
 
 /* State of the filtered subspace method during a solve */
 typedef struct {
@@ -180,6 +131,9 @@ typedef struct {
   PetscContainer recycle; /* contains an IPRecycle */
   IS             W;       /* unknowns that the reduced problem has: those of the constraints, and their neighbours */
   IPReduced     *reduced; /* the reduced problem in `recycle`; NULL: not set up */
+  const IPLawsOps *lawsops;
+  IPLaws         laws;    /* with norm terms, in place of the reduced problem; NULL: not set up */
+  PetscInt       nclosed; /* with norm terms: number of closed contacts */
   Vec            centre, gradient, c; /* the point to which the reduced problem is relative; grad f and c_I there */
   PetscReal      f;                   /* f at that point */
   PetscReal     *pg, *y;              /* P^T grad f at that point; coefficients of the directions */
@@ -243,7 +197,6 @@ PETSC_INTERN PetscErrorCode IPActiveSetSolve(IPActiveSet *, IPCompliance *, cons
 /* gather_first.c */
 PETSC_INTERN PetscErrorCode IPGatherStiffness(Mat K, IS own, PetscInt nw, const PetscInt w[], PetscBool first, Mat *);
 PETSC_INTERN PetscErrorCode IPGatherRows(Mat J, PetscInt nw, const PetscInt w[], PetscBool first, Mat *);
-PETSC_INTERN PetscErrorCode IPStackRows(Mat upper, Mat lower, Mat *both);
 PETSC_INTERN PetscErrorCode IPReducedBroadcast(const IPReduced *, PetscErrorCode, PetscBool *verdict);
 PETSC_INTERN PetscErrorCode IPReducedAgree(const IPReduced *, PetscErrorCode);
 PETSC_INTERN PetscErrorCode IPReducedFetch(VecScatter, Vec, Vec on_first, PetscInt n, PetscReal a[]);
@@ -251,24 +204,19 @@ PETSC_INTERN PetscErrorCode IPReducedSpread(VecScatter, PetscInt n, const PetscR
 
 /* reduced.c */
 PETSC_INTERN PetscErrorCode IPReducedIsOf(const IPReduced *, Mat K, PetscBool *same);
-PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, const IPLawsOps *, Mat K, Mat J, const IPTerms *, IS W, Vec x,
-  Vec c, const IPBasis *, PetscBool *definite);
+PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, Mat K, Mat J, IS W, Vec x, Vec c, const IPBasis *,
+  PetscBool *definite);
 PETSC_INTERN PetscErrorCode IPReducedRelease(IPReduced *);
 PETSC_INTERN PetscErrorCode IPReducedScale(IPReduced *, Vec scale);
 PETSC_INTERN PetscErrorCode IPReducedDestroy(IPReduced *);
-PETSC_INTERN PetscErrorCode IPReducedGuess(IPReduced *, Vec guess, Vec force, const IPTerms *);
-PETSC_INTERN PetscErrorCode IPReducedCenter(IPReduced *, Vec gradient, Vec c, Vec value, const PetscReal pg[]);
+PETSC_INTERN PetscErrorCode IPReducedGuess(IPReduced *, Vec guess);
+PETSC_INTERN PetscErrorCode IPReducedCenter(IPReduced *, Vec gradient, Vec c, const PetscReal pg[]);
 PETSC_INTERN PetscErrorCode IPReducedAppend(IPReduced *, const IPBasis *, const PetscReal pg[]);
 PETSC_INTERN PetscErrorCode IPReducedForget(IPReduced *, const IPBasis *);
 PETSC_INTERN PetscErrorCode IPReducedCoupling(const IPReduced *, const IPBasis *, PetscReal E[]);
-PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Vec force, Vec terms, PetscBool *solved);
+PETSC_INTERN PetscErrorCode IPReducedSolve(IPReduced *, PetscReal y[], Vec v, Vec force, PetscBool *solved);
 PETSC_INTERN PetscErrorCode IPReducedSolveActive(IPReduced *, const IPBasis *, Vec f, Vec c, Vec v, Vec force,
   PetscBool *solved);
-
-/* reduced_terms.c */
-PETSC_INTERN PetscErrorCode IPReducedSetTerms(IPReduced *, const IPTerms *, Vec scale);
-PETSC_INTERN PetscErrorCode IPReducedSetSprings(IPReduced *, Vec D, Vec Dt);
-PETSC_INTERN PetscErrorCode IPReducedChangeTerms(const IPReduced *, const IPTerms *);
 
 /* recycle.c */
 PETSC_INTERN PetscErrorCode IPRecycleGet(Tao, IPRecycle **);
@@ -282,13 +230,14 @@ PETSC_INTERN PetscErrorCode IPRecycleUpdate(Tao, IPRecycle *, PetscBool *possibl
 PETSC_INTERN PetscErrorCode IPFilteredPrecondition(Tao, IPRecycle *, Vec r, Vec d, PetscBool *definite);
 
 /* subspace.c */
-PETSC_INTERN PetscErrorCode IPFilteredTakeAll(Tao, IS *W);
-PETSC_INTERN PetscErrorCode IPFilteredWiden(Tao, IPRecycle *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPFilteredSetUp(Tao, IPRecycle *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPFilteredDestroy(IPFiltered *);
-PETSC_INTERN PetscErrorCode IPFilteredCentre(Tao, const IPBasis *, Vec x, Vec centre, Vec gradient, Vec c);
+PETSC_INTERN PetscErrorCode IPFilteredCentre(Tao, const IPBasis *, Vec centre, Vec gradient, Vec c);
+PETSC_INTERN PetscErrorCode IPFilteredBeginLaws(Tao);
+PETSC_INTERN PetscErrorCode IPFilteredStepLaws(Tao, PetscReal enough, Vec x, Vec force, PetscReal *violation, PetscBool *done);
 PETSC_INTERN PetscErrorCode IPFilteredSolve(Tao, const IPBasis *, Vec v, Vec force, PetscBool *solved);
 PETSC_INTERN PetscErrorCode IPFilteredSetPairs(Tao, Vec force);
+PETSC_INTERN PetscErrorCode IPFilteredCompress(Tao, IPBasis *, PetscReal E[]);
 PETSC_INTERN PetscErrorCode IPFilteredMakeRoom(Tao, IPBasis *);
 PETSC_INTERN PetscBool      IPFilteredProgresses(IPFiltered *, PetscReal error, PetscInt patience);
 PETSC_INTERN PetscErrorCode IPFilteredAllows(Tao, PetscBool *);
