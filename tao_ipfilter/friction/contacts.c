@@ -76,18 +76,19 @@ void ContactsHold(const Contacts *c, PetscInt i)
 }
 
 /*
-   Computes the violation of the laws [square root of energy]: rho r^2 is summed over all contacts, with the stiffness
+   Computes the violation of the laws by forces and motions [square root of energy]: rho r^2 is summed over all contacts, with the stiffness
    rho, r = min(f / rho, u) for the normal component and r = |tau - P(tau - rho v)| / rho for the tangential ones, where
    P projects onto |tau| <= b. rounding: the violation that rounding errors cause.
 */
-PetscErrorCode ContactsViolation(const Contacts *c, PetscReal *violation, PetscReal *rounding)
+PetscErrorCode ContactsViolation(const Contacts *c, const PetscReal force[], const PetscReal motion[],
+  PetscReal *violation, PetscReal *rounding)
 {
   const PetscReal exact  = 1e-13; /* rounding errors of forces that are much larger than their changes */
   PetscReal       sum[2] = {0.0, 0.0};
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < c->n; i++) {
-    const PetscReal *f = &c->f[3 * i], *u = &c->u[3 * i], *compliance = &c->compliance[2 * i];
+    const PetscReal *f = &force[3 * i], *u = &motion[3 * i], *compliance = &c->compliance[2 * i];
 
     if (c->normal[i]) {
       sum[0] += PetscSqr(PetscMin(f[0] * compliance[0], u[0])) / compliance[0];

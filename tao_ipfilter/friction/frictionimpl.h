@@ -69,7 +69,8 @@ PETSC_INTERN void           ContactsSetLaw(Contacts *, PetscInt i, PetscReal lim
 PETSC_INTERN PetscReal      ContactsBound(const Contacts *, PetscInt i, PetscReal normal_force);
 PETSC_INTERN void           ContactsRemoveRigid(const Contacts *, PetscInt i, PetscReal u[3]);
 PETSC_INTERN void           ContactsHold(const Contacts *, PetscInt i);
-PETSC_INTERN PetscErrorCode ContactsViolation(const Contacts *, PetscReal *violation, PetscReal *rounding);
+PETSC_INTERN PetscErrorCode ContactsViolation(const Contacts *, const PetscReal force[], const PetscReal motion[],
+  PetscReal *violation, PetscReal *rounding);
 PETSC_INTERN PetscErrorCode ContactsStep(Contacts *, const ContactBodies *, PetscReal fraction,
   PetscReal target, PetscReal du[], PetscReal df[], PetscBool *solved);
 

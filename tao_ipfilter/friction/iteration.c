@@ -49,11 +49,11 @@ static PetscErrorCode IterationNewton(ContactIteration *it, PetscBool *done)
   PetscReal       before, violation, rounding, change;
 
   PetscFunctionBegin;
-  PetscCall(ContactsViolation(it->contacts, &before, &rounding));
+  PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &before, &rounding));
   PetscCall(ContactsNewtonStep(it->contacts, &it->bodies, &change, done));
   if (!*done) PetscFunctionReturn(0);
   if (it->size == 0.0) it->size = PetscMax(before, change);
-  PetscCall(ContactsViolation(it->contacts, &violation, &rounding));
+  PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &violation, &rounding));
   PetscCall(PetscInfo(NULL, "Newton: violation %g, size %g, change %g\n", (double)violation, (double)it->size, (double)change));
   it->violation = it->size > 0.0 ? violation / it->size : 0.0;
   if (violation <= PetscMax(exact * it->size, rounding)) {

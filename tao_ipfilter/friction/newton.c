@@ -116,11 +116,38 @@ static PetscErrorCode NewtonNorm(const Contacts *c, const PetscReal du[], PetscR
   PetscFunctionReturn(0);
 }
 
+/*
+   Finds the fraction of a step with the smallest violation of the laws, by halving it. If no fraction is better than the
+   start, it is the whole step, since many short steps would make no progress.
+*/
+static PetscErrorCode NewtonSearch(const Contacts *c, const PetscReal du[], const PetscReal df[], PetscReal *fraction)
+{
+  const PetscInt halvings = 8;
+  PetscReal      violation, rounding, least, *f, *u;
+
+  PetscFunctionBegin;
+  *fraction = 1.0;
+  PetscCall(ContactsViolation(c, c->f, c->u, &least, &rounding));
+  PetscCall(PetscMalloc2(3 * c->n, &f, 3 * c->n, &u));
+  for (PetscReal alpha = 1.0; alpha >= PetscPowRealInt(0.5, halvings); alpha *= 0.5) {
+    for (PetscInt r = 0; r < 3 * c->n; r++) {
+      f[r] = c->f[r] + alpha * df[r];
+      u[r] = c->u[r] + alpha * du[r];
+    }
+    PetscCall(ContactsViolation(c, f, u, &violation, &rounding));
+    if (!(violation < least)) continue;
+    least     = violation;
+    *fraction = alpha;
+  }
+  PetscCall(PetscFree2(f, u));
+  PetscFunctionReturn(0);
+}
+
 /* Takes one Newton step. change: norm of the change of motions [square root of energy] */
 PetscErrorCode ContactsNewtonStep(Contacts *c, const ContactBodies *bodies, PetscReal *change, PetscBool *solved)
 {
   const PetscReal forcing = 0.1; /* residual of a system, relative to that with the directions there are */
-  PetscReal       sizes[2], *du, *df;
+  PetscReal       sizes[2], fraction, *du, *df;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc2(3 * c->n, &du, 3 * c->n, &df));
@@ -132,11 +159,12 @@ PetscErrorCode ContactsNewtonStep(Contacts *c, const ContactBodies *bodies, Pets
   PetscCall(bodies->prepare(bodies->data, c->D, solved));
   if (*solved) PetscCall(ContactsStep(c, bodies, forcing, 0.0, du, df, solved));
   if (*solved) {
+    PetscCall(NewtonSearch(c, du, df, &fraction));
     for (PetscInt r = 0; r < 3 * c->n; r++) {
-      c->u[r] += du[r];
-      c->f[r] += df[r];
+      c->u[r] += fraction * du[r];
+      c->f[r] += fraction * df[r];
     }
-    PetscCall(bodies->advance(bodies->data, 1.0));
+    PetscCall(bodies->advance(bodies->data, fraction));
     PetscCall(NewtonNorm(c, du, change));
     NewtonExchange(c);
   }
