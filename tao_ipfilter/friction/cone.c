@@ -46,9 +46,9 @@ void ConeDivide(const PetscReal a[3], const PetscReal b[3], PetscReal quotient[3
 void ConeScaling(const PetscReal y[3], const PetscReal f[3], PetscReal W[9], PetscReal inverse[9])
 {
   const PetscReal mirror[3] = {1.0, -1.0, -1.0};
-  const PetscReal dy = PetscSqrtReal(ConePositive(ConeDeterminant(y))),
-                  df = PetscSqrtReal(ConePositive(ConeDeterminant(f)));
-  PetscReal dot = 0.0, gamma, beta, v[3], first;
+  const PetscReal dy        = PetscSqrtReal(ConePositive(ConeDeterminant(y))),
+                  df        = PetscSqrtReal(ConePositive(ConeDeterminant(f)));
+  PetscReal dot             = 0.0, gamma, beta, v[3], first;
 
   for (PetscInt r = 0; r < 3; r++) dot += y[r] / dy * f[r] / df;
   gamma = PetscSqrtReal(ConePositive(0.5 * (1.0 + dot)));
@@ -113,7 +113,7 @@ PetscReal ConeLongestStep(const PetscReal a[3], const PetscReal da[3])
 {
   const PetscReal A = ConeDeterminant(da), B = a[0] * da[0] - a[1] * da[1] - a[2] * da[2], C = ConeDeterminant(a),
                   square = B * B - A * C;
-  PetscReal t = PETSC_INFINITY;
+  PetscReal t            = PETSC_INFINITY;
 
   if (da[0] < 0.0) t = -a[0] / da[0];
   if (square >= 0.0) {

@@ -1,14 +1,14 @@
 /*
    Contact with Coulomb's friction by an interior point method on second-order cones, from a cold start.
 
-   With the gap u_n, the slip u_t and the coefficient m, Coulomb's law is that y = (u_n + m |u_t|, m u_t) and
-   f = (r_n, r_t / m) are in the cone {(a, b): |b| <= a} and y^T f = 0 (De Saxce and Feng, The bipotential method, 1998).
+   With the gap u_n, the slip u_t and the coefficient m, Coulomb's law is that y = (u_n + m |u_t|, m u_t) and f =
+   (r_n, r_t / m) are in the cone {(a, b): |b| <= a} and y^T f = 0 (De Saxce and Feng, The bipotential method, 1998).
    For a fixed m |u_t| this is a convex problem (Acary, Cadoux, Lemarechal and Malick, A formulation of the linear
-   discrete Coulomb friction problem via convex optimization, 2011). The method takes m |u_t| and its derivative from the
-   iterate (Acary, Armand and Nguyen, High-accuracy computation of rolling friction contact problems, 2023).
+   discrete Coulomb friction problem via convex optimization, 2011). The method takes m |u_t| and its derivative from
+   the iterate (Acary, Armand and Nguyen, High-accuracy computation of rolling friction contact problems, 2023).
 
-   A contact without friction has the cone y >= 0, f >= 0. A limit L of the tangential force adds a slider in series: its
-   slip z_t and the force (L, r_t) are in a cone of their own, whose first component is constant.
+   A contact without friction has the cone y >= 0, f >= 0. A limit L of the tangential force adds a slider in series:
+   its slip z_t and the force (L, r_t) are in a cone of their own, whose first component is constant.
 
    Each cone has a Nesterov-Todd scaling, so that a contact's linearized laws are df = s - D du with a 3 x 3 block D.
    Steps are those of Mehrotra's predictor and corrector. Motions are multiplied by the square root of the contact's
@@ -18,9 +18,9 @@
 
 /* One contact in scaled components */
 typedef struct {
-  PetscInt  n;         /* dimension of the cone of y and f: 3, 1 without friction or with a limit alone, 0 */
-  PetscBool limited;   /* whether there is a cone of z and (limit, f_t) */
-  PetscReal scale[2];  /* scaled by unscaled motions: normal and tangential */
+  PetscInt  n;        /* dimension of the cone of y and f: 3, 1 without friction or with a limit alone, 0 */
+  PetscBool limited;  /* whether there is a cone of z and (limit, f_t) */
+  PetscReal scale[2]; /* scaled by unscaled motions: normal and tangential */
   PetscReal y[3], f[3], z[3], limit;
   PetscReal W[9], Wi[9], V[9]; /* scalings of y and f, with the inverse; and of z and (limit, f_t) */
   PetscReal ry[3], rz[2];      /* residuals of the equations of motions */
@@ -57,15 +57,17 @@ static PetscErrorCode ConesMax(const Cones s, PetscReal *largest)
 /* Sets the kinds and scales of a contact's cones */
 static void ConeSetKind(const Contacts *c, PetscInt i, Cone *k)
 {
-  const PetscReal    most       = 10.0; /* coefficient that stands for larger ones, whose scales differ too much */
-  const PetscReal   *compliance = &c->compliance[2 * i];
-  const ContactLaw   law        = c->law[i];
-  const PetscBool    coulomb    = (PetscBool)(law != CONTACT_SMOOTH && c->coefficient[i] >= 0.0);
+  const PetscReal  most       = 10.0; /* coefficient that stands for larger ones, whose scales differ too much */
+  const PetscReal *compliance = &c->compliance[2 * i];
+  const ContactLaw law        = c->law[i];
+  const PetscBool  coulomb    = (PetscBool)(law != CONTACT_SMOOTH && c->coefficient[i] >= 0.0);
 
   k->n        = coulomb ? 3 : c->normal[i] ? 1 : 0;
   k->limited  = (PetscBool)(law == CONTACT_LIMITED || law == CONTACT_TRESCA); /* a term that sticks is left out */
   k->scale[0] = c->normal[i] ? 1.0 / PetscSqrtReal(compliance[0]) : 0.0;
-  k->scale[1] = coulomb ? PetscMin(c->coefficient[i], most) * k->scale[0] : k->limited ? 1.0 / PetscSqrtReal(compliance[1]) : 0.0;
+  k->scale[1] = coulomb      ? PetscMin(c->coefficient[i], most) * k->scale[0]
+                : k->limited ? 1.0 / PetscSqrtReal(compliance[1])
+                             : 0.0;
   k->limit    = k->limited ? c->limit[i] / k->scale[1] : 0.0;
 }
 
@@ -145,8 +147,8 @@ static void ConeSetTarget(Cone *k, PetscReal target, PetscBool corrector)
 
   if (k->n == 1) k->p[0] = target - k->y[0] * k->f[0] - (corrector ? k->dy[0] * k->df[0] : 0.0);
   for (PetscInt cone = 0; cone < 2; cone++) {
-    const PetscReal f[3]  = {cone ? k->limit : k->f[0], k->f[1], k->f[2]},
-                    df[3] = {cone ? 0.0 : k->df[0], k->df[1], k->df[2]};
+    const PetscReal f[3]     = {cone ? k->limit : k->f[0], k->f[1], k->f[2]},
+                    df[3]    = {cone ? 0.0 : k->df[0], k->df[1], k->df[2]};
     const PetscReal *scaling = cone ? k->V : k->W;
 
     if (cone ? !k->limited : k->n != 3) continue;
@@ -206,7 +208,8 @@ static PetscErrorCode ConeLimitedLaw(const Cone *k, PetscReal D[9], PetscReal s[
     q[r] = a[r] + b[r] + k->rz[r - 1];
     for (PetscInt c = 1; c < 3; c++) C[3 * r + c] += square[3 * r + c];
   }
-  PetscCheck(ConeInvert(n, C, D), PETSC_COMM_SELF, PETSC_ERR_FP, "The compliance of a contact with a limit is singular");
+  PetscCheck(ConeInvert(n, C, D), PETSC_COMM_SELF, PETSC_ERR_FP,
+    "The compliance of a contact with a limit is singular");
   ConeMultiply(D, q, s);
   PetscFunctionReturn(0);
 }
@@ -424,7 +427,7 @@ PetscErrorCode ConesIterate(Cones s, PetscReal tolerance, PetscReal *error, Pets
 {
   const PetscReal inside = 0.99, /* fraction of the longest step */
     least                = 1e-6, /* of the centring: below it, rounding errors decide */
-    forcing              = 0.03;  /* residual that a system may leave, relative to the error of the iterate */
+    forcing              = 0.03; /* residual that a system may leave, relative to the error of the iterate */
   PetscReal t = 0.0, gap, balance = 0.0, after = 0.0, accuracy;
 
   PetscFunctionBegin;

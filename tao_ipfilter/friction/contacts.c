@@ -76,9 +76,9 @@ void ContactsHold(const Contacts *c, PetscInt i)
 }
 
 /*
-   Computes the violation of the laws by forces and motions [square root of energy]: rho r^2 is summed over all contacts, with the stiffness
-   rho, r = min(f / rho, u) for the normal component and r = |tau - P(tau - rho v)| / rho for the tangential ones, where
-   P projects onto |tau| <= b. rounding: the violation that rounding errors cause.
+   Computes the violation of the laws by forces and motions [square root of energy]: rho r^2 is summed over all
+   contacts, with the stiffness rho, r = min(f / rho, u) for the normal component and r = |tau - P(tau - rho v)| /
+   rho for the tangential ones, where P projects onto |tau| <= b. rounding: the violation that rounding errors cause.
 */
 PetscErrorCode ContactsViolation(const Contacts *c, const PetscReal force[], const PetscReal motion[],
   PetscReal *violation, PetscReal *rounding)

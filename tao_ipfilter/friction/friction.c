@@ -1,6 +1,6 @@
 /*
-   Implements the interface IPLawsOps of the subspace method: the contacts of the optimizer's constraints and norm terms,
-   and the bodies of its Hessian
+   Implements the interface IPLawsOps of the subspace method: the contacts of the optimizer's constraints and norm
+   terms, and the bodies of its Hessian
 */
 #include "frictionimpl.h"
 #include "tao_ipfilter/solver/matrices.h"
@@ -121,7 +121,8 @@ static PetscErrorCode LawsBegin(IPLaws laws, Vec g, Vec c, Vec values, Vec force
 
   PetscFunctionBegin;
   PetscCall(SubspaceBodiesCentre(laws->bodies, g));
-  contacts->rounding = ((TAO_IPFILTER *)laws->tao->data)->first->jacobian * ((TAO_IPFILTER *)laws->tao->data)->given->rounding;
+  contacts->rounding =
+    ((TAO_IPFILTER *)laws->tao->data)->first->jacobian * ((TAO_IPFILTER *)laws->tao->data)->given->rounding;
   PetscCall(LawsCopy(laws, c, values, contacts->u, PETSC_FALSE));
   PetscCall(LawsCopy(laws, force, terms, contacts->f, PETSC_FALSE));
   for (PetscInt i = 0; i < contacts->n; i++) {
@@ -135,9 +136,9 @@ static PetscErrorCode LawsBegin(IPLaws laws, Vec g, Vec c, Vec values, Vec force
 }
 
 /*
-   Takes one step. x: the point, relative to the begin; force, terms: forces there. violation: of the laws, relative to
-   the first step; nclosed: number of closed contacts; enough: residual [2-norm] at which directions are no longer added.
-   *done: false if no progress is possible
+   Takes one step. x: the point, relative to the begin; force, terms: forces there. violation: of the laws, relative
+   to the first step; nclosed: number of closed contacts; enough: residual [2-norm] at which directions are no longer
+   added. *done: false if no progress is possible
 */
 static PetscErrorCode LawsStep(IPLaws laws, PetscReal enough, Vec x, Vec force, Vec terms, PetscReal *violation,
   PetscInt *nclosed, PetscBool *done)

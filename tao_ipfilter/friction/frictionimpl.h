@@ -18,8 +18,8 @@ typedef enum {
 } ContactLaw;
 
 /*
-   The contacts of this rank. Each has a normal and two tangential components, which are neighbours in f and u. A contact
-   is without its normal component if its norm term does not depend on a constraint.
+   The contacts of this rank. Each has a normal and two tangential components, which are neighbours in f and u. A
+   contact is without its normal component if its norm term does not depend on a constraint.
 */
 typedef struct {
   MPI_Comm    comm;
@@ -29,10 +29,11 @@ typedef struct {
   PetscBool  *closed;              /* states in Newton's method */
   PetscReal  *coefficient, *limit; /* of the law; unused ones are zero */
   PetscReal  *rigid;               /* two per contact: unit direction along which it cannot slip; zeros: none */
-  PetscReal  *compliance; /* two per contact: estimates for the normal and for the tangential components [length/force] */
-  PetscReal  *f, *u;      /* three per contact: forces, and motions: the gap and the slip */
-  PetscReal  *D, *s;      /* nine and three per contact: linearized laws df = s - D du */
-  PetscReal   rounding;   /* size of the rounding errors of a gap [length] */
+  PetscReal
+    *compliance;       /* two per contact: estimates for the normal and for the tangential components [length/force] */
+  PetscReal *f, *u;    /* three per contact: forces, and motions: the gap and the slip */
+  PetscReal *D, *s;    /* nine and three per contact: linearized laws df = s - D du */
+  PetscReal  rounding; /* size of the rounding errors of a gap [length] */
 } Contacts;
 
 /*
@@ -41,13 +42,14 @@ typedef struct {
 */
 typedef struct {
   void *data;
-  PetscErrorCode (*residual)(void *, const PetscReal f[], PetscReal sizes[2]); /* computes r. sizes: largest entries of r
-                                                                                  and of R^T f, each divided by the square
-                                                                                  root of K's diagonal entry */
-  PetscErrorCode (*prepare)(void *, const PetscReal D[], PetscBool *prepared); /* sets the matrix K + R^T D R */
-  PetscErrorCode (*solve)(void *, const PetscReal s[], PetscReal fraction, PetscReal target, PetscReal du[],
-    PetscBool *solved); /* solves (K + R^T D R) dx = R^T s - r until the residual is at most that fraction of the first
-                           one, or at most the target, in the measure of sizes[0]; du = R dx */
+  /* computes r. sizes: largest entries of r and of R^T f, each divided by the square root of K's diagonal entry */
+  PetscErrorCode (*residual)(void *, const PetscReal f[], PetscReal sizes[2]);
+  /* sets the matrix K + R^T D R. *prepared: false if it is singular */
+  PetscErrorCode (*prepare)(void *, const PetscReal D[], PetscBool *prepared);
+  /* solves (K + R^T D R) dx = R^T s - r until the residual is at most that fraction of the first one, or at most the
+     target, in the measure of sizes[0]; du = R dx */
+  PetscErrorCode (
+    *solve)(void *, const PetscReal s[], PetscReal fraction, PetscReal target, PetscReal du[], PetscBool *solved);
   PetscErrorCode (*advance)(void *, PetscReal fraction); /* adds fraction dx to x */
   PetscErrorCode (*keep)(void *, PetscBool back);        /* copies x to a second place, or from there */
   PetscErrorCode (*interrupted)(void *, PetscBool *);    /* whether the user wants to end the solve */
@@ -71,8 +73,8 @@ PETSC_INTERN void           ContactsRemoveRigid(const Contacts *, PetscInt i, Pe
 PETSC_INTERN void           ContactsHold(const Contacts *, PetscInt i);
 PETSC_INTERN PetscErrorCode ContactsViolation(const Contacts *, const PetscReal force[], const PetscReal motion[],
   PetscReal *violation, PetscReal *rounding);
-PETSC_INTERN PetscErrorCode ContactsStep(Contacts *, const ContactBodies *, PetscReal fraction,
-  PetscReal target, PetscReal du[], PetscReal df[], PetscBool *solved);
+PETSC_INTERN PetscErrorCode ContactsStep(Contacts *, const ContactBodies *, PetscReal fraction, PetscReal target,
+  PetscReal du[], PetscReal df[], PetscBool *solved);
 
 /* cones.c */
 typedef struct _p_Cones *Cones;
@@ -84,8 +86,7 @@ PETSC_INTERN PetscErrorCode ConesIterate(Cones, PetscReal tolerance, PetscReal *
 
 /* newton.c */
 PETSC_INTERN void           ContactsGuessStates(Contacts *, PetscBool interior);
-PETSC_INTERN PetscErrorCode ContactsNewtonStep(Contacts *, const ContactBodies *, PetscReal *change,
-  PetscBool *solved);
+PETSC_INTERN PetscErrorCode ContactsNewtonStep(Contacts *, const ContactBodies *, PetscReal *change, PetscBool *solved);
 
 /* iteration.c */
 typedef enum {

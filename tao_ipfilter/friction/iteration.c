@@ -23,7 +23,7 @@ static PetscErrorCode IterationEnterNewton(ContactIteration *it, ContactPhase ph
   PetscFunctionBegin;
   it->phase  = phase;
   it->nsteps = it->nfutile = 0;
-  it->best   = PETSC_INFINITY;
+  it->best                 = PETSC_INFINITY;
   ContactsGuessStates(it->contacts, (PetscBool)(phase == CONTACT_LAST));
   PetscCall(IterationKeep(it, PETSC_FALSE));
   PetscFunctionReturn(0);
@@ -54,7 +54,8 @@ static PetscErrorCode IterationNewton(ContactIteration *it, PetscBool *done)
   if (!*done) PetscFunctionReturn(0);
   if (it->size == 0.0) it->size = PetscMax(before, change);
   PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &violation, &rounding));
-  PetscCall(PetscInfo(NULL, "Newton: violation %g, size %g, change %g\n", (double)violation, (double)it->size, (double)change));
+  PetscCall(
+    PetscInfo(NULL, "Newton: violation %g, size %g, change %g\n", (double)violation, (double)it->size, (double)change));
   it->violation = it->size > 0.0 ? violation / it->size : 0.0;
   if (violation <= PetscMax(exact * it->size, rounding)) {
     it->nsteps = it->nfutile = 0;
@@ -85,7 +86,8 @@ static PetscErrorCode IterationCones(ContactIteration *it, PetscBool *done)
 /* Returns from Newton's method to the interior point method, since the states of some contacts were not known yet */
 static PetscErrorCode IterationReturn(ContactIteration *it, PetscBool *done)
 {
-  const PetscReal closer = 1e-2, last = 1e-10; /* error: by which factor it is reduced; below it, rounding errors decide */
+  const PetscReal closer = 1e-2,
+                  last   = 1e-10; /* error: by which factor it is reduced; below it, rounding errors decide */
 
   PetscFunctionBegin;
   PetscCall(IterationKeep(it, PETSC_TRUE));
@@ -137,7 +139,7 @@ PetscErrorCode ContactIterate(ContactIteration *it, PetscBool *done)
 {
   PetscFunctionBegin;
   PetscCall(it->bodies.interrupted(it->bodies.data, done));
-  *done = (PetscBool)!*done;
+  *done = (PetscBool) !*done;
   if (!*done) PetscFunctionReturn(0);
   if (it->phase == CONTACT_CONES) PetscCall(IterationCones(it, done));
   else if (it->cold) PetscCall(IterationEnterCones(it, done));

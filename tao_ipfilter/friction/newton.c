@@ -1,11 +1,11 @@
 /*
    Contact with friction by a semismooth Newton method (Alart and Curnier, A mixed formulation for frictional contact
-   problems prone to Newton like solution methods, 1991; Hueeber, Stadler and Wohlmuth, A primal-dual active set algorithm
-   for three-dimensional contact problems with Coulomb friction, 2008). Near a solution it ends in a few steps, since it
-   knows which contacts are open, stick and slip.
+   problems prone to Newton like solution methods, 1991; Hueeber, Stadler and Wohlmuth, A primal-dual active set
+   algorithm for three-dimensional contact problems with Coulomb friction, 2008). Near a solution it ends in a few
+   steps, since it knows which contacts are open, stick and slip.
 
-   Rows of closed and sticking contacts, u = 0, become springs -u = weak x compliance x df. Their forces are changes, so
-   that the solution does not depend on the springs: each step leaves a small fraction of u.
+   Rows of closed and sticking contacts, u = 0, become springs -u = weak x compliance x df. Their forces are changes,
+   so that the solution does not depend on the springs: each step leaves a small fraction of u.
 */
 #include "frictionimpl.h"
 #include "tao_ipfilter/measure/measureimpl.h"
@@ -14,8 +14,10 @@
    its square root is lost here. */
 static const PetscReal weak = 1e-7;
 
-/* Returns the largest tangential force of a closed contact at its present normal force. A limit alone does not depend on
-   that force. */
+/*
+   Returns the largest tangential force of a closed contact at its present normal force. A limit alone does not
+   depend on that force.
+*/
 static PetscReal NewtonBound(const Contacts *c, PetscInt i)
 {
   const PetscBool constant = (PetscBool)(c->coefficient[i] < 0.0 || c->coefficient[i] >= PETSC_INFINITY);
@@ -24,8 +26,8 @@ static PetscReal NewtonBound(const Contacts *c, PetscInt i)
 }
 
 /*
-   Guesses which contacts are closed. interior: forces and motions are those of the interior point method, which are both
-   positive; the larger one, in units of force, tells the state. Otherwise contacts with a force are closed.
+   Guesses which contacts are closed. interior: forces and motions are those of the interior point method, which are
+   both positive; the larger one, in units of force, tells the state. Otherwise contacts with a force are closed.
 */
 void ContactsGuessStates(Contacts *c, PetscBool interior)
 {
@@ -61,7 +63,7 @@ static void NewtonSlipLaw(const Contacts *c, PetscInt i, const PetscReal t[2], P
 {
   const PetscReal *f = &c->f[3 * i], rho = 1.0 / c->compliance[2 * i + 1];
   const PetscReal  bound = NewtonBound(c, i), theta = PetscMin(bound / size, 1.0),
-                  slope  = c->coefficient[i] < 0.0 || bound >= c->limit[i] ? 0.0 : c->coefficient[i],
+                  slope = c->coefficient[i] < 0.0 || bound >= c->limit[i] ? 0.0 : c->coefficient[i],
                   d[2] = {t[0] / size, t[1] / size}, stiff = rho * PetscMin(theta / (1.0 - theta), 1.0 / weak);
   PetscReal off[2], along;
 
@@ -71,14 +73,17 @@ static void NewtonSlipLaw(const Contacts *c, PetscInt i, const PetscReal t[2], P
     const PetscReal across = off[a] - along * d[a];
 
     /* across d, (1 - theta) dtau + theta rho dv = -off; the stiffness says what that is if theta is almost 1 */
-    s[1 + a] = slope * d[a] * s[0] - along * d[a] - (theta < 1.0 ? across * PetscMin(1.0 / (1.0 - theta), 1.0 / weak) : 0.0);
+    s[1 + a] =
+      slope * d[a] * s[0] - along * d[a] - (theta < 1.0 ? across * PetscMin(1.0 / (1.0 - theta), 1.0 / weak) : 0.0);
     D[3 * (1 + a)] = slope * d[a] * D[0];
     for (PetscInt b = 0; b < 2; b++) D[3 * (1 + a) + 1 + b] = stiff * ((a == b ? 1.0 : 0.0) - d[a] * d[b]);
   }
 }
 
-/* Sets the linearized law of a contact. It slips if tau - rho v is outside of the bound, at the normal force that a step
-   from f_n - rho u_n would have. */
+/*
+   Sets the linearized law of a contact. It slips if tau - rho v is outside of the bound, at the normal force that a
+   step from f_n - rho u_n would have.
+*/
 static void NewtonLaw(const Contacts *c, PetscInt i)
 {
   const PetscReal *f = &c->f[3 * i], *u = &c->u[3 * i], compliance = c->compliance[2 * i + 1];
@@ -117,10 +122,10 @@ static PetscErrorCode NewtonNorm(const Contacts *c, const PetscReal du[], PetscR
 }
 
 /*
-   Finds the fraction of a step with the smallest violation of the laws, by halving it. If no fraction is better than the
-   start, it is the whole step, since many short steps would make no progress.
+   Finds the fraction of a step with the smallest violation of the laws, by halving it. If no fraction is better than
+   the start, it is the whole step, since many short steps would make no progress.
 */
-static PetscErrorCode NewtonSearch(const Contacts *c, const PetscReal du[], const PetscReal df[], PetscReal *fraction)
+static PetscErrorCode NewtonChooseFraction(const Contacts *c, const PetscReal du[], const PetscReal df[], PetscReal *fraction)
 {
   const PetscInt halvings = 8;
   PetscReal      violation, rounding, least, *f, *u;
@@ -159,7 +164,7 @@ PetscErrorCode ContactsNewtonStep(Contacts *c, const ContactBodies *bodies, Pets
   PetscCall(bodies->prepare(bodies->data, c->D, solved));
   if (*solved) PetscCall(ContactsStep(c, bodies, forcing, 0.0, du, df, solved));
   if (*solved) {
-    PetscCall(NewtonSearch(c, du, df, &fraction));
+    PetscCall(NewtonChooseFraction(c, du, df, &fraction));
     for (PetscInt r = 0; r < 3 * c->n; r++) {
       c->u[r] += fraction * du[r];
       c->f[r] += fraction * df[r];

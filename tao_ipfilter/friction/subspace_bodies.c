@@ -2,9 +2,9 @@
    Bodies with the equations K x + g = R^T f, whose systems with A = K + R^T D R are solved in a filtered subspace: the
    unknowns W that contacts touch, and the directions P, which are zero on W. With x = w + P y and Q = K_WP
      [A_WW Q; Q^T P^T K P] (dw, dy) = (R^T s - r)
-   is solved by a factorization of A_WW and a dense Schur complement. The residual that is left is zero on W. A direction
-   is added for it until it is small. With a fixed D this is CG with the cycle `fbf` of PCAMGF; later systems, with other
-   D, use the directions again.
+   is solved by a factorization of A_WW and a dense Schur complement. The residual that is left is zero on W. A
+   direction is added for it until it is small. With a fixed D this is CG with the cycle `fbf` of PCAMGF. Later systems,
+   with other D, use the directions again.
 */
 #include "frictionimpl.h"
 #include "pc_amgf/amgfimpl.h"
@@ -22,15 +22,15 @@ struct _p_SubspaceBodies {
   IPRecycle *recycle; /* the preconditioner of K, and the directions */
   Mat        K;
   IS         W;
-  Mat        R, RW;                  /* rows of the contacts: three for each contact of this rank; columns W of R */
-  Mat        D, DR, RDR, KWW, A, F;  /* D; D R_W; R_W^T D R_W; K_WW; A_WW, and its factors */
-  Vec        x, dx, r, Kx, Kdx, g;   /* K x is kept beside x, K dx beside dx */
+  Mat        R, RW;                 /* rows of the contacts: three for each contact of this rank; columns W of R */
+  Mat        D, DR, RDR, KWW, A, F; /* D; D R_W; R_W^T D R_W; K_WW; A_WW, and its factors */
+  Vec        x, dx, r, Kx, Kdx, g;  /* K x is kept beside x, K dx beside dx */
   Vec        kept_x, kept_Kx;
-  Vec        base, rhs;              /* dx = base + what the subspace adds, for the right-hand side rhs of the latter */
-  Vec        on_W, dw0, load, rows;  /* work vectors on W; one with the entries of contacts */
-  PetscReal *X, *S, *factors, *dy;   /* A_WW^-1 Q: columns on W; Schur complement in columns of length max; its factors */
-  PetscInt   nX, generation;         /* number of columns of X; generation of the directions that it belongs to */
-  PetscReal  enough;                 /* residual [2-norm] that any solve may leave */
+  Vec        base, rhs;             /* dx = base + what the subspace adds, for the right-hand side rhs of the latter */
+  Vec        on_W, dw0, load, rows; /* work vectors on W; one with the entries of contacts */
+  PetscReal *X, *S, *factors, *dy; /* A_WW^-1 Q: columns on W; Schur complement in columns of length max; its factors */
+  PetscInt   nX, generation;       /* number of columns of X; generation of the directions that it belongs to */
+  PetscReal  enough;               /* residual [2-norm] that any solve may leave */
   PetscBLASInt *pivots;
   PetscInt      relaxation; /* work space of MUMPS beyond its estimate [per cent]; 0: its default */
 };
@@ -44,8 +44,10 @@ PetscErrorCode SubspaceBodiesDestroy(SubspaceBodies *bodies)
   PetscFunctionBegin;
   if (!b) PetscFunctionReturn(0);
   PetscCall(PetscArraycpy(matrices, ((Mat *[]){&b->R, &b->RW, &b->D, &b->DR, &b->RDR, &b->KWW, &b->A, &b->F}), 8));
-  PetscCall(PetscArraycpy(vectors, ((Vec *[]){&b->x, &b->dx, &b->r, &b->Kx, &b->Kdx, &b->g, &b->kept_x, &b->kept_Kx,
-                                     &b->on_W, &b->dw0, &b->load, &b->rows, &b->base, &b->rhs}), 14));
+  PetscCall(PetscArraycpy(vectors,
+    ((Vec *[]){&b->x, &b->dx, &b->r, &b->Kx, &b->Kdx, &b->g, &b->kept_x, &b->kept_Kx, &b->on_W, &b->dw0, &b->load,
+      &b->rows, &b->base, &b->rhs}),
+    14));
   for (PetscInt k = 0; k < 8; k++) PetscCall(MatDestroy(matrices[k]));
   for (PetscInt k = 0; k < 14; k++) PetscCall(VecDestroy(vectors[k]));
   PetscCall(ISDestroy(&b->W));
@@ -91,7 +93,8 @@ static PetscErrorCode BodiesCreateRows(Mat J, Mat T, PetscInt n, Mat *R)
       for (PetscInt a = 0; a < 3; a++) {
         const PetscInt row = a ? startT + 2 * i + a - 1 : startJ + i;
 
-        if (a ? 2 * i < mT : i < mJ) PetscCall(BodiesCopyRow(a ? T : J, row, *R, start + 3 * i + a, &counts[3 * i + a]));
+        if (a ? 2 * i < mT : i < mJ)
+          PetscCall(BodiesCopyRow(a ? T : J, row, *R, start + 3 * i + a, &counts[3 * i + a]));
       }
     }
   }
@@ -107,12 +110,12 @@ static PetscErrorCode BodiesCreateBlocks(Mat R, PetscInt n, Mat *D)
   PetscInt start;
 
   PetscFunctionBegin;
-  PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)R), 3 * n, 3 * n, PETSC_DETERMINE, PETSC_DETERMINE, 3, NULL, 0,
-    NULL, D));
+  PetscCall(
+    MatCreateAIJ(PetscObjectComm((PetscObject)R), 3 * n, 3 * n, PETSC_DETERMINE, PETSC_DETERMINE, 3, NULL, 0, NULL, D));
   PetscCall(MatGetOwnershipRange(*D, &start, NULL));
   for (PetscInt i = 0; i < n; i++) {
     const PetscScalar ones[9] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
-    const PetscInt    r       = start + 3 * i, rows[3] = {r, r + 1, r + 2};
+    const PetscInt    r = start + 3 * i, rows[3] = {r, r + 1, r + 2};
 
     PetscCall(MatSetValues(*D, 3, rows, 3, rows, ones, INSERT_VALUES));
   }
@@ -171,7 +174,8 @@ PetscErrorCode SubspaceBodiesCreate(Tao tao, IPRecycle *recycle, IS W, PetscInt 
   b->W = W;
   PetscCall(BodiesCreateRows(ip->jac->inequality, ip->terms->T, n, &b->R));
   PetscCall(BodiesCreateMatrices(b, n));
-  PetscCall(PetscArraycpy(like_x, ((Vec *[]){&b->x, &b->dx, &b->r, &b->Kx, &b->Kdx, &b->kept_x, &b->kept_Kx, &b->base, &b->rhs}), 9));
+  PetscCall(PetscArraycpy(like_x,
+    ((Vec *[]){&b->x, &b->dx, &b->r, &b->Kx, &b->Kdx, &b->kept_x, &b->kept_Kx, &b->base, &b->rhs}), 9));
   for (PetscInt k = 0; k < 9; k++) PetscCall(VecDuplicate(tao->solution, like_x[k]));
   PetscCall(MatCreateVecs(b->RW, &b->on_W, &b->rows));
   PetscCall(VecDuplicate(b->on_W, &b->dw0));
@@ -271,7 +275,7 @@ static PetscErrorCode BodiesSize(SubspaceBodies b, Vec v, PetscReal *size)
 {
   const PetscScalar *a, *d;
   PetscInt           n;
-  PetscReal          largest = 0.0;
+  PetscReal          largest  = 0.0;
   const Vec          diagonal = ((TAO_IPFILTER *)b->tao->data)->stiff->hdiag;
 
   PetscFunctionBegin;
@@ -419,7 +423,7 @@ static PetscErrorCode BodiesFactorDirections(SubspaceBodies b, PetscBool *factor
 {
   const IPBasis *basis = &b->recycle->basis;
   const PetscInt k = basis->n, old = b->generation == basis->generation ? b->nX : 0;
-  PetscInt       m, count = 0;
+  PetscInt       m, count          = 0;
   PetscReal     *sums;
   PetscBLASInt   nk, ld, info = 0;
 
@@ -429,7 +433,8 @@ static PetscErrorCode BodiesFactorDirections(SubspaceBodies b, PetscBool *factor
   PetscCall(VecGetLocalSize(b->on_W, &m));
   PetscCall(PetscMalloc1(k * k - old * old, &sums));
   for (PetscInt j = 0; j < k; j++)
-    for (PetscInt i = j < old ? old : 0; i < k; i++) sums[count++] = BodiesDot(m, basis->q[i], b->X + (size_t)j * (size_t)m);
+    for (PetscInt i = j < old ? old : 0; i < k; i++)
+      sums[count++] = BodiesDot(m, basis->q[i], b->X + (size_t)j * (size_t)m);
   PetscCallMPI(
     MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)count, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)b->on_W)));
   count = 0;
@@ -553,8 +558,8 @@ static PetscErrorCode BodiesExtend(SubspaceBodies b, Vec left, PetscBool *added)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fraction, PetscReal target,
-  PetscReal du[], PetscBool *solved)
+static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fraction, PetscReal target, PetscReal du[],
+  PetscBool *solved)
 {
   const SubspaceBodies b = (SubspaceBodies)data;
   const PetscScalar   *u;
@@ -621,7 +626,8 @@ static PetscErrorCode BodiesInterrupted(void *data, PetscBool *stop)
   PetscFunctionBegin;
   *stop = PETSC_FALSE;
   if (given->interrupt) PetscCall(given->interrupt(given->interrupt_ctx, stop));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, stop, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)((SubspaceBodies)data)->x)));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, stop, 1, MPI_PETSCBOOL, MPI_LOR,
+    PetscObjectComm((PetscObject)((SubspaceBodies)data)->x)));
   PetscFunctionReturn(0);
 }
 

@@ -324,8 +324,8 @@ static PetscErrorCode FilteredResidual(Tao tao, const IPBasis *basis, Vec r, Pet
   PetscCall(VecNorm(r, NORM_2, &all));
   PetscCall(VecISSet(r, f->W, 0.0));
   PetscCall(VecNorm(r, NORM_2, &off));
-  *exact = (PetscBool)(off > 0.5 * all &&
-                       (f->ncentred || PetscMax(ip->kkt->primal, ip->kkt->complementarity) <= PetscMax(ip->tol, ip->kkt->dual)));
+  *exact = (PetscBool)(off > 0.5 * all && (f->ncentred || PetscMax(ip->kkt->primal, ip->kkt->complementarity) <=
+                                                            PetscMax(ip->tol, ip->kkt->dual)));
   if (f->nfutile && f->nfutile % for_long == 0) *exact = PETSC_FALSE;
   if (*exact && !f->ncentred) PetscCall(IPModesAreBalanced(tao, basis, r, exact));
   PetscFunctionReturn(0);
@@ -377,7 +377,7 @@ static PetscErrorCode FilteredStepTerms(Tao tao, PetscBool *done)
   PetscFunctionBegin;
   tao->ksp_its         = 0;
   ip->rec->nacceptable = ip->rec->ntiny = 0;
-  *done = IPFilteredProgresses(IPFilteredOf(tao), IPBothErrors(ip), patience);
+  *done                                 = IPFilteredProgresses(IPFilteredOf(tao), IPBothErrors(ip), patience);
   if (!*done) PetscFunctionReturn(0);
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));

@@ -113,8 +113,8 @@ static PetscErrorCode NewtonSolveModel(Tao tao, IPRecycle *recycle, PetscReal ta
 static PetscErrorCode NewtonSolveLaws(Tao tao, PetscReal target, Vec d, Vec force, PetscBool *solved)
 {
   const PetscReal enough = 1e-3; /* relative violation of the laws: later models change more */
-  PetscReal       norm   = PETSC_INFINITY, violation = PETSC_INFINITY;
-  PetscBool       done   = PETSC_TRUE;
+  PetscReal       norm = PETSC_INFINITY, violation = PETSC_INFINITY;
+  PetscBool       done = PETSC_TRUE;
   Vec             r;
 
   PetscFunctionBegin;
@@ -124,7 +124,7 @@ static PetscErrorCode NewtonSolveLaws(Tao tao, PetscReal target, Vec d, Vec forc
     PetscCall(IPFilteredStepLaws(tao, 0.5 * target, d, force, &violation, &done));
     PetscCall(NewtonModelResidual(tao, d, force, r, &norm));
   }
-  *solved                        = done;
+  *solved                     = done;
   IPFilteredOf(tao)->promised = norm;
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &r));
   PetscFunctionReturn(0);

@@ -252,8 +252,7 @@ PetscErrorCode IPReducedIsOf(const IPReduced *r, Mat K, PetscBool *same)
    Sets up the reduced problem. The factors of K_WW are reused while K and W are unchanged, and K_WW^-1 Q_W while the
    directions are unchanged. *definite: false if K_WW is not positive definite.
 */
-PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, IS W, Vec x, Vec c, const IPBasis *basis,
-  PetscBool *definite)
+PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, IS W, Vec x, Vec c, const IPBasis *basis, PetscBool *definite)
 {
   PetscFunctionBegin;
   PetscCall(IPReducedIsOf(r, K, definite));
@@ -494,8 +493,7 @@ PetscErrorCode IPReducedSolveActive(IPReduced *r, const IPBasis *basis, Vec f, V
   IPReducedSystem *s = &r->system;
 
   PetscFunctionBegin;
-  *solved =
-    (PetscBool)(r->to_rows && r->generation == basis->generation && s->k == r->companions.n + basis->n);
+  *solved = (PetscBool)(r->to_rows && r->generation == basis->generation && s->k == r->companions.n + basis->n);
   if (!*solved) PetscFunctionReturn(0);
   PetscCall(IPReducedFetch(r->to_W, f, r->on_W, r->n, r->g));
   if (r->scale) PetscCall(VecPointwiseMult(force, c, r->scale));

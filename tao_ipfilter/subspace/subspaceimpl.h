@@ -84,12 +84,12 @@ typedef struct {
   PetscObjectId    K_id; /* K for which the space was set up */
   PetscObjectState K_state;
   IS               W;
-  Mat              KWW;          /* K_WW, including the companions' springs */
-  PetscInt         generation;   /* generation of the basis when Z was computed */
-  PetscInt         n, m;         /* sizes: of W, number of constraints */
+  Mat              KWW;        /* K_WW, including the companions' springs */
+  PetscInt         generation; /* generation of the basis when Z was computed */
+  PetscInt         n, m;       /* sizes: of W, number of constraints */
   VecScatter       to_W, to_rows;
   Vec              on_W, on_rows;
-  Vec              scale;   /* scales of the rows, set after a solve; NULL: all are 1 */
+  Vec              scale; /* scales of the rows, set after a solve; NULL: all are 1 */
   IPCompliance     compliance;
   IPCompanions     companions; /* the displacements of the companions are the first coordinates of y */
   IPReducedSystem  system;
@@ -119,30 +119,30 @@ typedef struct _n_IPLawsOps {
   PetscErrorCode (*create)(Tao, IPRecycle *, IS W, IPLaws *); /* for the present Hessian, constraints and terms */
   PetscErrorCode (*begin)(IPLaws, Vec gradient, Vec c, Vec values, Vec force,
     Vec terms); /* moves to a point with these values of constraints and terms, and these forces */
-  PetscErrorCode (*step)(IPLaws, PetscReal enough, Vec x, Vec force, Vec terms, PetscReal *violation,
-    PetscInt *nclosed, PetscBool *done); /* takes a step. enough: residual [2-norm] that may be left; x: the point,
+  PetscErrorCode (*step)(IPLaws, PetscReal enough, Vec x, Vec force, Vec terms, PetscReal *violation, PetscInt *nclosed,
+    PetscBool *done); /* takes a step. enough: residual [2-norm] that may be left; x: the point,
                                             relative to the begin; violation: relative violation of the laws */
   PetscErrorCode (*destroy)(IPLaws *);
 } IPLawsOps;
 
 /* State of the filtered subspace method during a solve */
 typedef struct {
-  PetscBool      newton;  /* whether Newton's method is used, since the objective is not quadratic */
-  PetscContainer recycle; /* contains an IPRecycle */
-  IS             W;       /* unknowns that the reduced problem has: those of the constraints, and their neighbours */
-  IPReduced     *reduced; /* the reduced problem in `recycle`; NULL: not set up */
+  PetscBool        newton;  /* whether Newton's method is used, since the objective is not quadratic */
+  PetscContainer   recycle; /* contains an IPRecycle */
+  IS               W;       /* unknowns that the reduced problem has: those of the constraints, and their neighbours */
+  IPReduced       *reduced; /* the reduced problem in `recycle`; NULL: not set up */
   const IPLawsOps *lawsops;
-  IPLaws         laws;    /* with norm terms, in place of the reduced problem; NULL: not set up */
-  PetscInt       nclosed; /* with norm terms: number of closed contacts */
-  Vec            centre, gradient, c; /* the point to which the reduced problem is relative; grad f and c_I there */
-  PetscReal      f;                   /* f at that point */
-  PetscReal     *pg, *y;              /* P^T grad f at that point; coefficients of the directions */
-  PetscBool      renewed;             /* whether all directions were removed in this solve */
-  PetscBool      ready;               /* false if the Hessian was indefinite at the first point */
-  PetscInt       ncentred;            /* number of consecutive steps without a new direction */
-  PetscInt       nfutile;             /* number of steps since the KKT error was last halved */
-  PetscReal      halved;              /* KKT error when it was last halved */
-  PetscReal      residual, promised;  /* Newton's method: residual before the last step, 0: none; and of its model */
+  IPLaws           laws;                /* with norm terms, in place of the reduced problem; NULL: not set up */
+  PetscInt         nclosed;             /* with norm terms: number of closed contacts */
+  Vec              centre, gradient, c; /* the point to which the reduced problem is relative; grad f and c_I there */
+  PetscReal        f;                   /* f at that point */
+  PetscReal       *pg, *y;              /* P^T grad f at that point; coefficients of the directions */
+  PetscBool        renewed;             /* whether all directions were removed in this solve */
+  PetscBool        ready;               /* false if the Hessian was indefinite at the first point */
+  PetscInt         ncentred;            /* number of consecutive steps without a new direction */
+  PetscInt         nfutile;             /* number of steps since the KKT error was last halved */
+  PetscReal        halved;              /* KKT error when it was last halved */
+  PetscReal        residual, promised;  /* Newton's method: residual before the last step, 0: none; and of its model */
 } IPFiltered;
 
 #define IPFilteredOf(tao) ((IPFiltered *)((TAO_IPFILTER *)(tao)->data)->method->data)
@@ -234,7 +234,8 @@ PETSC_INTERN PetscErrorCode IPFilteredSetUp(Tao, IPRecycle *, PetscBool *possibl
 PETSC_INTERN PetscErrorCode IPFilteredDestroy(IPFiltered *);
 PETSC_INTERN PetscErrorCode IPFilteredCentre(Tao, const IPBasis *, Vec centre, Vec gradient, Vec c);
 PETSC_INTERN PetscErrorCode IPFilteredBeginLaws(Tao);
-PETSC_INTERN PetscErrorCode IPFilteredStepLaws(Tao, PetscReal enough, Vec x, Vec force, PetscReal *violation, PetscBool *done);
+PETSC_INTERN PetscErrorCode IPFilteredStepLaws(Tao, PetscReal enough, Vec x, Vec force, PetscReal *violation,
+  PetscBool *done);
 PETSC_INTERN PetscErrorCode IPFilteredSolve(Tao, const IPBasis *, Vec v, Vec force, PetscBool *solved);
 PETSC_INTERN PetscErrorCode IPFilteredSetPairs(Tao, Vec force);
 PETSC_INTERN PetscErrorCode IPFilteredCompress(Tao, IPBasis *, PetscReal E[]);

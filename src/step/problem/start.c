@@ -193,11 +193,13 @@ PetscErrorCode StepProblemStart(StepProblem *p, PetscBool resume, Tao tao, Vec u
   Simulation sim   = p->sim;
   PetscReal  scale = 0.0;
   PetscBool  moved = (PetscBool)(resume || SimulationIsDynamic(sim));
+  /* with friction there may be several states, of which the one is wanted that continues the last */
+  const PetscBool last = (PetscBool)(p->friction.T && sim->quadratic);
 
   PetscFunctionBegin;
   *valid = PETSC_TRUE;
   if (p->J && (resume || sim->control->warm)) {
-    if (resume) scale = 1.0;
+    if (resume || last) scale = 1.0;
     else PetscCall(PathPressureScale(sim, p->time, &scale));
     PetscCall(StartRecallContact(p, scale, tao, &moved));
   }
@@ -205,7 +207,7 @@ PetscErrorCode StepProblemStart(StepProblem *p, PetscBool resume, Tao tao, Vec u
   if (resume) PetscFunctionReturn(0);
   if (!p->J) moved = sim->control->warm;
   if (!sim->quadratic) PetscCall(StartNonlinear(p, moved, scale, tao, u, valid));
-  else if (moved) PetscCall(PathContinue(sim, p->time, u));
+  else if (moved && !last) PetscCall(PathContinue(sim, p->time, u));
   else PetscCall(VecCopy(p->base, u));
   PetscFunctionReturn(0);
 }
