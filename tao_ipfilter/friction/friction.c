@@ -146,10 +146,12 @@ static PetscErrorCode LawsStep(IPLaws laws, PetscReal enough, Vec x, Vec force, 
   PetscFunctionBegin;
   SubspaceBodiesSetEnough(laws->bodies, enough);
   PetscCall(ContactIterate(&laws->iteration, done));
-  PetscCall(VecCopy(SubspaceBodiesGet(laws->bodies), x));
-  PetscCall(LawsCopy(laws, force, terms, laws->contacts.f, PETSC_TRUE));
   *violation = laws->iteration.violation;
-  *nclosed   = 0;
+  if (*violation < PETSC_INFINITY) {
+    PetscCall(VecCopy(SubspaceBodiesGet(laws->bodies), x));
+    PetscCall(LawsCopy(laws, force, terms, laws->contacts.f, PETSC_TRUE));
+  }
+  *nclosed = 0;
   for (PetscInt i = 0; i < laws->m; i++) *nclosed += laws->contacts.f[3 * i] > 0.0;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nclosed, 1, MPIU_INT, MPI_SUM, laws->contacts.comm));
   PetscFunctionReturn(0);

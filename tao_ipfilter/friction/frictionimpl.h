@@ -104,7 +104,7 @@ typedef struct {
   PetscInt      nsteps, nfutile; /* numbers of steps of this phase; of those since the violation was halved */
   PetscReal     size, best;      /* violation or change of motions at the start; smallest violation of this phase */
   PetscReal     known;           /* error of the interior point method at which Newton's method is tried */
-  PetscReal     violation;       /* relative violation of the laws, or relative error of the interior point method */
+  PetscReal     violation;       /* relative violation of the laws; infinite in the interior point method */
   PetscReal    *kept;            /* state at the start of Newton's method */
 } ContactIteration;
 

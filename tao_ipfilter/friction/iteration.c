@@ -75,7 +75,7 @@ static PetscErrorCode IterationCones(ContactIteration *it, PetscBool *done)
 
   PetscFunctionBegin;
   PetscCall(ConesIterate(it->cones, it->known, &error, done));
-  it->violation = error;
+  it->violation = PETSC_INFINITY; /* iterates inside the cones belong to no state of a contact */
   if (++it->nsteps > most) *done = PETSC_FALSE;
   if (!*done || error >= it->known) PetscFunctionReturn(0);
   PetscCall(IterationEnterNewton(it, CONTACT_LAST));

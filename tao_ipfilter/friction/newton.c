@@ -125,7 +125,8 @@ static PetscErrorCode NewtonNorm(const Contacts *c, const PetscReal du[], PetscR
    Finds the fraction of a step with the smallest violation of the laws, by halving it. If no fraction is better than
    the start, it is the whole step, since many short steps would make no progress.
 */
-static PetscErrorCode NewtonChooseFraction(const Contacts *c, const PetscReal du[], const PetscReal df[], PetscReal *fraction)
+static PetscErrorCode NewtonChooseFraction(const Contacts *c, const PetscReal du[], const PetscReal df[],
+  PetscReal *fraction)
 {
   const PetscInt halvings = 8;
   PetscReal      violation, rounding, least, *f, *u;

@@ -365,13 +365,17 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* Takes one step of the laws of norm terms, whose systems add directions as they need them */
+/*
+   Takes one step of the laws of norm terms, whose systems add directions as they need them. The point does not move
+   before the state of each contact is known: later solves would take a point inside the cones for one where all
+   contacts are closed.
+*/
 static PetscErrorCode FilteredStepTerms(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
   const PetscInt patience = 60;
   PetscReal      enough   = IP_FORCING_LAST * ip->tol * IPErrorBoundForceUnit(ip), violation;
-  PetscBool      moved;
+  PetscBool      moved    = PETSC_TRUE;
   Vec            v, force;
 
   PetscFunctionBegin;
@@ -382,7 +386,7 @@ static PetscErrorCode FilteredStepTerms(Tao tao, PetscBool *done)
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPFilteredStepLaws(tao, enough, v, force, &violation, done));
-  PetscCall(FilteredMove(tao, v, force, &moved));
+  if (violation < PETSC_INFINITY) PetscCall(FilteredMove(tao, v, force, &moved));
   *done = (PetscBool)(*done && moved);
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v));

@@ -120,6 +120,8 @@ static PetscErrorCode NewtonSolveLaws(Tao tao, PetscReal target, Vec d, Vec forc
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
   PetscCall(IPFilteredBeginLaws(tao));
+  PetscCall(VecZeroEntries(d));
+  PetscCall(VecZeroEntries(force));
   while (done && !(norm <= target && violation <= enough)) {
     PetscCall(IPFilteredStepLaws(tao, 0.5 * target, d, force, &violation, &done));
     PetscCall(NewtonModelResidual(tao, d, force, r, &norm));
