@@ -426,16 +426,15 @@ PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao tao, Vec *force)
   With limits only, this is a minimization (group lasso, Tresca's friction). With coefficients it is Coulomb's friction,
   which is not a minimization: the solution x, y, tau satisfies grad f = J^T y + T^T tau, |tau_i| <= b_i, and tau_i =
   -b_i v_i / |v_i| where v_i = T_i x + t_i is not zero. For large coefficients there may be no solution, or several.
-  If all coefficients are zero or above 100, terms stick while their constraints are closed. The load then grows from
-  the equilibrium with the given forces to the present one. A term that slides or opens on this path sticks at another
-  place, and its entries of `t` are changed such that its value is zero there. If it slides repeatedly, its entry of
-  `coefficient` is set to zero.
+  Terms with a coefficient above 100 and without a limit stick while their constraints are closed.
 
-  Norm terms require that all constraints are linear inequalities. The problem is solved by the filtered subspace
-  method: its reduced problem, with the unknowns of T and of the constraints, contains all nonsmooth terms. A
-  nonquadratic objective is minimized by Newton's method with such reduced problems. The KKT error includes the
-  residuals of the laws: the largest distance of tau_i from its projection to |tau_i| <= b_i, divided by the stiffness
-  of the unknowns in T_i.
+  Norm terms require that all constraints are linear inequalities. The solve begins with a semismooth Newton method from
+  the given forces. If that makes no progress, or there are no forces, an interior point method on second-order cones
+  follows, and Newton's method from its end. Both know the objective only by systems with K + R^T D R, where R has the
+  rows of the constraints and of T, and D a block of 3 x 3 entries for each constraint with its term. The systems are
+  solved in the filtered subspace of the unknowns of R and of directions. A nonquadratic objective is minimized by
+  Newton's method with such problems. The KKT error includes the residuals of the laws: the largest distance of tau_i
+  from its projection to |tau_i| <= b_i, divided by the stiffness of the unknowns in T_i.
 
   Matrix and vectors are referenced: they must not change during `TaoSolve()`.
 
@@ -445,6 +444,12 @@ PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao tao, Vec *force)
   References:
 + * - P. Alart and A. Curnier, A mixed formulation for frictional contact problems prone to Newton like solution
       methods, Comput. Methods Appl. Mech. Engrg. 92 (1991)
+. * - V. Acary, F. Cadoux, C. Lemarechal and J. Malick, A formulation of the linear discrete Coulomb friction problem via
+      convex optimization, Z. Angew. Math. Mech. 91 (2011)
+. * - V. Acary, P. Armand and H. M. Nguyen, High-accuracy computation of rolling friction contact problems, Optim. Eng.
+      24 (2023)
+. * - G. De Saxce and Z.-Q. Feng, The bipotential method: a constructive approach to design the complete contact law with
+      friction and improved numerical algorithms, Math. Comput. Modelling 28 (1998)
 - * - M. Yuan and Y. Lin, Model selection and estimation in regression with grouped variables, J. R. Statist. Soc. B
       68 (2006)
 
