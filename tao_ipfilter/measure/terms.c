@@ -444,12 +444,12 @@ PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao tao, Vec *force)
   References:
 + * - P. Alart and A. Curnier, A mixed formulation for frictional contact problems prone to Newton like solution
       methods, Comput. Methods Appl. Mech. Engrg. 92 (1991)
-. * - V. Acary, F. Cadoux, C. Lemarechal and J. Malick, A formulation of the linear discrete Coulomb friction problem via
-      convex optimization, Z. Angew. Math. Mech. 91 (2011)
+. * - V. Acary, F. Cadoux, C. Lemarechal and J. Malick, A formulation of the linear discrete Coulomb friction problem
+      via convex optimization, Z. Angew. Math. Mech. 91 (2011)
 . * - V. Acary, P. Armand and H. M. Nguyen, High-accuracy computation of rolling friction contact problems, Optim. Eng.
       24 (2023)
-. * - G. De Saxce and Z.-Q. Feng, The bipotential method: a constructive approach to design the complete contact law with
-      friction and improved numerical algorithms, Math. Comput. Modelling 28 (1998)
+. * - G. De Saxce and Z.-Q. Feng, The bipotential method: a constructive approach to design the complete contact law
+      with friction and improved numerical algorithms, Math. Comput. Modelling 28 (1998)
 - * - M. Yuan and Y. Lin, Model selection and estimation in regression with grouped variables, J. R. Statist. Soc. B
       68 (2006)
 
