@@ -396,7 +396,6 @@ static PetscErrorCode ConesDirection(Cones s, PetscReal target, PetscBool correc
     *t = PetscMin(*t, ConeStep(&s->cone[i]));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, t, 1, MPIU_REAL, MPIU_MIN, s->c->comm));
-  *solved = (PetscBool)!PetscIsInfOrNanReal(s->c->n ? s->du[0] : 0.0);
   PetscFunctionReturn(0);
 }
 
