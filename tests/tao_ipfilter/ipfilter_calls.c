@@ -740,7 +740,7 @@ static PetscErrorCode TestOwnHessian(void)
 }
 
 /* Options that need a positive value */
-static PetscErrorCode TestPositiveOptions(void)
+static PetscErrorCode TestOptionRanges(void)
 {
   static const struct {
     const char *name, *value;
