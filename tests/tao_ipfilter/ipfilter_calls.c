@@ -739,7 +739,7 @@ static PetscErrorCode TestOwnHessian(void)
   PetscFunctionReturn(0);
 }
 
-/* Options that need a positive value */
+/* Options with values that they cannot have */
 static PetscErrorCode TestOptionRanges(void)
 {
   static const struct {
