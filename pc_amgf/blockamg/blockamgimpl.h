@@ -145,8 +145,8 @@ typedef struct {
                             not symmetric: then its own cycle is used */
   BlockHierarchy *h;
   char            why[200];  /* why there is no hierarchy; empty if there is one */
-  PetscBool       symmetric; /* whether the operator is symmetric, tested once for each pattern: */
-  PetscObjectId   tested;    /* the operator of the last test, and its pattern */
+  PetscBool       symmetric; /* whether the operator of the last test is symmetric */
+  PetscObjectId   tested;    /* this operator; with another one, or another nonzero pattern, the test is repeated */
   PetscObjectState pattern;
 } PC_BlockAMG;
 

@@ -99,11 +99,14 @@ static PetscErrorCode ConeGetForce(Simulation sim, PetscReal time, const ConeRow
   size     = PetscSqrtReal(slip[0] * slip[0] + slip[1] * slip[1]);
   force[0] = 1.0;
   PetscCall(FrictionGetCoefficient(sim->scene, time, rows->lin->pair[r], &mu));
-  shear = mu;
-  if (mu < PETSC_INFINITY) *rate -= mu * size;
-  else if (-size < *rate) { /* this friction is not proportional to the normal force, and acts alone */ *rate = -size;
-    shear                                                                                                     = 1.0;
-    force[0]                                                                                                  = 0.0;
+  if (mu < PETSC_INFINITY) {
+    shear = mu;
+    *rate -= mu * size;
+  } else if (-size < *rate) {
+    /* this friction is not proportional to the normal force, and acts alone */
+    shear    = 1.0;
+    force[0] = 0.0;
+    *rate    = -size;
   } else shear = 0.0;
   for (PetscInt c = 0; c < 2; ++c) force[1 + c] = size > 0.0 ? -shear * slip[c] / size : 0.0;
   PetscFunctionReturn(0);

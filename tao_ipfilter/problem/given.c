@@ -41,8 +41,7 @@ static PetscErrorCode CheckProblem(Tao tao)
   PetscFunctionBegin;
   PetscCheck(!tao->ops->computeconstraints, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP,
     "TAOIPFILTER does not use the constraints of TaoSetConstraintsRoutine(): call TaoSetEqualityConstraintsRoutine() "
-    "or "
-    "TaoSetInequalityConstraintsRoutine()");
+    "or TaoSetInequalityConstraintsRoutine()");
   PetscCall(CheckTolerance(tao, tao->gatol, "gatol"));
   PetscCall(CheckTolerance(tao, tao->catol, "catol"));
   PetscCall(CheckTolerance(tao, tao->crtol, "crtol"));

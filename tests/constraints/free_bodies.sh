@@ -1,6 +1,9 @@
-# Bodies that something holds, but hardly: no support is missing, and nothing is said. Without friction nothing holds a
-# bracket under a bolt against a force along its faces: this is said before the first solve. A log on two logs can
-# turn about its axis, and stands. A strip that its tools leave remains where it is.
+# Bodies that are hardly held (free_bodies.py).
+# A slender body that is clamped at one end gets no warning of a missing support.
+# A force along its faces moves a bracket that a bolt presses down without friction. The program must report this before
+# the first solve.
+# A log that lies on two other logs without friction finds its equilibrium, although it can turn about its axis.
+# A strip keeps its position when its forming tools have lost contact with it.
 contact=$AMGF_DIR/bin/contact
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B "$AMGF_DIR/tests/constraints/free_bodies.py" write
 run() { # scene, ranks; a pair that stays open is meant

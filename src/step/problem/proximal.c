@@ -89,39 +89,39 @@ PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
 }
 
 /*
-   Computes the stiffness of the proximal term of each body on weak springs at the displacement u: the sum of the
-   magnitudes of the nodal forces on the body, divided by its size, the cube root of its volume. Before the first solve
-   contact forces are not known, and the largest sum of all bodies is taken. stiffness[b]: 0 for bodies without weak
-   springs [force/length]
+   Computes the stiffness per volume of the proximal term of each body on weak springs at the displacement u. The
+   stiffness is the sum of the magnitudes of the nodal forces on the body, divided by its size, the cube root of its
+   volume. Before the first solve contact forces are not known, and the largest sum of all bodies is taken. density[b]:
+   0 for bodies without weak springs [force/length^4]
 */
-static PetscErrorCode ProximalGetWeakStiffness(const StepProblem *p, Vec u, PetscReal stiffness[])
+static PetscErrorCode ProximalGetWeakDensity(const StepProblem *p, Vec u, PetscReal density[])
 {
   const Simulation sim     = p->sim;
   const Bodies     bodies  = SimulationBodies(sim);
   const PetscInt   nbodies = sim->scene->nbodies;
-  PetscReal       *sums, largest = 0.0;
+  PetscReal       *sums, *volume, largest = 0.0;
   Vec              force;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(4 * nbodies, &sums));
+  PetscCall(PetscMalloc2(4 * nbodies, &sums, nbodies, &volume));
   PetscCall(VecDuplicate(u, &force));
   PetscCall(ElasticityForce(sim->elasticity, u, force));
   if (p->load) PetscCall(VecAXPY(force, -1.0, p->load));
   PetscCall(VertexPlacesSumForces(&sim->places, sim->springs.weak, force, nbodies, sums));
-  PetscCall(SpringsMeasureVolumes(&bodies, stiffness));
+  PetscCall(SpringsMeasureVolumes(&bodies, volume));
   for (PetscInt b = 0; b < nbodies; ++b) largest = PetscMax(largest, sums[4 * b + 3]);
   for (PetscInt b = 0; b < nbodies; ++b) {
-    const PetscReal sum = p->weak_stiffness ? sums[4 * b + 3] : largest;
+    const PetscReal sum = p->weak_density ? sums[4 * b + 3] : largest;
 
-    stiffness[b] = VectorNorm(&sums[4 * b]) > 0.0 ? sum / PetscCbrtReal(stiffness[b]) : 0.0;
+    density[b] = VectorNorm(&sums[4 * b]) > 0.0 ? sum / (PetscCbrtReal(volume[b]) * volume[b]) : 0.0;
   }
   PetscCall(VecDestroy(&force));
-  PetscCall(PetscFree(sums));
+  PetscCall(PetscFree2(sums, volume));
   PetscFunctionReturn(0);
 }
 
-/* Adds a proximal term with the centre at p->base. weak: stiffness of each body on weak springs; NULL: all bodies get
-   the term */
+/* Adds a proximal term with the centre at p->base. weak: its stiffness per volume for each body on weak
+   springs; NULL: all bodies get the term */
 static PetscErrorCode ProximalCreate(StepProblem *p, const PetscReal weak[])
 {
   const Bodies bodies = SimulationBodies(p->sim);
@@ -151,7 +151,7 @@ PetscErrorCode ProximalEnd(StepProblem *p)
   PetscCall(VecDestroy(&p->centre));
   PetscCall(VecDestroy(&p->proximal));
   PetscCall(PetscFree(p->failed));
-  PetscCall(PetscFree(p->weak_stiffness));
+  PetscCall(PetscFree(p->weak_density));
   PetscFunctionReturn(0);
 }
 
@@ -173,25 +173,25 @@ static PetscBool ProximalHoldsWeak(const StepProblem *p)
 static PetscErrorCode ProximalHoldWeak(StepProblem *p, Vec u)
 {
   const PetscInt nbodies = p->sim->scene->nbodies;
-  PetscReal     *stiffness;
-  PetscBool      same = (PetscBool)(p->weak_stiffness != NULL);
+  PetscReal     *density;
+  PetscBool      same = (PetscBool)(p->weak_density != NULL);
 
   PetscFunctionBegin;
   if (!ProximalHoldsWeak(p)) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(nbodies, &stiffness));
-  PetscCall(ProximalGetWeakStiffness(p, u, stiffness));
-  for (PetscInt b = 0; b < nbodies && p->weak_stiffness; ++b) {
-    const PetscReal last = p->weak_stiffness[b];
+  PetscCall(PetscMalloc1(nbodies, &density));
+  PetscCall(ProximalGetWeakDensity(p, u, density));
+  for (PetscInt b = 0; b < nbodies && p->weak_density; ++b) {
+    const PetscReal last = p->weak_density[b];
 
-    if (stiffness[b] == 0.0) stiffness[b] = last; /* the body has no contact for now */
-    same = (PetscBool)(same && stiffness[b] <= growth * last && last <= growth * stiffness[b]);
+    if (density[b] == 0.0) density[b] = last; /* the body has no contact for now */
+    same = (PetscBool)(same && density[b] <= growth * last && last <= growth * density[b]);
   }
   if (!same) {
     if (p->centre) PetscCall(ProximalCentre(p, p->base)); /* removes the old term from energy and force */
     PetscCall(ProximalEnd(p));
-    PetscCall(ProximalCreate(p, stiffness));
-    p->weak_stiffness = stiffness;
-  } else PetscCall(PetscFree(stiffness));
+    PetscCall(ProximalCreate(p, density));
+    p->weak_density = density;
+  } else PetscCall(PetscFree(density));
   PetscFunctionReturn(0);
 }
 

@@ -175,9 +175,12 @@ static PetscErrorCode StartNonlinear(StepProblem *p, PetscBool moved, PetscReal 
   }
   if (!EnergyIsFinite(f)) PetscCall(VecCopy(p->base, u));
   PetscCall(StartLeavesPath(p, &e));
-  if (e) PetscCall(StartCarry(p, e, scale, tao, u));
+  if (e) {
+    PetscCall(StartCarry(p, e, scale, tao, u));
+    f = PETSC_INFINITY; /* the energy at the carried point is not known yet */
+  }
   PetscCall(VecDestroy(&e));
-  PetscCall(EnergyObjective(tao, u, &f, p));
+  if (!EnergyIsFinite(f)) PetscCall(EnergyObjective(tao, u, &f, p));
   *valid = EnergyIsFinite(f);
   PetscFunctionReturn(0);
 }
