@@ -160,6 +160,20 @@ static PetscErrorCode FrictionGetBounds(Simulation sim, PetscReal time, const Co
 }
 
 /*
+   Returns the work that the mean of the friction forces at the two states would do along `shift`, the motion of a
+   vertex that lost contact and sticks again at another place. This is not friction work, because no friction force
+   acted while the vertex moved.
+*/
+static PetscReal FrictionShiftWork(const PetscReal shift[3], const PetscReal old[3], const PetscReal tangent[6],
+  const PetscScalar f[2])
+{
+  PetscReal work = 0.5 * VectorDot(shift, old);
+
+  for (int a = 0; a < 2; ++a) work += 0.5 * VectorDot(&tangent[3 * a], shift) * PetscRealPart(f[a]);
+  return work;
+}
+
+/*
    Computes the parts of FrictionLateWork() that count, and the bounds of the friction forces. late, bound: [npairs x
    nowned] by vertex. Time integration has its own balance of energy: there `late` is zero.
 */
@@ -184,6 +198,7 @@ static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const 
 
     late[k] = FrictionLatePart(bound[k], PetscRealPart(g[r]), &s[2 * r], ratio[lin->pair[r]]) *
               FrictionLateWork(m->bound[k], bound[k], old, tangent, &f[2 * r], &s[2 * r]);
+    late[k] += FrictionShiftWork(&m->shift[3 * k], old, tangent, &f[2 * r]);
   }
   PetscCall(VecRestoreArrayRead(sol->gap, &g));
   PetscCall(VecRestoreArrayRead(sol->slip, &s));

@@ -28,9 +28,9 @@ PetscErrorCode ContactHistoryCreate(DM dm, Scene scene, ContactHistory *m)
   for (PetscInt p = 0; p < npairs; ++p)
     m->frictional = (PetscBool)(m->frictional || SceneContactPairHasFriction(&scene->pairs[p]));
   if (m->frictional)
-    PetscCall(PetscCalloc6(3 * npairs * m->nowned, &m->shear, 3 * npairs * m->nowned, &m->settled,
-      3 * npairs * m->nowned, &m->friction, npairs * m->nowned, &m->bound, npairs * m->nowned, &m->slip_path,
-      npairs * m->nowned, &m->dissipated));
+    PetscCall(PetscCalloc7(3 * npairs * m->nowned, &m->shear, 3 * npairs * m->nowned, &m->shift, 3 * npairs * m->nowned,
+      &m->settled, 3 * npairs * m->nowned, &m->friction, npairs * m->nowned, &m->bound, npairs * m->nowned,
+      &m->slip_path, npairs * m->nowned, &m->dissipated));
   PetscFunctionReturn(0);
 }
 
@@ -239,6 +239,6 @@ PetscErrorCode ContactHistoryDestroy(ContactHistory *m)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree4(m->pressure, m->slack, m->open, m->released));
-  PetscCall(PetscFree6(m->shear, m->settled, m->friction, m->bound, m->slip_path, m->dissipated));
+  PetscCall(PetscFree7(m->shear, m->shift, m->settled, m->friction, m->bound, m->slip_path, m->dissipated));
   PetscFunctionReturn(0);
 }

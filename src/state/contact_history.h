@@ -18,6 +18,8 @@ struct _n_ContactHistory {
   PetscBool    frictional;       /* true if a pair has friction; also on a rank that owns no nodes */
   PetscReal   *shear;            /* [3 npairs x nowned] friction force in global coordinates [force]; NULL without
                                     friction */
+  PetscReal   *shift;            /* [3 npairs x nowned] slip of a vertex that must stick before it has stuck at another
+                                    place in this load step [length]; NULL without friction */
   PetscReal   *settled;          /* [3 npairs x nowned] friction force at the last state of equilibrium [force]; NULL
                                     without friction */
   PetscReal   *friction;         /* friction forces on the vertices of both faces at this state [force]; NULL without

@@ -318,7 +318,7 @@ static PetscErrorCode ConesFindSizes(Cones s, PetscBool *found)
   PetscCall(s->bodies->residual(s->bodies->data, c->f, sizes));
   s->force = sizes[0];
   PetscCall(s->bodies->prepare(s->bodies->data, c->D, found));
-  if (*found) PetscCall(ContactsStep(c, s->bodies, 0.1, 0.0, s->du, s->df, found));
+  if (*found) PetscCall(ContactsStep(c, s->bodies, 1.0, 0.1, 0.0, s->du, s->df, found));
   if (!*found) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < c->n; i++) {
     for (PetscInt r = 0; r < 3; r++) {
@@ -388,7 +388,7 @@ static PetscErrorCode ConesDirection(Cones s, PetscReal target, PetscBool correc
   PetscFunctionBegin;
   for (PetscInt i = 0; i < s->c->n; i++) ConeSetTarget(&s->cone[i], target, corrector);
   PetscCall(ConesSetLaws(s, (PetscBool)!corrector, solved));
-  if (*solved) PetscCall(ContactsStep(s->c, s->bodies, 0.0, accuracy, s->du, s->df, solved));
+  if (*solved) PetscCall(ContactsStep(s->c, s->bodies, 1.0, 0.0, accuracy, s->du, s->df, solved));
   if (!*solved) PetscFunctionReturn(0);
   *t = PETSC_INFINITY;
   for (PetscInt i = 0; i < s->c->n; i++) {

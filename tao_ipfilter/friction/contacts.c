@@ -10,7 +10,7 @@ PetscErrorCode ContactsDestroy(Contacts *c)
   PetscFunctionBegin;
   PetscCall(PetscFree3(c->law, c->normal, c->closed));
   PetscCall(PetscFree3(c->coefficient, c->limit, c->rigid));
-  PetscCall(PetscFree5(c->compliance, c->f, c->u, c->D, c->s));
+  PetscCall(PetscFree6(c->compliance, c->f, c->u, c->shift, c->D, c->s));
   PetscCall(PetscMemzero(c, sizeof(*c)));
   PetscFunctionReturn(0);
 }
@@ -23,7 +23,7 @@ PetscErrorCode ContactsCreate(MPI_Comm comm, PetscInt n, Contacts *c)
   c->n    = n;
   PetscCall(PetscCalloc3(n, &c->law, n, &c->normal, n, &c->closed));
   PetscCall(PetscCalloc3(n, &c->coefficient, n, &c->limit, 2 * n, &c->rigid));
-  PetscCall(PetscCalloc5(2 * n, &c->compliance, 3 * n, &c->f, 3 * n, &c->u, 9 * n, &c->D, 3 * n, &c->s));
+  PetscCall(PetscCalloc6(2 * n, &c->compliance, 3 * n, &c->f, 3 * n, &c->u, 2 * n, &c->shift, 9 * n, &c->D, 3 * n, &c->s));
   PetscFunctionReturn(0);
 }
 
@@ -108,14 +108,14 @@ PetscErrorCode ContactsViolation(const Contacts *c, const PetscReal force[], con
 }
 
 /*
-   Solves the bodies' equations with the linearized laws df = s - D du in place of the laws. du, df: changes of motions
-   and forces; fraction, target: accuracy of the solve, see ContactBodies
+   Solves the bodies' equations with the linearized laws df = s - D du in place of the laws. load: fraction of the
+   present residual that the forces shall balance; du, df: changes of motions and forces; fraction, target: accuracy of the solve, see ContactBodies
 */
-PetscErrorCode ContactsStep(Contacts *c, const ContactBodies *bodies, PetscReal fraction, PetscReal target,
-  PetscReal du[], PetscReal df[], PetscBool *solved)
+PetscErrorCode ContactsStep(Contacts *c, const ContactBodies *bodies, PetscReal load, PetscReal fraction,
+  PetscReal target, PetscReal du[], PetscReal df[], PetscBool *solved)
 {
   PetscFunctionBegin;
-  PetscCall(bodies->solve(bodies->data, c->s, fraction, target, du, solved));
+  PetscCall(bodies->solve(bodies->data, c->s, load, fraction, target, du, solved));
   if (!*solved) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < c->n; i++) {
     ContactsRemoveRigid(c, i, &du[3 * i]);

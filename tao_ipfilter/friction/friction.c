@@ -135,6 +135,20 @@ static PetscErrorCode LawsBegin(IPLaws laws, Vec g, Vec c, Vec values, Vec force
   PetscFunctionReturn(0);
 }
 
+/* Moves the offsets of norm terms with the places from which the slips of contacts are measured */
+static PetscErrorCode LawsMoveOffsets(IPLaws laws)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)laws->tao->data;
+  PetscScalar  *t;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(ip->terms->t, &t));
+  for (PetscInt k = 0; k < 2 * laws->nterms; k++) t[k] -= laws->contacts.shift[k];
+  PetscCall(VecRestoreArray(ip->terms->t, &t));
+  PetscCall(PetscArrayzero(laws->contacts.shift, 2 * laws->contacts.n));
+  PetscFunctionReturn(0);
+}
+
 /*
    Takes one step. x: the point, relative to the begin; force, terms: forces there. violation: of the laws, relative
    to the first step; nclosed: number of closed contacts; enough: residual [2-norm] at which directions are no longer
@@ -150,6 +164,7 @@ static PetscErrorCode LawsStep(IPLaws laws, PetscReal enough, Vec x, Vec force, 
   if (*violation < PETSC_INFINITY) {
     PetscCall(VecCopy(SubspaceBodiesGet(laws->bodies), x));
     PetscCall(LawsCopy(laws, force, terms, laws->contacts.f, PETSC_TRUE));
+    PetscCall(LawsMoveOffsets(laws));
   }
   *nclosed = 0;
   for (PetscInt i = 0; i < laws->m; i++) *nclosed += laws->contacts.f[3 * i] > 0.0;

@@ -32,6 +32,7 @@ typedef struct {
   PetscReal
     *compliance;       /* two per contact: estimates for the normal and for the tangential components [length/force] */
   PetscReal *f, *u;    /* three per contact: forces, and motions: the gap and the slip */
+  PetscReal *shift;    /* two per contact: by how much the place was moved from which the slip is measured */
   PetscReal *D, *s;    /* nine and three per contact: linearized laws df = s - D du */
   PetscReal  rounding; /* size of the rounding errors of a gap [length] */
 } Contacts;
@@ -46,10 +47,10 @@ typedef struct {
   PetscErrorCode (*residual)(void *, const PetscReal f[], PetscReal sizes[2]);
   /* sets the matrix K + R^T D R. *prepared: false if it is singular */
   PetscErrorCode (*prepare)(void *, const PetscReal D[], PetscBool *prepared);
-  /* solves (K + R^T D R) dx = R^T s - r until the residual is at most that fraction of the first one, or at most the
-     target, in the measure of sizes[0]; du = R dx */
-  PetscErrorCode (
-    *solve)(void *, const PetscReal s[], PetscReal fraction, PetscReal target, PetscReal du[], PetscBool *solved);
+  /* solves (K + R^T D R) dx = R^T s - load r until the residual is at most that fraction of the first one, or at most
+     the target, in the measure of sizes[0]; du = R dx */
+  PetscErrorCode (*solve)(void *, const PetscReal s[], PetscReal load, PetscReal fraction, PetscReal target,
+    PetscReal du[], PetscBool *solved);
   PetscErrorCode (*advance)(void *, PetscReal fraction); /* adds fraction dx to x */
   PetscErrorCode (*keep)(void *, PetscBool back);        /* copies x to a second place, or from there */
   PetscErrorCode (*interrupted)(void *, PetscBool *);    /* whether the user wants to end the solve */
@@ -73,8 +74,8 @@ PETSC_INTERN void           ContactsRemoveRigid(const Contacts *, PetscInt i, Pe
 PETSC_INTERN void           ContactsHold(const Contacts *, PetscInt i);
 PETSC_INTERN PetscErrorCode ContactsViolation(const Contacts *, const PetscReal force[], const PetscReal motion[],
   PetscReal *violation, PetscReal *rounding);
-PETSC_INTERN PetscErrorCode ContactsStep(Contacts *, const ContactBodies *, PetscReal fraction, PetscReal target,
-  PetscReal du[], PetscReal df[], PetscBool *solved);
+PETSC_INTERN PetscErrorCode ContactsStep(Contacts *, const ContactBodies *, PetscReal load, PetscReal fraction,
+  PetscReal target, PetscReal du[], PetscReal df[], PetscBool *solved);
 
 /* cones.c */
 typedef struct _p_Cones *Cones;
@@ -85,11 +86,29 @@ PETSC_INTERN PetscErrorCode ConesStart(Cones, PetscBool *started);
 PETSC_INTERN PetscErrorCode ConesIterate(Cones, PetscReal tolerance, PetscReal *error, PetscBool *solved);
 
 /* newton.c */
+PETSC_INTERN void           ContactsLinearize(const Contacts *, PetscInt i);
 PETSC_INTERN void           ContactsGuessStates(Contacts *, PetscBool interior);
 PETSC_INTERN PetscErrorCode ContactsNewtonStep(Contacts *, const ContactBodies *, PetscReal *change, PetscBool *solved);
 
+/* load_path.c */
+typedef struct {
+  Contacts            *contacts;
+  const ContactBodies *bodies;
+  PetscBool           *slides;  /* whether the tangential force of a contact vanishes at constant load */
+  PetscReal           *event;   /* fraction of the step at which a contact changes its state; infinite: it does not */
+  PetscReal           *du, *df; /* changes of motions and forces in a step */
+  PetscReal            left;    /* part of the load that has not grown yet */
+  PetscReal            size[2]; /* largest normal force and motion, for tolerances */
+  PetscInt             nstill;  /* number of steps since the state last changed continuously */
+} ContactPath;
+
+PETSC_INTERN PetscErrorCode ContactPathBegin(Contacts *, const ContactBodies *, ContactPath *);
+PETSC_INTERN PetscErrorCode ContactPathStep(ContactPath *, PetscBool *reached, PetscBool *solved);
+PETSC_INTERN PetscErrorCode ContactPathEnd(ContactPath *);
+
 /* iteration.c */
 typedef enum {
+  CONTACT_PATH,  /* the path of the load from the present state, if contacts stick */
   CONTACT_WARM,  /* Newton's method from the present state */
   CONTACT_CONES, /* the interior point method from a cold start */
   CONTACT_LAST   /* Newton's method from its end */
@@ -99,6 +118,7 @@ typedef struct {
   Contacts     *contacts;
   ContactBodies bodies;
   ContactPhase  phase;
+  ContactPath   path;
   PetscBool     cold;            /* there is no state from which Newton's method could start */
   Cones         cones;           /* NULL before the phase CONTACT_CONES */
   PetscInt      nsteps, nfutile; /* numbers of steps of this phase; of those since the violation was halved */

@@ -1,6 +1,7 @@
 /*
    The iteration for the laws of all contacts: Newton's method from the present state or, if that makes no progress, the
-   interior point method from a cold start, and Newton's method from its end
+   interior point method from a cold start, and Newton's method from its end. If contacts stick while they are closed, the
+   load first grows from that of the present state, and Newton's method starts where it ends.
 */
 #include "frictionimpl.h"
 
@@ -33,6 +34,7 @@ PetscErrorCode ContactIterationEnd(ContactIteration *it)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree(it->kept));
+  PetscCall(ContactPathEnd(&it->path));
   PetscCall(ConesDestroy(&it->cones));
   PetscCall(PetscMemzero(it, sizeof(*it)));
   PetscFunctionReturn(0);
@@ -114,10 +116,39 @@ static PetscErrorCode IterationEnterCones(ContactIteration *it, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
+/* Takes one step on the path of the load, and enters Newton's method where it ends */
+static PetscErrorCode IterationPath(ContactIteration *it, PetscBool *done)
+{
+  const PetscInt most = 1000;
+  PetscBool      reached;
+
+  PetscFunctionBegin;
+  PetscCall(ContactPathStep(&it->path, &reached, done));
+  it->violation = PETSC_INFINITY;
+  if (*done && reached) {
+    it->cold = PETSC_FALSE;
+    PetscCall(IterationEnterNewton(it, CONTACT_WARM));
+    PetscCall(IterationNewton(it, done));
+  } else if (++it->nsteps > most) *done = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* Finds whether contacts stick while they are closed */
+static PetscErrorCode IterationHasPath(const Contacts *c, PetscBool *has)
+{
+  PetscFunctionBegin;
+  *has = PETSC_FALSE;
+  for (PetscInt i = 0; i < c->n; i++)
+    *has = (PetscBool)(*has || (c->law[i] == CONTACT_STICKS && c->coefficient[i] > 0.0));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, has, 1, MPI_PETSCBOOL, MPI_LOR, c->comm));
+  PetscFunctionReturn(0);
+}
+
 /* Begins the iteration at the present state of contacts and bodies. Without any force it is a cold start. */
 PetscErrorCode ContactIterationBegin(Contacts *c, ContactBodies bodies, ContactIteration *it)
 {
   PetscReal largest = 0.0;
+  PetscBool path;
 
   PetscFunctionBegin;
   PetscCall(ContactIterationEnd(it));
@@ -128,6 +159,10 @@ PetscErrorCode ContactIterationBegin(Contacts *c, ContactBodies bodies, ContactI
   for (PetscInt r = 0; r < 3 * c->n; r++) largest = PetscMax(largest, PetscAbsReal(c->f[r]));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, c->comm));
   it->cold = (PetscBool)(largest == 0.0);
+  PetscCall(IterationHasPath(c, &path));
+  if (!path) PetscFunctionReturn(0);
+  it->phase = CONTACT_PATH;
+  PetscCall(ContactPathBegin(c, &it->bodies, &it->path));
   PetscFunctionReturn(0);
 }
 
@@ -141,7 +176,10 @@ PetscErrorCode ContactIterate(ContactIteration *it, PetscBool *done)
   PetscCall(it->bodies.interrupted(it->bodies.data, done));
   *done = (PetscBool) !*done;
   if (!*done) PetscFunctionReturn(0);
-  if (it->phase == CONTACT_CONES) PetscCall(IterationCones(it, done));
+  if (it->phase == CONTACT_PATH) {
+    PetscCall(IterationPath(it, done));
+    if (!*done) PetscCall(IterationEnterCones(it, done));
+  } else if (it->phase == CONTACT_CONES) PetscCall(IterationCones(it, done));
   else if (it->cold) PetscCall(IterationEnterCones(it, done));
   else {
     PetscCall(IterationNewton(it, done));

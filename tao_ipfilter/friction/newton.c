@@ -81,10 +81,10 @@ static void NewtonSlipLaw(const Contacts *c, PetscInt i, const PetscReal t[2], P
 }
 
 /*
-   Sets the linearized law of a contact. It slips if tau - rho v is outside of the bound, at the normal force that a
+   Sets the linearized law of a contact for its present state. It slips if tau - rho v is outside of the bound, at the normal force that a
    step from f_n - rho u_n would have.
 */
-static void NewtonLaw(const Contacts *c, PetscInt i)
+void ContactsLinearize(const Contacts *c, PetscInt i)
 {
   const PetscReal *f = &c->f[3 * i], *u = &c->u[3 * i], compliance = c->compliance[2 * i + 1];
   PetscReal       *D = &c->D[9 * i], *s = &c->s[3 * i], t[2], size;
@@ -95,7 +95,7 @@ static void NewtonLaw(const Contacts *c, PetscInt i)
   if (c->law[i] == CONTACT_SMOOTH || (!c->closed[i] && c->coefficient[i] >= 0.0)) return;
   for (PetscInt a = 0; a < 2; a++) t[a] = f[1 + a] - u[1 + a] / compliance;
   size = PetscSqrtReal(t[0] * t[0] + t[1] * t[1]);
-  if (size > ContactsBound(c, i, f[0] - u[0] / c->compliance[2 * i])) {
+  if (c->law[i] != CONTACT_STICKS && size > ContactsBound(c, i, f[0] - u[0] / c->compliance[2 * i])) {
     NewtonSlipLaw(c, i, t, size, D, s);
     return;
   }
@@ -158,12 +158,12 @@ PetscErrorCode ContactsNewtonStep(Contacts *c, const ContactBodies *bodies, Pets
   PetscFunctionBegin;
   PetscCall(PetscCalloc2(3 * c->n, &du, 3 * c->n, &df));
   for (PetscInt i = 0; i < c->n; i++) {
-    NewtonLaw(c, i);
+    ContactsLinearize(c, i);
     ContactsHold(c, i);
   }
   PetscCall(bodies->residual(bodies->data, c->f, sizes));
   PetscCall(bodies->prepare(bodies->data, c->D, solved));
-  if (*solved) PetscCall(ContactsStep(c, bodies, forcing, 0.0, du, df, solved));
+  if (*solved) PetscCall(ContactsStep(c, bodies, 1.0, forcing, 0.0, du, df, solved));
   if (*solved) {
     PetscCall(NewtonChooseFraction(c, du, df, &fraction));
     for (PetscInt r = 0; r < 3 * c->n; r++) {

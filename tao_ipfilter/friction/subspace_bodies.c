@@ -505,11 +505,11 @@ static PetscErrorCode BodiesSolveInSubspace(SubspaceBodies b)
 }
 
 /* Computes K dx, and the residual that dx leaves in v, which is zero on W, and its 2-norm */
-static PetscErrorCode BodiesLeft(SubspaceBodies b, Vec v, PetscReal *norm)
+static PetscErrorCode BodiesLeft(SubspaceBodies b, PetscReal load, Vec v, PetscReal *norm)
 {
   PetscFunctionBegin;
   PetscCall(MatMult(b->K, b->dx, b->Kdx));
-  PetscCall(VecWAXPY(v, 1.0, b->r, b->Kdx));
+  PetscCall(VecWAXPY(v, load, b->r, b->Kdx));
   PetscCall(VecScale(v, -1.0));
   PetscCall(IPFixedZero(b->tao, v));
   PetscCall(VecISSet(v, b->W, 0.0));
@@ -558,8 +558,8 @@ static PetscErrorCode BodiesExtend(SubspaceBodies b, Vec left, PetscBool *added)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fraction, PetscReal target, PetscReal du[],
-  PetscBool *solved)
+static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal load, PetscReal fraction, PetscReal target,
+  PetscReal du[], PetscBool *solved)
 {
   const SubspaceBodies b = (SubspaceBodies)data;
   const PetscScalar   *u;
@@ -571,7 +571,7 @@ static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fra
   PetscFunctionBegin;
   PetscCall(IPGetWork(b->tao, IP_UNKNOWNS, &left));
   PetscCall(BodiesSpread(b, s, PETSC_FALSE, b->rhs));
-  PetscCall(VecAXPY(b->rhs, -1.0, b->r));
+  PetscCall(VecAXPY(b->rhs, -load, b->r));
   PetscCall(VecZeroEntries(b->base));
   PetscCall(VecISCopy(b->rhs, b->W, SCATTER_REVERSE, b->load));
   PetscCall(MatSolve(b->F, b->load, b->dw0));
@@ -581,7 +581,7 @@ static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fra
     if (*solved) PetscCall(BodiesSolveInSubspace(b));
     PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
     if (!*solved) break;
-    PetscCall(BodiesLeft(b, left, &norm));
+    PetscCall(BodiesLeft(b, load, left, &norm));
     PetscCall(BodiesSize(b, left, &size));
     *solved = (PetscBool)!PetscIsInfOrNanReal(size);
     if (!k) first = size;

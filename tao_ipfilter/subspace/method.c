@@ -381,12 +381,13 @@ static PetscErrorCode FilteredStepTerms(Tao tao, PetscBool *done)
   PetscFunctionBegin;
   tao->ksp_its         = 0;
   ip->rec->nacceptable = ip->rec->ntiny = 0;
-  *done                                 = IPFilteredProgresses(IPFilteredOf(tao), IPBothErrors(ip), patience);
-  if (!*done) PetscFunctionReturn(0);
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPFilteredStepLaws(tao, enough, v, force, &violation, done));
-  if (violation < PETSC_INFINITY) PetscCall(FilteredMove(tao, v, force, &moved));
+  if (violation < PETSC_INFINITY) {
+    moved = IPFilteredProgresses(IPFilteredOf(tao), IPBothErrors(ip), patience);
+    if (moved) PetscCall(FilteredMove(tao, v, force, &moved));
+  }
   *done = (PetscBool)(*done && moved);
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v));

@@ -42,6 +42,19 @@ static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearizati
   PetscFunctionReturn(0);
 }
 
+/* Adds to the slip of the rows `factor` times the slip before vertices have stuck at another place */
+static PetscErrorCode FrictionAddShift(const ContactHistory *m, ContactLinearization lin, PetscReal factor, Vec slip)
+{
+  PetscScalar *s;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(slip, &s));
+  for (PetscInt r = 0; r < 2 * lin->nlocal; ++r)
+    s[r] += factor * VectorDot(&lin->tangent[3 * r], &m->shift[3 * ContactHistoryIndex(m, lin, r / 2)]);
+  PetscCall(VecRestoreArray(slip, &s));
+  PetscFunctionReturn(0);
+}
+
 /*
    Computes T and t with which the slip is slip = T u + t. With the full matrix T_full of the linearization the slip is
    T (u - base) + T_full (base - path.u), where T is T_full without the columns of prescribed displacements. mask: 0 in
@@ -69,9 +82,29 @@ PetscErrorCode FrictionSetUp(StepProblem *p, ContactLinearization lin, Vec u_lin
   PetscCall(ArcsGetExcess(&bodies, p->sim->path->u, u_linearized, p->w, &turned));
   if (turned) PetscCall(MatMultAdd(lin->slip, p->w, f->t, f->t));
   PetscCall(VecDestroy(&moved));
+  PetscCall(FrictionAddShift(p->sim->history, lin, -1.0, f->t));
+  PetscCall(VecDuplicate(f->t, &f->t_given));
+  PetscCall(VecCopy(f->t, f->t_given));
   PetscCall(VecDuplicate(lin->g, &f->limit));
   PetscCall(VecDuplicate(lin->g, &f->coefficient));
   PetscCall(FrictionSetCoefficients(p, lin));
+  PetscFunctionReturn(0);
+}
+
+/* Copies what the optimizer changes; the matrix is shared */
+PetscErrorCode FrictionCopy(const StepFriction *f, StepFriction *copy)
+{
+  const Vec  from[] = {f->t, f->t_given, f->limit, f->coefficient};
+  Vec *const to[]   = {&copy->t, &copy->t_given, &copy->limit, &copy->coefficient};
+
+  PetscFunctionBegin;
+  copy->T = f->T;
+  if (!f->T) PetscFunctionReturn(0);
+  PetscCall(PetscObjectReference((PetscObject)f->T));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(to); ++k) {
+    PetscCall(VecDuplicate(from[k], to[k]));
+    PetscCall(VecCopy(from[k], *to[k]));
+  }
   PetscFunctionReturn(0);
 }
 
@@ -80,6 +113,7 @@ PetscErrorCode FrictionDestroy(StepFriction *f)
   PetscFunctionBegin;
   PetscCall(MatDestroy(&f->T));
   PetscCall(VecDestroy(&f->t));
+  PetscCall(VecDestroy(&f->t_given));
   PetscCall(VecDestroy(&f->limit));
   PetscCall(VecDestroy(&f->coefficient));
   PetscFunctionReturn(0);
@@ -120,6 +154,39 @@ PetscErrorCode FrictionRestart(StepProblem *p)
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(m->released, m->npairs * m->nowned));
+  if (m->shift) PetscCall(PetscArrayzero(m->shift, 3 * m->npairs * m->nowned));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Stores what the optimizer has changed at vertices that must stick. Vertices whose coefficients it has set to zero are
+   free. Other vertices have opened and stuck again, and it has shifted the positions from which their slip is measured.
+*/
+static PetscErrorCode FrictionKeepReleased(StepProblem *p)
+{
+  ContactLinearization lin = p->sim->solved->linearization;
+  ContactHistory      *m   = p->sim->history;
+  const PetscScalar   *coefficient, *t, *given;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(p->friction.t, &t));
+  PetscCall(VecGetArrayRead(p->friction.t_given, &given));
+  for (PetscInt r = 0; r < 2 * lin->nlocal; ++r) {
+    PetscReal *shift = &m->shift[3 * ContactHistoryIndex(m, lin, r / 2)];
+
+    for (PetscInt c = 0; c < 3; ++c) shift[c] += PetscRealPart(given[r] - t[r]) * lin->tangent[3 * r + c];
+  }
+  PetscCall(VecRestoreArrayRead(p->friction.t_given, &given));
+  PetscCall(VecRestoreArrayRead(p->friction.t, &t));
+  PetscCall(VecCopy(p->friction.t, p->friction.t_given));
+  PetscCall(VecGetArrayRead(p->friction.coefficient, &coefficient));
+  for (PetscInt r = 0; r < lin->nlocal; ++r) {
+    PetscReal mu = 0.0;
+
+    PetscCall(FrictionGetCoefficient(p->sim->scene, p->time, lin->pair[r], &mu));
+    if (mu > 0.0 && PetscRealPart(coefficient[r]) == 0.0) m->released[ContactHistoryIndex(m, lin, r)] = PETSC_TRUE;
+  }
+  PetscCall(VecRestoreArrayRead(p->friction.coefficient, &coefficient));
   PetscFunctionReturn(0);
 }
 
@@ -159,6 +226,8 @@ PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol
   PetscCall(VecDuplicate(force, &sol->slip));
   PetscCall(VecAXPBY(sol->shear, StepProblemShare(p), 0.0, force));
   PetscCall(MatMultAdd(p->friction.T, u, p->friction.t, sol->slip));
+  PetscCall(FrictionKeepReleased(p));
+  PetscCall(FrictionAddShift(m, lin, 1.0, sol->slip));
   PetscCall(PetscArrayzero(m->shear, 3 * m->npairs * m->nowned));
   PetscCall(VecGetArrayRead(sol->shear, &f));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {

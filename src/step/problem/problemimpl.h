@@ -43,6 +43,7 @@ typedef struct {
   Mat T;                  /* two rows per row of J, for the slip along its two tangents; columns of prescribed rows
                              are zero; NULL without friction */
   Vec t;                  /* constant part of the slip, slip = T u + t [length] */
+  Vec t_given;            /* t before the optimizer has shifted references of vertices that stick */
   Vec limit, coefficient; /* largest friction force [force] and friction coefficient of each row of J */
 } StepFriction;
 
@@ -145,6 +146,7 @@ PETSC_INTERN PetscErrorCode FrictionReleaseOpen(StepProblem *);
 PETSC_INTERN PetscErrorCode FrictionRestart(StepProblem *);
 PETSC_INTERN PetscErrorCode FrictionKeep(StepProblem *, Tao, Vec u, ContactSolution *);
 PETSC_INTERN PetscErrorCode FrictionKeepNone(const StepProblem *, Vec u, ContactSolution *);
+PETSC_INTERN PetscErrorCode FrictionCopy(const StepFriction *, StepFriction *);
 PETSC_INTERN PetscErrorCode FrictionDestroy(StepFriction *);
 
 /* energy.c: objectives of the optimizer */

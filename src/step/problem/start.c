@@ -31,7 +31,7 @@ static PetscErrorCode StartRecallContact(StepProblem *p, PetscReal scale, Tao ta
 /*
    Sets q to the quadratic model of p about the last state u0, in which the prescribed displacements change by e. Its
    objective is force^T w + 1/2 w^T K w with w = u - u0 - e and force = E'(u0) + K e. K e is a difference of gradients,
-   since K has no columns of prescribed rows. The caller frees force, Kw and w of q.
+   since K has no columns of prescribed rows. The caller frees force, Kw, w and friction of q.
 */
 static PetscErrorCode StartModel(StepProblem *p, Vec e, StepProblem *q)
 {
@@ -54,6 +54,7 @@ static PetscErrorCode StartModel(StepProblem *p, Vec e, StepProblem *q)
   PetscCall(EnergyGetGradient(p, u0, q->force));
   PetscCall(VecAXPBY(q->force, 1.0 / step, 1.0 - 1.0 / step, q->Kw));
   PetscCall(EnergyGetTangent(p, u0, p->K));
+  PetscCall(FrictionCopy(&p->friction, &q->friction));
   PetscCall(VecDestroy(&moved));
   PetscFunctionReturn(0);
 }
@@ -138,6 +139,7 @@ static PetscErrorCode StartCarry(StepProblem *p, Vec e, PetscReal scale, Tao tao
   PetscCall(VecDestroy(&q.force));
   PetscCall(VecDestroy(&q.Kw));
   PetscCall(VecDestroy(&q.w));
+  PetscCall(FrictionDestroy(&q.friction));
   PetscFunctionReturn(0);
 }
 
