@@ -60,14 +60,14 @@ static void ConeSetKind(const Contacts *c, PetscInt i, Cone *k)
   const PetscReal  most       = 10.0; /* coefficient that stands for larger ones, whose scales differ too much */
   const PetscReal *compliance = &c->compliance[2 * i];
   const ContactLaw law        = c->law[i];
-  const PetscBool  coulomb    = (PetscBool)(law != CONTACT_SMOOTH && c->coefficient[i] >= 0.0);
+  const PetscBool  coulomb    = (PetscBool)(law == CONTACT_COULOMB || law == CONTACT_LIMITED);
 
   k->n        = coulomb ? 3 : c->normal[i] ? 1 : 0;
-  k->limited  = (PetscBool)(law == CONTACT_LIMITED || law == CONTACT_TRESCA); /* a term that sticks is left out */
+  k->limited  = (PetscBool)(law == CONTACT_LIMITED || law == CONTACT_TRESCA);
   k->scale[0] = c->normal[i] ? 1.0 / PetscSqrtReal(compliance[0]) : 0.0;
   k->scale[1] = coulomb      ? PetscMin(c->coefficient[i], most) * k->scale[0]
-                : k->limited ? 1.0 / PetscSqrtReal(compliance[1])
-                             : 0.0;
+                : k->limited || c->held[i] ? 1.0 / PetscSqrtReal(compliance[1])
+                                           : 0.0;
   k->limit    = k->limited ? c->limit[i] / k->scale[1] : 0.0;
 }
 
@@ -290,6 +290,7 @@ static PetscErrorCode ConesSetLaws(Cones s, PetscBool matrix, PetscBool *ready)
   *ready = PETSC_TRUE;
   for (PetscInt i = 0; i < s->c->n; i++) {
     PetscCall(ConeLaw(&s->cone[i], &s->c->D[9 * i], &s->c->s[3 * i]));
+    if (s->c->held[i]) ContactsSetNoSlip(s->c, i);
     ContactsHold(s->c, i);
   }
   if (matrix) PetscCall(s->bodies->prepare(s->bodies->data, s->c->D, ready));
@@ -318,7 +319,7 @@ static PetscErrorCode ConesFindSizes(Cones s, PetscBool *found)
   PetscCall(s->bodies->residual(s->bodies->data, c->f, sizes));
   s->force = sizes[0];
   PetscCall(s->bodies->prepare(s->bodies->data, c->D, found));
-  if (*found) PetscCall(ContactsStep(c, s->bodies, 1.0, 0.1, 0.0, s->du, s->df, found));
+  if (*found) PetscCall(ContactsStep(c, s->bodies, 0.1, 0.0, s->du, s->df, found));
   if (!*found) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < c->n; i++) {
     for (PetscInt r = 0; r < 3; r++) {
@@ -388,7 +389,7 @@ static PetscErrorCode ConesDirection(Cones s, PetscReal target, PetscBool correc
   PetscFunctionBegin;
   for (PetscInt i = 0; i < s->c->n; i++) ConeSetTarget(&s->cone[i], target, corrector);
   PetscCall(ConesSetLaws(s, (PetscBool)!corrector, solved));
-  if (*solved) PetscCall(ContactsStep(s->c, s->bodies, 1.0, 0.0, accuracy, s->du, s->df, solved));
+  if (*solved) PetscCall(ContactsStep(s->c, s->bodies, 0.0, accuracy, s->du, s->df, solved));
   if (!*solved) PetscFunctionReturn(0);
   *t = PETSC_INFINITY;
   for (PetscInt i = 0; i < s->c->n; i++) {

@@ -8,9 +8,9 @@
 PetscErrorCode ContactsDestroy(Contacts *c)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree3(c->law, c->normal, c->closed));
+  PetscCall(PetscFree5(c->law, c->normal, c->closed, c->held, c->released));
   PetscCall(PetscFree3(c->coefficient, c->limit, c->rigid));
-  PetscCall(PetscFree6(c->compliance, c->f, c->u, c->shift, c->D, c->s));
+  PetscCall(PetscFree7(c->compliance, c->f, c->u, c->shift, c->place, c->D, c->s));
   PetscCall(PetscMemzero(c, sizeof(*c)));
   PetscFunctionReturn(0);
 }
@@ -21,9 +21,9 @@ PetscErrorCode ContactsCreate(MPI_Comm comm, PetscInt n, Contacts *c)
   PetscFunctionBegin;
   c->comm = comm;
   c->n    = n;
-  PetscCall(PetscCalloc3(n, &c->law, n, &c->normal, n, &c->closed));
+  PetscCall(PetscCalloc5(n, &c->law, n, &c->normal, n, &c->closed, n, &c->held, n, &c->released));
   PetscCall(PetscCalloc3(n, &c->coefficient, n, &c->limit, 2 * n, &c->rigid));
-  PetscCall(PetscCalloc6(2 * n, &c->compliance, 3 * n, &c->f, 3 * n, &c->u, 2 * n, &c->shift, 9 * n, &c->D, 3 * n, &c->s));
+  PetscCall(PetscCalloc7(2 * n, &c->compliance, 3 * n, &c->f, 3 * n, &c->u, 2 * n, &c->shift, 2 * n, &c->place, 9 * n, &c->D, 3 * n, &c->s));
   PetscFunctionReturn(0);
 }
 
@@ -40,15 +40,16 @@ void ContactsSetLaw(Contacts *c, PetscInt i, PetscReal limit, PetscReal coeffici
   if (limit == 0.0 || coefficient == 0.0 || !(c->compliance[2 * i + 1] > 0.0)) c->law[i] = CONTACT_SMOOTH;
   else if (coefficient < 0.0) c->law[i] = limited ? CONTACT_TRESCA : CONTACT_STICKS;
   else if (!c->normal[i]) c->law[i] = CONTACT_SMOOTH;
-  else if (coefficient >= IP_TERM_STICKS && !limited) c->law[i] = CONTACT_STICKS;
+  else if (coefficient >= PETSC_INFINITY && !limited) c->law[i] = CONTACT_STICKS;
   else c->law[i] = limited ? CONTACT_LIMITED : CONTACT_COULOMB;
+  c->held[i] = (PetscBool)(c->law[i] == CONTACT_STICKS && coefficient < 0.0);
 }
 
 /* Returns the largest tangential force of a contact for a normal force */
 PetscReal ContactsBound(const Contacts *c, PetscInt i, PetscReal normal_force)
 {
   if (c->law[i] == CONTACT_SMOOTH) return 0.0;
-  if (c->law[i] == CONTACT_STICKS) return normal_force > 0.0 || c->coefficient[i] < 0.0 ? PETSC_INFINITY : 0.0;
+  if (c->law[i] == CONTACT_STICKS) return c->held[i] ? PETSC_INFINITY : 0.0;
   return IPTermBound(c->limit[i], c->coefficient[i], normal_force);
 }
 
@@ -56,6 +57,16 @@ PetscReal ContactsBound(const Contacts *c, PetscInt i, PetscReal normal_force)
 void ContactsRemoveRigid(const Contacts *c, PetscInt i, PetscReal u[3])
 {
   IPTermRemoveRigid(&c->rigid[2 * i], u + 1);
+}
+
+/* Sets the linearized law of tangential components without slip: v = 0, by springs */
+void ContactsSetNoSlip(const Contacts *c, PetscInt i)
+{
+  for (PetscInt a = 1; a < 3; a++) {
+    for (PetscInt b = 0; b < 3; b++) c->D[9 * i + 3 * a + b] = 0.0;
+    c->D[9 * i + 4 * a] = 1.0 / (CONTACT_WEAK * c->compliance[2 * i + 1]);
+    c->s[3 * i + a]     = -c->u[3 * i + a] * c->D[9 * i + 4 * a];
+  }
 }
 
 /* Projects D and s of a contact such that they leave out the direction in which it cannot slip */
@@ -108,14 +119,14 @@ PetscErrorCode ContactsViolation(const Contacts *c, const PetscReal force[], con
 }
 
 /*
-   Solves the bodies' equations with the linearized laws df = s - D du in place of the laws. load: fraction of the
-   present residual that the forces shall balance; du, df: changes of motions and forces; fraction, target: accuracy of the solve, see ContactBodies
+   Solves the bodies' equations with the linearized laws df = s - D du in place of the laws. du, df: changes of motions
+   and forces; fraction, target: accuracy of the solve, see ContactBodies
 */
-PetscErrorCode ContactsStep(Contacts *c, const ContactBodies *bodies, PetscReal load, PetscReal fraction,
-  PetscReal target, PetscReal du[], PetscReal df[], PetscBool *solved)
+PetscErrorCode ContactsStep(Contacts *c, const ContactBodies *bodies, PetscReal fraction, PetscReal target,
+  PetscReal du[], PetscReal df[], PetscBool *solved)
 {
   PetscFunctionBegin;
-  PetscCall(bodies->solve(bodies->data, c->s, load, fraction, target, du, solved));
+  PetscCall(bodies->solve(bodies->data, c->s, fraction, target, du, solved));
   if (!*solved) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < c->n; i++) {
     ContactsRemoveRigid(c, i, &du[3 * i]);

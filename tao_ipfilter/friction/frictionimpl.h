@@ -8,13 +8,20 @@
 
 #include "tao_ipfilter/subspace/subspaceimpl.h"
 
+/*
+   Rows of closed and sticking contacts, u = 0, become springs -u = weak x compliance x df. Their forces are changes, so
+   that the solution does not depend on the springs: each step leaves a small fraction of u. The ratio of stiffnesses
+   limits the accuracy of a system; its square root is lost here.
+*/
+#define CONTACT_WEAK 1e-5
+
 /* The law of a contact's tangential force tau for the slip v: |tau| <= b, tau = -b v / |v| if it slips */
 typedef enum {
   CONTACT_SMOOTH,  /* b = 0 */
   CONTACT_COULOMB, /* b = coefficient x normal force */
   CONTACT_LIMITED, /* b = min(limit, coefficient x normal force) */
   CONTACT_TRESCA,  /* b = limit */
-  CONTACT_STICKS   /* v = 0 while the contact is closed */
+  CONTACT_STICKS   /* v = 0 if it is held, otherwise b = 0 (stick.c) */
 } ContactLaw;
 
 /*
@@ -27,12 +34,14 @@ typedef struct {
   ContactLaw *law;
   PetscBool  *normal;              /* whether there is a normal component that some unknown moves */
   PetscBool  *closed;              /* states in Newton's method */
+  PetscBool  *held, *released;     /* whether a contact that sticks is held at its place; whether it was before */
   PetscReal  *coefficient, *limit; /* of the law; unused ones are zero */
   PetscReal  *rigid;               /* two per contact: unit direction along which it cannot slip; zeros: none */
   PetscReal
     *compliance;       /* two per contact: estimates for the normal and for the tangential components [length/force] */
   PetscReal *f, *u;    /* three per contact: forces, and motions: the gap and the slip */
-  PetscReal *shift;    /* two per contact: by how much the place was moved from which the slip is measured */
+  PetscReal *shift, *place; /* two per contact: by how much the place was moved from which the slip is measured; slip at
+                               which the contact closed last */
   PetscReal *D, *s;    /* nine and three per contact: linearized laws df = s - D du */
   PetscReal  rounding; /* size of the rounding errors of a gap [length] */
 } Contacts;
@@ -47,10 +56,16 @@ typedef struct {
   PetscErrorCode (*residual)(void *, const PetscReal f[], PetscReal sizes[2]);
   /* sets the matrix K + R^T D R. *prepared: false if it is singular */
   PetscErrorCode (*prepare)(void *, const PetscReal D[], PetscBool *prepared);
-  /* solves (K + R^T D R) dx = R^T s - load r until the residual is at most that fraction of the first one, or at most
-     the target, in the measure of sizes[0]; du = R dx */
-  PetscErrorCode (*solve)(void *, const PetscReal s[], PetscReal load, PetscReal fraction, PetscReal target,
-    PetscReal du[], PetscBool *solved);
+  /* solves (K + R^T D R) dx = R^T s - r until the residual is at most that fraction of the first one, or at most the
+     target, in the measure of sizes[0]; du = R dx */
+  PetscErrorCode (
+    *solve)(void *, const PetscReal s[], PetscReal fraction, PetscReal target, PetscReal du[], PetscBool *solved);
+  /* solves K dx = R^T df - r with the linearized laws df = s - D du of tangential components, and f >= 0, u >= 0 and
+     f u = 0 for the normal ones */
+  PetscErrorCode (*solve_normal)(void *, const PetscReal D[], const PetscReal s[], const PetscReal f[],
+    const PetscReal u[], PetscReal du[], PetscReal df[], PetscBool *solved);
+  PetscErrorCode (*load)(void *, PetscReal fraction); /* leaves out all but that fraction of the residual that was
+                                                         computed before the first call */
   PetscErrorCode (*advance)(void *, PetscReal fraction); /* adds fraction dx to x */
   PetscErrorCode (*keep)(void *, PetscBool back);        /* copies x to a second place, or from there */
   PetscErrorCode (*interrupted)(void *, PetscBool *);    /* whether the user wants to end the solve */
@@ -72,10 +87,11 @@ PETSC_INTERN void           ContactsSetLaw(Contacts *, PetscInt i, PetscReal lim
 PETSC_INTERN PetscReal      ContactsBound(const Contacts *, PetscInt i, PetscReal normal_force);
 PETSC_INTERN void           ContactsRemoveRigid(const Contacts *, PetscInt i, PetscReal u[3]);
 PETSC_INTERN void           ContactsHold(const Contacts *, PetscInt i);
+PETSC_INTERN void           ContactsSetNoSlip(const Contacts *, PetscInt i);
 PETSC_INTERN PetscErrorCode ContactsViolation(const Contacts *, const PetscReal force[], const PetscReal motion[],
   PetscReal *violation, PetscReal *rounding);
-PETSC_INTERN PetscErrorCode ContactsStep(Contacts *, const ContactBodies *, PetscReal load, PetscReal fraction,
-  PetscReal target, PetscReal du[], PetscReal df[], PetscBool *solved);
+PETSC_INTERN PetscErrorCode ContactsStep(Contacts *, const ContactBodies *, PetscReal fraction, PetscReal target,
+  PetscReal du[], PetscReal df[], PetscBool *solved);
 
 /* cones.c */
 typedef struct _p_Cones *Cones;
@@ -90,25 +106,25 @@ PETSC_INTERN void           ContactsLinearize(const Contacts *, PetscInt i);
 PETSC_INTERN void           ContactsGuessStates(Contacts *, PetscBool interior);
 PETSC_INTERN PetscErrorCode ContactsNewtonStep(Contacts *, const ContactBodies *, PetscReal *change, PetscBool *solved);
 
-/* load_path.c */
+/* stick.c */
 typedef struct {
   Contacts            *contacts;
   const ContactBodies *bodies;
-  PetscBool           *slides;  /* whether the tangential force of a contact vanishes at constant load */
-  PetscReal           *event;   /* fraction of the step at which a contact changes its state; infinite: it does not */
-  PetscReal           *du, *df; /* changes of motions and forces in a step */
-  PetscReal            left;    /* part of the load that has not grown yet */
-  PetscReal            size[2]; /* largest normal force and motion, for tolerances */
-  PetscInt             nstill;  /* number of steps since the state last changed continuously */
-} ContactPath;
+  PetscInt             part, nparts; /* the present part of the load, and the number of parts */
+  PetscBool            predicted;    /* whether it is known where contacts would close in this part */
+  PetscReal           *du, *df;      /* changes of motions and forces in a step */
+  PetscReal           *first;        /* motions and forces at the begin */
+} ContactStick;
 
-PETSC_INTERN PetscErrorCode ContactPathBegin(Contacts *, const ContactBodies *, ContactPath *);
-PETSC_INTERN PetscErrorCode ContactPathStep(ContactPath *, PetscBool *reached, PetscBool *solved);
-PETSC_INTERN PetscErrorCode ContactPathEnd(ContactPath *);
+PETSC_INTERN PetscErrorCode ContactsHaveHeld(const Contacts *, PetscBool *some, PetscBool *alone);
+PETSC_INTERN PetscErrorCode StickBegin(Contacts *, const ContactBodies *, ContactStick *);
+PETSC_INTERN PetscErrorCode StickIterate(ContactStick *, PetscBool *settled, PetscBool *solved);
+PETSC_INTERN PetscErrorCode StickUpdate(Contacts *, PetscInt *released, PetscInt *held);
+PETSC_INTERN PetscErrorCode StickEnd(ContactStick *);
 
 /* iteration.c */
 typedef enum {
-  CONTACT_PATH,  /* the path of the load from the present state, if contacts stick */
+  CONTACT_HELD,  /* exact normal laws, while contacts that stick are held or released */
   CONTACT_WARM,  /* Newton's method from the present state */
   CONTACT_CONES, /* the interior point method from a cold start */
   CONTACT_LAST   /* Newton's method from its end */
@@ -118,7 +134,8 @@ typedef struct {
   Contacts     *contacts;
   ContactBodies bodies;
   ContactPhase  phase;
-  ContactPath   path;
+  ContactStick  stick;
+  PetscBool     sticks;          /* whether there are contacts that stick while they are closed */
   PetscBool     cold;            /* there is no state from which Newton's method could start */
   Cones         cones;           /* NULL before the phase CONTACT_CONES */
   PetscInt      nsteps, nfutile; /* numbers of steps of this phase; of those since the violation was halved */

@@ -1,7 +1,7 @@
 /*
    The iteration for the laws of all contacts: Newton's method from the present state or, if that makes no progress, the
-   interior point method from a cold start, and Newton's method from its end. If contacts stick while they are closed, the
-   load first grows from that of the present state, and Newton's method starts where it ends.
+   interior point method from a cold start, and Newton's method from its end. Contacts that stick while they are closed are
+   held or released each time the other laws are solved.
 */
 #include "frictionimpl.h"
 
@@ -34,9 +34,42 @@ PetscErrorCode ContactIterationEnd(ContactIteration *it)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree(it->kept));
-  PetscCall(ContactPathEnd(&it->path));
+  PetscCall(StickEnd(&it->stick));
   PetscCall(ConesDestroy(&it->cones));
   PetscCall(PetscMemzero(it, sizeof(*it)));
+  PetscFunctionReturn(0);
+}
+
+/* Updates which contacts are held. If this changes the laws, Newton's method starts again. */
+static PetscErrorCode IterationUpdateHeld(ContactIteration *it)
+{
+  PetscInt released, held;
+
+  PetscFunctionBegin;
+  PetscCall(StickUpdate(it->contacts, &released, &held));
+  if (!released && !held) PetscFunctionReturn(0);
+  PetscCall(ConesDestroy(&it->cones));
+  it->violation = PETSC_INFINITY;
+  PetscCall(IterationEnterNewton(it, CONTACT_WARM));
+  PetscFunctionReturn(0);
+}
+
+/* Solves the laws of the normal components once while contacts that stick are held */
+static PetscErrorCode IterationStick(ContactIteration *it, PetscBool *done)
+{
+  const PetscInt most = 1000;
+  PetscReal      rounding;
+  PetscBool      settled;
+
+  PetscFunctionBegin;
+  if (it->size == 0.0)
+    PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &it->size, &rounding));
+  PetscCall(StickIterate(&it->stick, &settled, done));
+  it->violation = PETSC_INFINITY;
+  if (settled) PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &it->violation, &rounding));
+  if (settled) it->violation = it->violation <= rounding ? 0.0 : it->violation / PetscMax(it->size, rounding);
+  it->nsteps = settled ? 0 : it->nsteps + 1;
+  if (it->nsteps > most) *done = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -61,6 +94,7 @@ static PetscErrorCode IterationNewton(ContactIteration *it, PetscBool *done)
   it->violation = it->size > 0.0 ? violation / it->size : 0.0;
   if (violation <= PetscMax(exact * it->size, rounding)) {
     it->nsteps = it->nfutile = 0;
+    if (it->sticks) PetscCall(IterationUpdateHeld(it));
     PetscFunctionReturn(0);
   }
   it->nfutile = violation <= 0.5 * it->best ? 0 : it->nfutile + 1;
@@ -116,39 +150,11 @@ static PetscErrorCode IterationEnterCones(ContactIteration *it, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* Takes one step on the path of the load, and enters Newton's method where it ends */
-static PetscErrorCode IterationPath(ContactIteration *it, PetscBool *done)
-{
-  const PetscInt most = 1000;
-  PetscBool      reached;
-
-  PetscFunctionBegin;
-  PetscCall(ContactPathStep(&it->path, &reached, done));
-  it->violation = PETSC_INFINITY;
-  if (*done && reached) {
-    it->cold = PETSC_FALSE;
-    PetscCall(IterationEnterNewton(it, CONTACT_WARM));
-    PetscCall(IterationNewton(it, done));
-  } else if (++it->nsteps > most) *done = PETSC_FALSE;
-  PetscFunctionReturn(0);
-}
-
-/* Finds whether contacts stick while they are closed */
-static PetscErrorCode IterationHasPath(const Contacts *c, PetscBool *has)
-{
-  PetscFunctionBegin;
-  *has = PETSC_FALSE;
-  for (PetscInt i = 0; i < c->n; i++)
-    *has = (PetscBool)(*has || (c->law[i] == CONTACT_STICKS && c->coefficient[i] > 0.0));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, has, 1, MPI_PETSCBOOL, MPI_LOR, c->comm));
-  PetscFunctionReturn(0);
-}
-
 /* Begins the iteration at the present state of contacts and bodies. Without any force it is a cold start. */
 PetscErrorCode ContactIterationBegin(Contacts *c, ContactBodies bodies, ContactIteration *it)
 {
   PetscReal largest = 0.0;
-  PetscBool path;
+  PetscBool alone;
 
   PetscFunctionBegin;
   PetscCall(ContactIterationEnd(it));
@@ -159,10 +165,10 @@ PetscErrorCode ContactIterationBegin(Contacts *c, ContactBodies bodies, ContactI
   for (PetscInt r = 0; r < 3 * c->n; r++) largest = PetscMax(largest, PetscAbsReal(c->f[r]));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, c->comm));
   it->cold = (PetscBool)(largest == 0.0);
-  PetscCall(IterationHasPath(c, &path));
-  if (!path) PetscFunctionReturn(0);
-  it->phase = CONTACT_PATH;
-  PetscCall(ContactPathBegin(c, &it->bodies, &it->path));
+  PetscCall(ContactsHaveHeld(c, &it->sticks, &alone));
+  if (!it->sticks) PetscFunctionReturn(0);
+  PetscCall(StickBegin(c, &it->bodies, &it->stick));
+  if (alone) it->phase = CONTACT_HELD;
   PetscFunctionReturn(0);
 }
 
@@ -176,10 +182,8 @@ PetscErrorCode ContactIterate(ContactIteration *it, PetscBool *done)
   PetscCall(it->bodies.interrupted(it->bodies.data, done));
   *done = (PetscBool) !*done;
   if (!*done) PetscFunctionReturn(0);
-  if (it->phase == CONTACT_PATH) {
-    PetscCall(IterationPath(it, done));
-    if (!*done) PetscCall(IterationEnterCones(it, done));
-  } else if (it->phase == CONTACT_CONES) PetscCall(IterationCones(it, done));
+  if (it->phase == CONTACT_HELD) PetscCall(IterationStick(it, done));
+  else if (it->phase == CONTACT_CONES) PetscCall(IterationCones(it, done));
   else if (it->cold) PetscCall(IterationEnterCones(it, done));
   else {
     PetscCall(IterationNewton(it, done));

@@ -3,16 +3,9 @@
    problems prone to Newton like solution methods, 1991; Hueeber, Stadler and Wohlmuth, A primal-dual active set
    algorithm for three-dimensional contact problems with Coulomb friction, 2008). Near a solution it ends in a few
    steps, since it knows which contacts are open, stick and slip.
-
-   Rows of closed and sticking contacts, u = 0, become springs -u = weak x compliance x df. Their forces are changes,
-   so that the solution does not depend on the springs: each step leaves a small fraction of u.
 */
 #include "frictionimpl.h"
 #include "tao_ipfilter/measure/measureimpl.h"
-
-/* Compliance of the springs, relative to that of the contact. The ratio of stiffnesses limits the accuracy of a system;
-   its square root is lost here. */
-static const PetscReal weak = 1e-7;
 
 /*
    Returns the largest tangential force of a closed contact at its present normal force. A limit alone does not
@@ -38,11 +31,23 @@ void ContactsGuessStates(Contacts *c, PetscBool interior)
   }
 }
 
-/* Opens closed contacts under tension, and closes open ones with penetration */
-static void NewtonExchange(Contacts *c)
+/*
+   Opens closed contacts under tension, and closes open ones with penetration after a step of length `fraction`. Stores
+   the slip at which the latter had no gap.
+*/
+static void NewtonExchange(Contacts *c, const PetscReal du[], PetscReal fraction)
 {
-  for (PetscInt i = 0; i < c->n; i++)
-    if (c->normal[i]) c->closed[i] = (PetscBool)(c->closed[i] ? c->f[3 * i] >= 0.0 : c->u[3 * i] < -c->rounding);
+  for (PetscInt i = 0; i < c->n; i++) {
+    const PetscReal *u = &c->u[3 * i], *d = &du[3 * i];
+
+    if (!c->normal[i]) continue;
+    if (!c->closed[i] && u[0] < -c->rounding) {
+      const PetscReal back = d[0] < 0.0 ? PetscMin(u[0] / d[0], fraction) : 0.0;
+
+      for (PetscInt a = 0; a < 2; a++) c->place[2 * i + a] = u[1 + a] - back * d[1 + a];
+    }
+    c->closed[i] = (PetscBool)(c->closed[i] ? c->f[3 * i] >= 0.0 : u[0] < -c->rounding);
+  }
 }
 
 /* Sets the linearized law of the normal component: u = 0 if it is closed, otherwise f = 0 */
@@ -50,8 +55,8 @@ static void NewtonNormalLaw(const Contacts *c, PetscInt i, PetscReal D[9], Petsc
 {
   const PetscReal f = c->f[3 * i], u = c->u[3 * i], compliance = c->compliance[2 * i];
 
-  D[0] = c->closed[i] ? 1.0 / (weak * compliance) : 0.0;
-  s[0] = c->closed[i] ? -u / (weak * compliance) : -f;
+  D[0] = c->closed[i] ? 1.0 / (CONTACT_WEAK * compliance) : 0.0;
+  s[0] = c->closed[i] ? -u / (CONTACT_WEAK * compliance) : -f;
 }
 
 /*
@@ -64,7 +69,7 @@ static void NewtonSlipLaw(const Contacts *c, PetscInt i, const PetscReal t[2], P
   const PetscReal *f = &c->f[3 * i], rho = 1.0 / c->compliance[2 * i + 1];
   const PetscReal  bound = NewtonBound(c, i), theta = PetscMin(bound / size, 1.0),
                   slope = c->coefficient[i] < 0.0 || bound >= c->limit[i] ? 0.0 : c->coefficient[i],
-                  d[2] = {t[0] / size, t[1] / size}, stiff = rho * PetscMin(theta / (1.0 - theta), 1.0 / weak);
+                  d[2] = {t[0] / size, t[1] / size}, stiff = rho * PetscMin(theta / (1.0 - theta), 1.0 / CONTACT_WEAK);
   PetscReal off[2], along;
 
   for (PetscInt a = 0; a < 2; a++) off[a] = f[1 + a] - bound * d[a];
@@ -74,14 +79,14 @@ static void NewtonSlipLaw(const Contacts *c, PetscInt i, const PetscReal t[2], P
 
     /* across d, (1 - theta) dtau + theta rho dv = -off; the stiffness says what that is if theta is almost 1 */
     s[1 + a] =
-      slope * d[a] * s[0] - along * d[a] - (theta < 1.0 ? across * PetscMin(1.0 / (1.0 - theta), 1.0 / weak) : 0.0);
+      slope * d[a] * s[0] - along * d[a] - (theta < 1.0 ? across * PetscMin(1.0 / (1.0 - theta), 1.0 / CONTACT_WEAK) : 0.0);
     D[3 * (1 + a)] = slope * d[a] * D[0];
     for (PetscInt b = 0; b < 2; b++) D[3 * (1 + a) + 1 + b] = stiff * ((a == b ? 1.0 : 0.0) - d[a] * d[b]);
   }
 }
 
 /*
-   Sets the linearized law of a contact for its present state. It slips if tau - rho v is outside of the bound, at the normal force that a
+   Sets the linearized law of a contact. It slips if tau - rho v is outside of the bound, at the normal force that a
    step from f_n - rho u_n would have.
 */
 void ContactsLinearize(const Contacts *c, PetscInt i)
@@ -92,17 +97,15 @@ void ContactsLinearize(const Contacts *c, PetscInt i)
   for (PetscInt k = 0; k < 9; k++) D[k] = 0.0;
   NewtonNormalLaw(c, i, D, s);
   for (PetscInt a = 1; a < 3; a++) s[a] = -f[a];
+  if (c->law[i] == CONTACT_STICKS) {
+    if (c->held[i]) ContactsSetNoSlip(c, i);
+    return;
+  }
   if (c->law[i] == CONTACT_SMOOTH || (!c->closed[i] && c->coefficient[i] >= 0.0)) return;
   for (PetscInt a = 0; a < 2; a++) t[a] = f[1 + a] - u[1 + a] / compliance;
   size = PetscSqrtReal(t[0] * t[0] + t[1] * t[1]);
-  if (c->law[i] != CONTACT_STICKS && size > ContactsBound(c, i, f[0] - u[0] / c->compliance[2 * i])) {
-    NewtonSlipLaw(c, i, t, size, D, s);
-    return;
-  }
-  for (PetscInt a = 1; a < 3; a++) {
-    D[4 * a] = 1.0 / (weak * compliance);
-    s[a]     = -u[a] * D[4 * a];
-  }
+  if (size > ContactsBound(c, i, f[0] - u[0] / c->compliance[2 * i])) NewtonSlipLaw(c, i, t, size, D, s);
+  else ContactsSetNoSlip(c, i);
 }
 
 /* Returns the square root of the sum of squares of motions, each divided by its compliance [square root of energy] */
@@ -163,7 +166,7 @@ PetscErrorCode ContactsNewtonStep(Contacts *c, const ContactBodies *bodies, Pets
   }
   PetscCall(bodies->residual(bodies->data, c->f, sizes));
   PetscCall(bodies->prepare(bodies->data, c->D, solved));
-  if (*solved) PetscCall(ContactsStep(c, bodies, 1.0, forcing, 0.0, du, df, solved));
+  if (*solved) PetscCall(ContactsStep(c, bodies, forcing, 0.0, du, df, solved));
   if (*solved) {
     PetscCall(NewtonChooseFraction(c, du, df, &fraction));
     for (PetscInt r = 0; r < 3 * c->n; r++) {
@@ -172,7 +175,7 @@ PetscErrorCode ContactsNewtonStep(Contacts *c, const ContactBodies *bodies, Pets
     }
     PetscCall(bodies->advance(bodies->data, fraction));
     PetscCall(NewtonNorm(c, du, change));
-    NewtonExchange(c);
+    NewtonExchange(c, du, fraction);
   }
   PetscCall(PetscFree2(du, df));
   PetscFunctionReturn(0);

@@ -13,6 +13,7 @@
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/stiffness.h"
 #include "tao_ipfilter/solver/terms.h"
 #include <petscblaslapack.h>
@@ -26,6 +27,11 @@ struct _p_SubspaceBodies {
   Mat        D, DR, RDR, KWW, A, F; /* D; D R_W; R_W^T D R_W; K_WW; A_WW, and its factors */
   Vec        x, dx, r, Kx, Kdx, g;  /* K x is kept beside x, K dx beside dx */
   Vec        kept_x, kept_Kx;
+  Vec        first;                 /* the residual of which a part is left out; NULL: none */
+  PetscReal  lacks;                 /* that part */
+  IPReduced  normal;                /* the problem of the normal laws, whose unknowns are those in W */
+  Mat        JW;                    /* normal rows of R_W */
+  IS         places;                /* all unknowns of W by their number in W */
   Vec        base, rhs;             /* dx = base + what the subspace adds, for the right-hand side rhs of the latter */
   Vec        on_W, dw0, load, rows; /* work vectors on W; one with the entries of contacts */
   PetscReal *X, *S, *factors, *dy; /* A_WW^-1 Q: columns on W; Schur complement in columns of length max; its factors */
@@ -51,6 +57,10 @@ PetscErrorCode SubspaceBodiesDestroy(SubspaceBodies *bodies)
   for (PetscInt k = 0; k < 8; k++) PetscCall(MatDestroy(matrices[k]));
   for (PetscInt k = 0; k < 14; k++) PetscCall(VecDestroy(vectors[k]));
   PetscCall(ISDestroy(&b->W));
+  PetscCall(ISDestroy(&b->places));
+  PetscCall(MatDestroy(&b->JW));
+  PetscCall(VecDestroy(&b->first));
+  PetscCall(IPReducedDestroy(&b->normal));
   PetscCall(PetscFree5(b->X, b->S, b->factors, b->dy, b->pivots));
   PetscCall(PetscFree(*bodies));
   PetscFunctionReturn(0);
@@ -194,6 +204,7 @@ PetscErrorCode SubspaceBodiesCentre(SubspaceBodies b, Vec g)
   PetscCall(VecCopy(g, b->g));
   PetscCall(VecZeroEntries(b->x));
   PetscCall(VecZeroEntries(b->Kx));
+  PetscCall(VecDestroy(&b->first));
   PetscFunctionReturn(0);
 }
 
@@ -300,6 +311,7 @@ static PetscErrorCode BodiesResidual(void *data, const PetscReal f[], PetscReal 
   PetscCall(BodiesSize(b, b->r, &sizes[1]));
   PetscCall(VecAYPX(b->r, -1.0, b->g));
   PetscCall(VecAXPY(b->r, 1.0, b->Kx));
+  if (b->first) PetscCall(VecAXPY(b->r, -b->lacks, b->first));
   PetscCall(IPFixedZero(b->tao, b->r));
   PetscCall(BodiesSize(b, b->r, &sizes[0]));
   PetscFunctionReturn(0);
@@ -505,11 +517,11 @@ static PetscErrorCode BodiesSolveInSubspace(SubspaceBodies b)
 }
 
 /* Computes K dx, and the residual that dx leaves in v, which is zero on W, and its 2-norm */
-static PetscErrorCode BodiesLeft(SubspaceBodies b, PetscReal load, Vec v, PetscReal *norm)
+static PetscErrorCode BodiesLeft(SubspaceBodies b, Vec v, PetscReal *norm)
 {
   PetscFunctionBegin;
   PetscCall(MatMult(b->K, b->dx, b->Kdx));
-  PetscCall(VecWAXPY(v, load, b->r, b->Kdx));
+  PetscCall(VecWAXPY(v, 1.0, b->r, b->Kdx));
   PetscCall(VecScale(v, -1.0));
   PetscCall(IPFixedZero(b->tao, v));
   PetscCall(VecISSet(v, b->W, 0.0));
@@ -558,8 +570,8 @@ static PetscErrorCode BodiesExtend(SubspaceBodies b, Vec left, PetscBool *added)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal load, PetscReal fraction, PetscReal target,
-  PetscReal du[], PetscBool *solved)
+static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fraction, PetscReal target, PetscReal du[],
+  PetscBool *solved)
 {
   const SubspaceBodies b = (SubspaceBodies)data;
   const PetscScalar   *u;
@@ -571,7 +583,7 @@ static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal loa
   PetscFunctionBegin;
   PetscCall(IPGetWork(b->tao, IP_UNKNOWNS, &left));
   PetscCall(BodiesSpread(b, s, PETSC_FALSE, b->rhs));
-  PetscCall(VecAXPY(b->rhs, -load, b->r));
+  PetscCall(VecAXPY(b->rhs, -1.0, b->r));
   PetscCall(VecZeroEntries(b->base));
   PetscCall(VecISCopy(b->rhs, b->W, SCATTER_REVERSE, b->load));
   PetscCall(MatSolve(b->F, b->load, b->dw0));
@@ -581,7 +593,7 @@ static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal loa
     if (*solved) PetscCall(BodiesSolveInSubspace(b));
     PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
     if (!*solved) break;
-    PetscCall(BodiesLeft(b, load, left, &norm));
+    PetscCall(BodiesLeft(b, left, &norm));
     PetscCall(BodiesSize(b, left, &size));
     *solved = (PetscBool)!PetscIsInfOrNanReal(size);
     if (!k) first = size;
@@ -596,6 +608,132 @@ static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal loa
   PetscCall(VecGetArrayRead(b->rows, &u));
   for (PetscInt i = 0; i < n; i++) du[i] = PetscRealPart(u[i]);
   PetscCall(VecRestoreArrayRead(b->rows, &u));
+  PetscFunctionReturn(0);
+}
+
+/* Sets up the problem of the normal laws for the matrix A_WW. gaps: the normal components of motions */
+static PetscErrorCode BodiesSetUpNormal(SubspaceBodies b, Vec gaps, PetscBool *definite)
+{
+  PetscInt start, end;
+
+  PetscFunctionBegin;
+  if (!b->JW) {
+    IS rows, columns;
+
+    PetscCall(MatGetOwnershipRange(b->RW, &start, &end));
+    PetscCall(ISCreateStride(PetscObjectComm((PetscObject)b->RW), (end - start) / 3, start, 3, &rows));
+    PetscCall(VecGetOwnershipRange(b->on_W, &start, &end));
+    PetscCall(ISCreateStride(PetscObjectComm((PetscObject)b->RW), end - start, start, 1, &columns));
+    PetscCall(MatCreateSubMatrix(b->RW, rows, columns, MAT_INITIAL_MATRIX, &b->JW));
+    PetscCall(ISDestroy(&rows));
+    b->places = columns;
+  }
+  PetscCall(IPReducedSetUp(&b->normal, b->A, b->JW, b->places, b->W, b->x, gaps, &b->recycle->basis, definite));
+  PetscFunctionReturn(0);
+}
+
+/* Centres the problem of the normal laws at the present point. b->rhs: the gradient without normal forces */
+static PetscErrorCode BodiesCentreNormal(SubspaceBodies b, Vec gaps)
+{
+  const IPBasis *basis = &b->recycle->basis;
+
+  PetscFunctionBegin;
+  PetscCall(IPBasisDots(basis, 0, basis->n, b->rhs, b->dy));
+  PetscCall(IPReducedCenter(&b->normal, b->rhs, gaps, b->dy));
+  PetscCall(IPReducedAppend(&b->normal, basis, b->dy));
+  PetscFunctionReturn(0);
+}
+
+/* Solves the normal laws in the subspace: b->dx, and the normal forces */
+static PetscErrorCode BodiesSolveReducedNormal(SubspaceBodies b, Vec force, PetscBool *solved)
+{
+  PetscFunctionBegin;
+  b->normal.system.rounding = ((TAO_IPFILTER *)b->tao->data)->first->jacobian * ((TAO_IPFILTER *)b->tao->data)->given->rounding;
+  b->normal.system.soft     = b->recycle->basis.has_modes;
+  PetscCall(VecZeroEntries(b->dx));
+  PetscCall(IPReducedSolve(&b->normal, b->dy, b->dx, force, solved));
+  if (*solved) PetscCall(IPBasisAdd(&b->recycle->basis, b->dy, b->dx));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode BodiesSolveNormal(void *data, const PetscReal D[], const PetscReal s[], const PetscReal f[],
+  const PetscReal u[], PetscReal du[], PetscReal df[], PetscBool *solved)
+{
+  const SubspaceBodies b    = (SubspaceBodies)data;
+  const PetscReal fraction  = 0.01; /* of the residual that may be left */
+  const PetscScalar   *a;
+  PetscScalar         *g;
+  PetscReal            norm, first = 0.0;
+  PetscInt             n;
+  PetscBool            added = PETSC_TRUE;
+  Vec                  gaps, force, left;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(b->rows, &n));
+  n /= 3;
+  PetscCall(VecCreateMPI(PetscObjectComm((PetscObject)b->rows), n, PETSC_DETERMINE, &gaps));
+  PetscCall(VecDuplicate(gaps, &force));
+  PetscCall(VecGetArrayWrite(gaps, &g));
+  for (PetscInt i = 0; i < n; i++) g[i] = u[3 * i];
+  PetscCall(VecRestoreArrayWrite(gaps, &g));
+  for (PetscInt i = 0; i < n; i++) {
+    df[3 * i] = -f[3 * i];
+    for (PetscInt c = 1; c < 3; c++) df[3 * i + c] = s[3 * i + c];
+  }
+  PetscCall(BodiesSpread(b, df, PETSC_FALSE, b->rhs));
+  PetscCall(VecAYPX(b->rhs, -1.0, b->r));
+  PetscCall(IPFixedZero(b->tao, b->rhs));
+  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
+  PetscCall(BodiesAssemble(b, D));
+  PetscCall(BodiesSetUpNormal(b, gaps, solved));
+  if (*solved) PetscCall(BodiesCentreNormal(b, gaps));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
+  PetscCall(IPGetWork(b->tao, IP_UNKNOWNS, &left));
+  for (PetscInt k = 0; *solved; k++) {
+    PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
+    PetscCall(BodiesSolveReducedNormal(b, force, solved));
+    PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
+    if (!*solved) break;
+    PetscCall(BodiesLeft(b, left, &norm));
+    *solved = (PetscBool)!PetscIsInfOrNanReal(norm);
+    if (!k) first = norm;
+    PetscCall(PetscInfo(NULL, "Normal laws: %" PetscInt_FMT " directions, left %g of %g, enough %g\n", b->recycle->basis.n, (double)norm, (double)first, (double)b->enough));
+    if (!*solved || norm <= PetscMax(fraction * first, b->enough) || b->recycle->basis.n == b->recycle->basis.max) break;
+    PetscCall(BodiesExtend(b, left, &added));
+    if (!added) break;
+    PetscCall(BodiesCentreNormal(b, gaps));
+  }
+  PetscCall(IPRestoreWork(b->tao, IP_UNKNOWNS, &left));
+  if (*solved) {
+    PetscCall(MatMult(b->R, b->dx, b->rows));
+    PetscCall(VecGetArrayRead(b->rows, &a));
+    for (PetscInt r = 0; r < 3 * n; r++) du[r] = PetscRealPart(a[r]);
+    PetscCall(VecRestoreArrayRead(b->rows, &a));
+    PetscCall(VecGetArrayRead(force, &a));
+    for (PetscInt i = 0; i < n; i++) {
+      PetscReal change[3];
+
+      ConeMultiply(&D[9 * i], &du[3 * i], change);
+      df[3 * i] = PetscRealPart(a[i]) - f[3 * i];
+      for (PetscInt c = 1; c < 3; c++) df[3 * i + c] = s[3 * i + c] - change[c];
+    }
+    PetscCall(VecRestoreArrayRead(force, &a));
+  }
+  PetscCall(VecDestroy(&force));
+  PetscCall(VecDestroy(&gaps));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode BodiesLoad(void *data, PetscReal fraction)
+{
+  const SubspaceBodies b = (SubspaceBodies)data;
+
+  PetscFunctionBegin;
+  if (!b->first) {
+    PetscCall(VecDuplicate(b->r, &b->first));
+    PetscCall(VecCopy(b->r, b->first));
+  }
+  b->lacks = 1.0 - fraction;
   PetscFunctionReturn(0);
 }
 
@@ -639,6 +777,8 @@ ContactBodies SubspaceBodiesInterface(SubspaceBodies b)
     .residual    = BodiesResidual,
     .prepare     = BodiesPrepare,
     .solve       = BodiesSolve,
+    .solve_normal = BodiesSolveNormal,
+    .load        = BodiesLoad,
     .advance     = BodiesAdvance,
     .keep        = BodiesKeep,
     .interrupted = BodiesInterrupted,

@@ -30,6 +30,7 @@ PetscErrorCode IPReducedDestroy(IPReduced *r)
   PetscCall(VecScatterDestroy(&r->to_W));
   PetscCall(VecDestroy(&r->on_W));
   PetscCall(ISDestroy(&r->W));
+  PetscCall(ISDestroy(&r->own));
   PetscCall(MatDestroy(&r->KWW));
   PetscCall(IPComplianceDestroy(&r->compliance));
   PetscCall(IPCompanionsDestroy(&r->companions));
@@ -154,11 +155,32 @@ static PetscErrorCode ReducedHaveSamePattern(Mat A, Mat B, PetscBool *same)
   PetscFunctionReturn(0);
 }
 
-/* Sets up the space for a new K or W: gathers and factors K_WW */
-static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IPBasis *basis, PetscBool *definite)
+/* Creates the scatter of the entries W of a vector like x to the first rank */
+static PetscErrorCode ReducedSetScatter(IPReduced *r, IS W, Vec x)
+{
+  IS              all, mine, places;
+  const PetscInt *w;
+
+  PetscFunctionBegin;
+  PetscCall(ISAllGather(W, &all));
+  PetscCall(ISGetIndices(all, &w));
+  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, r->n, w, PETSC_COPY_VALUES, &mine));
+  PetscCall(ISRestoreIndices(all, &w));
+  PetscCall(VecCreateMPI(PetscObjectComm((PetscObject)x), r->n, PETSC_DETERMINE, &r->on_W));
+  PetscCall(ISCreateStride(PETSC_COMM_SELF, r->n, 0, 1, &places));
+  PetscCall(VecScatterCreate(x, mine, r->on_W, places, &r->to_W));
+  PetscCall(ISDestroy(&places));
+  PetscCall(ISDestroy(&mine));
+  PetscCall(ISDestroy(&all));
+  PetscFunctionReturn(0);
+}
+
+/* Sets up the space for a new K or W: gathers and factors K_WW. own: the rows of K that belong to W */
+static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS own, IS W, Vec x, const IPBasis *basis,
+  PetscBool *definite)
 {
   PetscMPIInt     rank;
-  IS              all, mine, places;
+  IS              all;
   const PetscInt *w;
   PetscInt        nw;
   PetscBool       same;
@@ -172,19 +194,16 @@ static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS W, Vec x, const IP
   r->first = (PetscBool)!rank;
   PetscCall(PetscObjectReference((PetscObject)W));
   r->W = W;
-  PetscCall(ISAllGather(W, &all));
+  PetscCall(PetscObjectReference((PetscObject)own));
+  r->own = own;
+  PetscCall(ISAllGather(own, &all));
   PetscCall(ISGetSize(all, &nw));
   PetscCall(ISGetIndices(all, &w));
   if (r->first) r->n = nw;
-  PetscCall(IPGatherStiffness(K, W, nw, w, r->first, &r->KWW));
-  PetscCall(ISCreateGeneral(PETSC_COMM_SELF, r->n, w, PETSC_COPY_VALUES, &mine));
+  PetscCall(IPGatherStiffness(K, own, nw, w, r->first, &r->KWW));
   PetscCall(ISRestoreIndices(all, &w));
   PetscCall(ISDestroy(&all));
-  PetscCall(VecCreateMPI(PetscObjectComm((PetscObject)x), r->n, PETSC_DETERMINE, &r->on_W));
-  PetscCall(ISCreateStride(PETSC_COMM_SELF, r->n, 0, 1, &places));
-  PetscCall(VecScatterCreate(x, mine, r->on_W, places, &r->to_W));
-  PetscCall(ISDestroy(&places));
-  PetscCall(ISDestroy(&mine));
+  PetscCall(ReducedSetScatter(r, W, x));
   PetscCall(ReducedHaveSamePattern(former, r->KWW, &same));
   if (same) r->compliance.F = factors;
   else PetscCall(MatDestroy(&factors));
@@ -225,7 +244,7 @@ static PetscErrorCode ReducedSetRows(IPReduced *r, Mat J, Vec c)
   PetscFunctionBegin;
   PetscCall(IPReducedRelease(r));
   if (r->first) PetscCall(VecGetSize(c, &r->m));
-  PetscCall(ISAllGather(r->W, &all));
+  PetscCall(ISAllGather(r->own, &all));
   PetscCall(ISGetSize(all, &nw));
   PetscCall(ISGetIndices(all, &w));
   PetscCall(IPGatherRows(J, nw, w, r->first, &JW));
@@ -250,16 +269,18 @@ PetscErrorCode IPReducedIsOf(const IPReduced *r, Mat K, PetscBool *same)
 
 /*
    Sets up the reduced problem. The factors of K_WW are reused while K and W are unchanged, and K_WW^-1 Q_W while the
-   directions are unchanged. *definite: false if K_WW is not positive definite.
+   directions are unchanged. own: the rows of K, and columns of J, that belong to W: W itself, or the numbers in W if K
+   and J have only these. *definite: false if K_WW is not positive definite.
 */
-PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, IS W, Vec x, Vec c, const IPBasis *basis, PetscBool *definite)
+PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, IS own, IS W, Vec x, Vec c, const IPBasis *basis,
+  PetscBool *definite)
 {
   PetscFunctionBegin;
   PetscCall(IPReducedIsOf(r, K, definite));
   if (*definite) PetscCall(ISEqual(r->W, W, definite));
   if (!*definite) {
     PetscCall(PetscLogEventBegin(TAO_IPFilterFactor, K, NULL, NULL, NULL));
-    PetscCall(ReducedSetSpace(r, K, W, x, basis, definite));
+    PetscCall(ReducedSetSpace(r, K, own, W, x, basis, definite));
     PetscCall(PetscLogEventEnd(TAO_IPFilterFactor, K, NULL, NULL, NULL));
   } else if (r->generation != basis->generation) r->system.k = r->companions.n;
   r->generation = basis->generation;

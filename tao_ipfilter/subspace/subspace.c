@@ -264,7 +264,7 @@ static PetscErrorCode FilteredSetUpReduced(Tao tao, const IPBasis *basis, Mat K,
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSetUp(f->reduced, K, ip->jac->inequality, f->W, tao->solution, ip->at.c, basis, possible));
+  PetscCall(IPReducedSetUp(f->reduced, K, ip->jac->inequality, f->W, f->W, tao->solution, ip->at.c, basis, possible));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

@@ -8,9 +8,6 @@
 #include "tao_ipfilter/step/stepimpl.h"
 #include "tao_ipfilter/solver/method.h"
 
-/* A term with at least this coefficient of friction sticks whenever its constraint is closed */
-#define IP_TERM_STICKS 100.0
-
 /* Directions P of the filtered subspace, the oldest first. They are zero on the constraints' unknowns W. */
 typedef struct {
   PetscInt      n, max;
@@ -83,7 +80,7 @@ typedef struct {
   PetscBool        first;
   PetscObjectId    K_id; /* K for which the space was set up */
   PetscObjectState K_state;
-  IS               W;
+  IS               W, own; /* W, and the rows of K that belong to it */
   Mat              KWW;        /* K_WW, including the companions' springs */
   PetscInt         generation; /* generation of the basis when Z was computed */
   PetscInt         n, m;       /* sizes: of W, number of constraints */
@@ -204,7 +201,7 @@ PETSC_INTERN PetscErrorCode IPReducedSpread(VecScatter, PetscInt n, const PetscR
 
 /* reduced.c */
 PETSC_INTERN PetscErrorCode IPReducedIsOf(const IPReduced *, Mat K, PetscBool *same);
-PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, Mat K, Mat J, IS W, Vec x, Vec c, const IPBasis *,
+PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, Mat K, Mat J, IS own, IS W, Vec x, Vec c, const IPBasis *,
   PetscBool *definite);
 PETSC_INTERN PetscErrorCode IPReducedRelease(IPReduced *);
 PETSC_INTERN PetscErrorCode IPReducedScale(IPReduced *, Vec scale);

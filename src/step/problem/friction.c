@@ -18,7 +18,7 @@
 */
 static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearization lin)
 {
-  const PetscReal    sticks = 1e3, share = StepProblemShare(p);
+  const PetscReal    share = StepProblemShare(p);
   Scene              scene = p->sim->scene;
   const PetscScalar *mass;
   PetscScalar       *limit, *coefficient;
@@ -33,7 +33,7 @@ static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearizati
 
     PetscCall(FrictionGetCoefficient(scene, p->time, lin->pair[r], &mu));
     limit[r] = pair->shear_limit < PETSC_INFINITY ? pair->shear_limit * PetscRealPart(mass[r]) / share : PETSC_INFINITY;
-    coefficient[r] = mu >= PETSC_INFINITY && limit[r] >= PETSC_INFINITY ? sticks : mu;
+    coefficient[r] = mu;
     if (p->sim->history->released[ContactHistoryIndex(p->sim->history, lin, r)]) coefficient[r] = 0.0;
   }
   PetscCall(VecRestoreArrayWrite(p->friction.coefficient, &coefficient));

@@ -1,0 +1,207 @@
+/*
+   Contacts that stick while they are closed. They may have several states of equilibrium; the one that continues the last
+   state is chosen. A contact that is closed at the begin is held at its place: it has no slip. The laws of the normal
+   components are solved exactly while these contacts are held, as without friction. Held contacts that have opened are
+   then released: they slide freely if they close again. Open contacts that have closed are held where they would have
+   closed if all forces grew in proportion. This is repeated until nothing changes. It ends, since a contact is held once.
+
+   If contacts are released, the load grows in parts from that of the begin, and what is closed is held again at the end
+   of each part.
+*/
+#include "frictionimpl.h"
+
+static PetscBool ContactSticks(const Contacts *c, PetscInt i)
+{
+  return (PetscBool)(c->law[i] == CONTACT_STICKS && c->coefficient[i] > 0.0);
+}
+
+/* Finds whether contacts stick while they are closed, and whether all others are without friction */
+PetscErrorCode ContactsHaveHeld(const Contacts *c, PetscBool *some, PetscBool *alone)
+{
+  PetscBool both[2] = {PETSC_FALSE, PETSC_FALSE};
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < c->n; i++) {
+    if (ContactSticks(c, i)) both[0] = PETSC_TRUE;
+    if (c->law[i] != CONTACT_STICKS && c->law[i] != CONTACT_SMOOTH) both[1] = PETSC_TRUE;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, both, 2, MPI_PETSCBOOL, MPI_LOR, c->comm));
+  *some  = both[0];
+  *alone = (PetscBool)!both[1];
+  PetscFunctionReturn(0);
+}
+
+/* Moves the place from which a contact's slip is measured to the given slip */
+static void StickRefer(Contacts *c, PetscInt i, const PetscReal slip[2])
+{
+  const PetscReal move[2] = {slip[0], slip[1]};
+
+  for (PetscInt a = 0; a < 2; a++) {
+    c->shift[2 * i + a] += move[a];
+    c->place[2 * i + a] -= move[a];
+    c->u[3 * i + 1 + a] -= move[a];
+  }
+}
+
+/* Holds the contacts that have a force, or touch */
+static void StickHold(Contacts *c)
+{
+  for (PetscInt i = 0; i < c->n; i++) {
+    c->closed[i] = (PetscBool)(c->normal[i] && (c->f[3 * i] > 0.0 || c->u[3 * i] <= c->rounding));
+    if (!ContactSticks(c, i)) continue;
+    c->held[i]     = c->closed[i];
+    c->released[i] = PETSC_FALSE;
+    for (PetscInt a = 0; a < 2; a++) c->place[2 * i + a] = c->u[3 * i + 1 + a];
+  }
+}
+
+/*
+   Releases held contacts that are open, and holds closed ones that were not released. The slip of the others is measured
+   from where they are. released, held: their numbers on all ranks
+*/
+PetscErrorCode StickUpdate(Contacts *c, PetscInt *released, PetscInt *held)
+{
+  PetscInt n[2] = {0, 0};
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < c->n; i++) {
+    if (!ContactSticks(c, i)) continue;
+    if (c->held[i] && !c->closed[i]) {
+      c->held[i]     = PETSC_FALSE;
+      c->released[i] = PETSC_TRUE;
+      n[0]++;
+    } else if (!c->held[i] && c->closed[i] && !c->released[i]) {
+      StickRefer(c, i, &c->place[2 * i]);
+      c->held[i] = PETSC_TRUE;
+      n[1]++;
+    }
+    if (!c->held[i]) StickRefer(c, i, &c->u[3 * i + 1]);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, n, 2, MPIU_INT, MPI_SUM, c->comm));
+  PetscCall(PetscInfo(NULL, "Contacts that stick: %" PetscInt_FMT " released, %" PetscInt_FMT " held\n", n[0], n[1]));
+  *released = n[0];
+  *held     = n[1];
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode StickBegin(Contacts *c, const ContactBodies *bodies, ContactStick *s)
+{
+  const size_t n = 3 * (size_t)c->n;
+
+  PetscFunctionBegin;
+  *s = (ContactStick){.contacts = c, .bodies = bodies, .nparts = 1};
+  PetscCall(PetscCalloc3(n, &s->du, n, &s->df, 2 * n, &s->first));
+  PetscCall(PetscArraycpy(s->first, c->u, n));
+  PetscCall(PetscArraycpy(s->first + n, c->f, n));
+  PetscCall(bodies->keep(bodies->data, PETSC_FALSE));
+  StickHold(c);
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode StickEnd(ContactStick *s)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree3(s->du, s->df, s->first));
+  PetscFunctionReturn(0);
+}
+
+/* Finds where open contacts would close, if no other contact opened or closed */
+static PetscErrorCode StickPredict(ContactStick *s)
+{
+  const PetscReal accuracy = 1e-3; /* of the places */
+  Contacts       *c        = s->contacts;
+  PetscBool       needed = PETSC_FALSE, solved;
+  PetscReal       sizes[2];
+
+  PetscFunctionBegin;
+  s->predicted = PETSC_TRUE;
+  for (PetscInt i = 0; i < c->n; i++) {
+    needed = (PetscBool)(needed || (ContactSticks(c, i) && !c->closed[i]));
+    ContactsLinearize(c, i);
+    ContactsHold(c, i);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &needed, 1, MPI_PETSCBOOL, MPI_LOR, c->comm));
+  if (!needed) PetscFunctionReturn(0);
+  PetscCall(s->bodies->residual(s->bodies->data, c->f, sizes));
+  PetscCall(s->bodies->prepare(s->bodies->data, c->D, &solved));
+  if (solved) PetscCall(ContactsStep(c, s->bodies, accuracy, 0.0, s->du, s->df, &solved));
+  for (PetscInt i = 0; i < c->n && solved; i++) {
+    const PetscReal *u = &c->u[3 * i], *du = &s->du[3 * i];
+
+    for (PetscInt a = 0; a < 2 && !c->closed[i] && du[0] < 0.0; a++)
+      c->place[2 * i + a] = u[1 + a] + PetscMin(1.0, u[0] / -du[0]) * du[1 + a];
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Solves the laws of the normal components */
+static PetscErrorCode StickSolve(ContactStick *s, PetscBool *solved)
+{
+  Contacts *c = s->contacts;
+  PetscReal sizes[2];
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < c->n; i++) {
+    PetscCall(PetscArrayzero(&c->D[9 * i], 9));
+    c->s[3 * i] = 0.0;
+    for (PetscInt a = 1; a < 3; a++) c->s[3 * i + a] = -c->f[3 * i + a];
+    if (c->held[i]) ContactsSetNoSlip(c, i);
+    ContactsHold(c, i);
+  }
+  PetscCall(s->bodies->residual(s->bodies->data, c->f, sizes));
+  PetscCall(s->bodies->solve_normal(s->bodies->data, c->D, c->s, c->f, c->u, s->du, s->df, solved));
+  if (!*solved) PetscFunctionReturn(0);
+  for (PetscInt i = 0; i < c->n; i++) {
+    ContactsRemoveRigid(c, i, &s->du[3 * i]);
+    for (PetscInt r = 3 * i; r < 3 * i + 3; r++) {
+      c->u[r] += s->du[r];
+      c->f[r] += s->df[r];
+    }
+    c->closed[i] = (PetscBool)(c->f[3 * i] > 0.0);
+  }
+  PetscCall(s->bodies->advance(s->bodies->data, 1.0));
+  PetscFunctionReturn(0);
+}
+
+/* Returns to the begin, and lets the load grow in parts */
+static PetscErrorCode StickDivide(ContactStick *s)
+{
+  const PetscInt parts = 4; /* three leaves: energy 13 % from that of 12 load steps with 4 parts each; 50 % without */
+  Contacts      *c     = s->contacts;
+  PetscReal      sizes[2];
+
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(c->u, s->first, 3 * c->n));
+  PetscCall(PetscArraycpy(c->f, s->first + 3 * c->n, 3 * c->n));
+  PetscCall(PetscArrayzero(c->shift, 2 * c->n));
+  PetscCall(s->bodies->keep(s->bodies->data, PETSC_TRUE));
+  PetscCall(s->bodies->residual(s->bodies->data, c->f, sizes));
+  s->nparts = parts;
+  PetscFunctionReturn(0);
+}
+
+/*
+   Solves the laws of the normal components once, and updates what is held. *settled: whether nothing changed at the whole
+   load; *solved: false if the laws were not solved
+*/
+PetscErrorCode StickIterate(ContactStick *s, PetscBool *settled, PetscBool *solved)
+{
+  PetscInt released, held;
+
+  PetscFunctionBegin;
+  *settled = PETSC_FALSE;
+  if (!s->predicted) PetscCall(StickPredict(s));
+  PetscCall(StickSolve(s, solved));
+  if (!*solved) PetscFunctionReturn(0);
+  PetscCall(StickUpdate(s->contacts, &released, &held));
+  if (released && s->nparts == 1) PetscCall(StickDivide(s));
+  else if (released || held) PetscFunctionReturn(0);
+  else if (s->part + 1 >= s->nparts) {
+    *settled = PETSC_TRUE;
+    PetscFunctionReturn(0);
+  } else s->part++;
+  PetscCall(s->bodies->load(s->bodies->data, (s->part + 1.0) / s->nparts));
+  StickHold(s->contacts);
+  s->predicted = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
