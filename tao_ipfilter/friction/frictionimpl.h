@@ -60,8 +60,8 @@ typedef struct {
      target, in the measure of sizes[0]; du = R dx */
   PetscErrorCode (
     *solve)(void *, const PetscReal s[], PetscReal fraction, PetscReal target, PetscReal du[], PetscBool *solved);
-  /* solves K dx = R^T df - r with the linearized laws df = s - D du of tangential components, and f >= 0, u >= 0 and
-     f u = 0 for the normal ones */
+  /* solves K dx = R^T df - r with the linearized laws df = s - D du of tangential components, and f >= s, u >= 0 and
+     (f - s) u = 0 for the normal ones */
   PetscErrorCode (*solve_normal)(void *, const PetscReal D[], const PetscReal s[], const PetscReal f[],
     const PetscReal u[], PetscReal du[], PetscReal df[], PetscBool *solved);
   PetscErrorCode (*load)(void *, PetscReal fraction); /* leaves out all but that fraction of the residual that was
@@ -111,6 +111,8 @@ typedef struct {
   Contacts            *contacts;
   const ContactBodies *bodies;
   PetscInt             part, nparts; /* the present part of the load, and the number of parts */
+  PetscReal            tension;      /* normal force that contacts bear before the whole load acts [force] */
+  PetscBool            whole;
   PetscBool            predicted;    /* whether it is known where contacts would close in this part */
   PetscReal           *du, *df;      /* changes of motions and forces in a step */
   PetscReal           *first;        /* motions and forces at the begin */

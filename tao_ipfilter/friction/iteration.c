@@ -91,7 +91,7 @@ static PetscErrorCode IterationNewton(ContactIteration *it, PetscBool *done)
   PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &violation, &rounding));
   PetscCall(
     PetscInfo(NULL, "Newton: violation %g, size %g, change %g\n", (double)violation, (double)it->size, (double)change));
-  it->violation = it->size > 0.0 ? violation / it->size : 0.0;
+  it->violation = violation > rounding ? violation / it->size : 0.0;
   if (violation <= PetscMax(exact * it->size, rounding)) {
     it->nsteps = it->nfutile = 0;
     if (it->sticks) PetscCall(IterationUpdateHeld(it));

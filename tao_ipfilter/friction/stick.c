@@ -6,7 +6,8 @@
    closed if all forces grew in proportion. This is repeated until nothing changes. It ends, since a contact is held once.
 
    If contacts are released, the load grows in parts from that of the begin, and what is closed is held again at the end
-   of each part.
+   of each part. Until the whole load acts, all contacts bear a tension that is small, but larger than rounding errors,
+   so that these do not decide what is held where forces almost vanish.
 */
 #include "frictionimpl.h"
 
@@ -43,11 +44,25 @@ static void StickRefer(Contacts *c, PetscInt i, const PetscReal slip[2])
   }
 }
 
-/* Holds the contacts that have a force, or touch */
+/* Closes the contacts that have a force, or touch */
+static PetscErrorCode StickClose(Contacts *c)
+{
+  const PetscReal touch   = 1e-9; /* gap without meaning, relative to the largest one */
+  PetscReal       largest = 0.0;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < c->n; i++) largest = PetscMax(largest, PetscAbsReal(c->u[3 * i]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, c->comm));
+  for (PetscInt i = 0; i < c->n; i++)
+    c->closed[i] =
+      (PetscBool)(c->normal[i] && (c->f[3 * i] > 0.0 || c->u[3 * i] <= PetscMax(touch * largest, c->rounding)));
+  PetscFunctionReturn(0);
+}
+
+/* Holds the contacts that are closed */
 static void StickHold(Contacts *c)
 {
   for (PetscInt i = 0; i < c->n; i++) {
-    c->closed[i] = (PetscBool)(c->normal[i] && (c->f[3 * i] > 0.0 || c->u[3 * i] <= c->rounding));
     if (!ContactSticks(c, i)) continue;
     c->held[i]     = c->closed[i];
     c->released[i] = PETSC_FALSE;
@@ -94,6 +109,7 @@ PetscErrorCode StickBegin(Contacts *c, const ContactBodies *bodies, ContactStick
   PetscCall(PetscArraycpy(s->first, c->u, n));
   PetscCall(PetscArraycpy(s->first + n, c->f, n));
   PetscCall(bodies->keep(bodies->data, PETSC_FALSE));
+  PetscCall(StickClose(c));
   StickHold(c);
   PetscFunctionReturn(0);
 }
@@ -143,7 +159,7 @@ static PetscErrorCode StickSolve(ContactStick *s, PetscBool *solved)
   PetscFunctionBegin;
   for (PetscInt i = 0; i < c->n; i++) {
     PetscCall(PetscArrayzero(&c->D[9 * i], 9));
-    c->s[3 * i] = 0.0;
+    c->s[3 * i] = c->normal[i] ? -s->tension : 0.0;
     for (PetscInt a = 1; a < 3; a++) c->s[3 * i + a] = -c->f[3 * i + a];
     if (c->held[i]) ContactsSetNoSlip(c, i);
     ContactsHold(c, i);
@@ -152,12 +168,13 @@ static PetscErrorCode StickSolve(ContactStick *s, PetscBool *solved)
   PetscCall(s->bodies->solve_normal(s->bodies->data, c->D, c->s, c->f, c->u, s->du, s->df, solved));
   if (!*solved) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < c->n; i++) {
+    c->closed[i] = (PetscBool)(s->df[3 * i] > c->s[3 * i] - c->f[3 * i]);
     ContactsRemoveRigid(c, i, &s->du[3 * i]);
     for (PetscInt r = 3 * i; r < 3 * i + 3; r++) {
       c->u[r] += s->du[r];
       c->f[r] += s->df[r];
     }
-    c->closed[i] = (PetscBool)(c->f[3 * i] > 0.0);
+    if (!c->closed[i]) c->f[3 * i] = c->s[3 * i];
   }
   PetscCall(s->bodies->advance(s->bodies->data, 1.0));
   PetscFunctionReturn(0);
@@ -166,16 +183,20 @@ static PetscErrorCode StickSolve(ContactStick *s, PetscBool *solved)
 /* Returns to the begin, and lets the load grow in parts */
 static PetscErrorCode StickDivide(ContactStick *s)
 {
-  const PetscInt parts = 4; /* three leaves: energy 13 % from that of 12 load steps with 4 parts each; 50 % without */
-  Contacts      *c     = s->contacts;
-  PetscReal      sizes[2];
+  const PetscInt  parts = 4; /* three leaves: energy 13 % from that of 12 load steps with 4 parts each; 50 % without */
+  const PetscReal small = 1e-6;
+  Contacts       *c     = s->contacts;
+  PetscReal       sizes[2];
 
   PetscFunctionBegin;
+  for (PetscInt i = 0; i < c->n; i++) s->tension = PetscMax(s->tension, small * c->f[3 * i]);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &s->tension, 1, MPIU_REAL, MPIU_MAX, c->comm));
   PetscCall(PetscArraycpy(c->u, s->first, 3 * c->n));
   PetscCall(PetscArraycpy(c->f, s->first + 3 * c->n, 3 * c->n));
   PetscCall(PetscArrayzero(c->shift, 2 * c->n));
   PetscCall(s->bodies->keep(s->bodies->data, PETSC_TRUE));
   PetscCall(s->bodies->residual(s->bodies->data, c->f, sizes));
+  PetscCall(StickClose(c));
   s->nparts = parts;
   PetscFunctionReturn(0);
 }
@@ -197,7 +218,9 @@ PetscErrorCode StickIterate(ContactStick *s, PetscBool *settled, PetscBool *solv
   if (released && s->nparts == 1) PetscCall(StickDivide(s));
   else if (released || held) PetscFunctionReturn(0);
   else if (s->part + 1 >= s->nparts) {
-    *settled = PETSC_TRUE;
+    *settled = (PetscBool)(s->whole || s->tension == 0.0);
+    if (!s->whole) s->tension *= 1e-4;
+    s->whole = PETSC_TRUE;
     PetscFunctionReturn(0);
   } else s->part++;
   PetscCall(s->bodies->load(s->bodies->data, (s->part + 1.0) / s->nparts));

@@ -29,6 +29,7 @@ struct _p_SubspaceBodies {
   Vec        kept_x, kept_Kx;
   Vec        first;                 /* the residual of which a part is left out; NULL: none */
   PetscReal  lacks;                 /* that part */
+  PetscReal  load_norm;             /* largest residual [2-norm] of the normal laws since the begin */
   IPReduced  normal;                /* the problem of the normal laws, whose unknowns are those in W */
   Mat        JW;                    /* normal rows of R_W */
   IS         places;                /* all unknowns of W by their number in W */
@@ -205,6 +206,7 @@ PetscErrorCode SubspaceBodiesCentre(SubspaceBodies b, Vec g)
   PetscCall(VecZeroEntries(b->x));
   PetscCall(VecZeroEntries(b->Kx));
   PetscCall(VecDestroy(&b->first));
+  b->load_norm = 0.0;
   PetscFunctionReturn(0);
 }
 
@@ -650,23 +652,118 @@ static PetscErrorCode BodiesSolveReducedNormal(SubspaceBodies b, Vec force, Pets
   PetscFunctionBegin;
   b->normal.system.rounding = ((TAO_IPFILTER *)b->tao->data)->first->jacobian * ((TAO_IPFILTER *)b->tao->data)->given->rounding;
   b->normal.system.soft     = b->recycle->basis.has_modes;
-  PetscCall(VecZeroEntries(b->dx));
+  PetscCall(VecCopy(b->base, b->dx));
+  PetscCall(VecISSet(b->dx, b->W, 0.0));
   PetscCall(IPReducedSolve(&b->normal, b->dy, b->dx, force, solved));
-  if (*solved) PetscCall(IPBasisAdd(&b->recycle->basis, b->dy, b->dx));
+  if (!*solved) PetscFunctionReturn(0);
+  PetscCall(IPBasisAdd(&b->recycle->basis, b->dy, b->dx));
+  PetscCall(VecISCopy(b->base, b->W, SCATTER_REVERSE, b->load));
+  PetscCall(VecISAXPY(b->dx, b->W, 1.0, b->load));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Reduces the number of directions. The problem of the normal laws is then centred at dx, which the directions that are
+   left do not contain: its gradient b->rhs and the gaps grow by what dx changes.
+*/
+static PetscErrorCode BodiesMakeRoomNormal(SubspaceBodies b, const PetscReal D[], Vec gaps)
+{
+  IPBasis           *basis = &b->recycle->basis;
+  const PetscScalar *u;
+  PetscScalar       *g;
+  PetscReal         *E, *springs;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(basis->max * basis->max, &E));
+  PetscCall(IPReducedCoupling(&b->normal, basis, E));
+  PetscCall(IPFilteredCompress(b->tao, basis, E));
+  PetscCall(PetscFree(E));
+  PetscCall(IPReducedForget(&b->normal, basis));
+  PetscCall(VecGetLocalSize(gaps, &n));
+  PetscCall(PetscMalloc1(3 * n, &springs));
+  PetscCall(VecAXPY(b->dx, -1.0, b->base)); /* what this centre adds */
+  PetscCall(MatMult(b->R, b->dx, b->rows));
+  PetscCall(VecGetArrayRead(b->rows, &u));
+  PetscCall(VecGetArray(gaps, &g));
+  for (PetscInt i = 0; i < n; i++) {
+    g[i] += u[3 * i];
+    ConeMultiply(&D[9 * i], &u[3 * i], &springs[3 * i]);
+  }
+  PetscCall(VecRestoreArray(gaps, &g));
+  PetscCall(VecRestoreArrayRead(b->rows, &u));
+  PetscCall(BodiesSpread(b, springs, PETSC_TRUE, b->rhs));
+  PetscCall(MatMultAdd(b->K, b->dx, b->rhs, b->rhs));
+  PetscCall(IPFixedZero(b->tao, b->rhs));
+  PetscCall(VecAXPY(b->base, 1.0, b->dx));
+  PetscCall(PetscFree(springs));
+  PetscFunctionReturn(0);
+}
+
+/* Finds dx and the normal forces to the accuracy that the choice of held contacts needs */
+static PetscErrorCode BodiesIterateNormal(SubspaceBodies b, const PetscReal D[], Vec gaps, Vec force, PetscBool *solved)
+{
+  const PetscReal exact = 1e-11; /* residual that may be left, relative to the largest one: more would decide which
+                                   contacts are held */
+  PetscReal       norm;
+  PetscBool       added;
+  Vec             left;
+
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(b->base));
+  PetscCall(IPGetWork(b->tao, IP_UNKNOWNS, &left));
+  do {
+    added = PETSC_FALSE;
+    PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
+    PetscCall(BodiesCentreNormal(b, gaps));
+    PetscCall(BodiesSolveReducedNormal(b, force, solved));
+    PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
+    if (!*solved) break;
+    PetscCall(BodiesLeft(b, left, &norm));
+    *solved      = (PetscBool)!PetscIsInfOrNanReal(norm);
+    b->load_norm = PetscMax(b->load_norm, norm);
+    if (!*solved || norm <= PetscMin(exact * b->load_norm, b->enough)) break;
+    if (b->recycle->basis.n == b->recycle->basis.max) PetscCall(BodiesMakeRoomNormal(b, D, gaps));
+    PetscCall(BodiesExtend(b, left, &added));
+  } while (added);
+  PetscCall(PetscInfo(NULL, "Normal laws: %" PetscInt_FMT " directions, left %g of %g, enough %g, solved %d\n",
+    b->recycle->basis.n, (double)norm, (double)b->load_norm, (double)b->enough, *solved));
+  PetscCall(IPRestoreWork(b->tao, IP_UNKNOWNS, &left));
+  PetscFunctionReturn(0);
+}
+
+/* Computes du = R dx, and the changes of the forces */
+static PetscErrorCode BodiesGetChanges(SubspaceBodies b, const PetscReal D[], const PetscReal s[], const PetscReal f[],
+  Vec force, PetscReal du[], PetscReal df[])
+{
+  const PetscScalar *a, *normal;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(force, &n));
+  PetscCall(MatMult(b->R, b->dx, b->rows));
+  PetscCall(VecGetArrayRead(b->rows, &a));
+  PetscCall(VecGetArrayRead(force, &normal));
+  for (PetscInt i = 0; i < n; i++) {
+    PetscReal change[3];
+
+    for (PetscInt r = 3 * i; r < 3 * i + 3; r++) du[r] = PetscRealPart(a[r]);
+    ConeMultiply(&D[9 * i], &du[3 * i], change);
+    for (PetscInt c = 0; c < 3; c++) df[3 * i + c] = s[3 * i + c] - change[c];
+    df[3 * i] = PetscRealPart(normal[i]) + s[3 * i] - f[3 * i];
+  }
+  PetscCall(VecRestoreArrayRead(force, &normal));
+  PetscCall(VecRestoreArrayRead(b->rows, &a));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode BodiesSolveNormal(void *data, const PetscReal D[], const PetscReal s[], const PetscReal f[],
   const PetscReal u[], PetscReal du[], PetscReal df[], PetscBool *solved)
 {
-  const SubspaceBodies b    = (SubspaceBodies)data;
-  const PetscReal fraction  = 0.01; /* of the residual that may be left */
-  const PetscScalar   *a;
+  const SubspaceBodies b = (SubspaceBodies)data;
   PetscScalar         *g;
-  PetscReal            norm, first = 0.0;
   PetscInt             n;
-  PetscBool            added = PETSC_TRUE;
-  Vec                  gaps, force, left;
+  Vec                  gaps, force;
 
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(b->rows, &n));
@@ -674,51 +771,18 @@ static PetscErrorCode BodiesSolveNormal(void *data, const PetscReal D[], const P
   PetscCall(VecCreateMPI(PetscObjectComm((PetscObject)b->rows), n, PETSC_DETERMINE, &gaps));
   PetscCall(VecDuplicate(gaps, &force));
   PetscCall(VecGetArrayWrite(gaps, &g));
-  for (PetscInt i = 0; i < n; i++) g[i] = u[3 * i];
-  PetscCall(VecRestoreArrayWrite(gaps, &g));
   for (PetscInt i = 0; i < n; i++) {
-    df[3 * i] = -f[3 * i];
-    for (PetscInt c = 1; c < 3; c++) df[3 * i + c] = s[3 * i + c];
+    g[i] = u[3 * i];
+    for (PetscInt c = 0; c < 3; c++) df[3 * i + c] = s[3 * i + c] - (c ? 0.0 : f[3 * i]);
   }
+  PetscCall(VecRestoreArrayWrite(gaps, &g));
   PetscCall(BodiesSpread(b, df, PETSC_FALSE, b->rhs));
   PetscCall(VecAYPX(b->rhs, -1.0, b->r));
   PetscCall(IPFixedZero(b->tao, b->rhs));
-  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
   PetscCall(BodiesAssemble(b, D));
   PetscCall(BodiesSetUpNormal(b, gaps, solved));
-  if (*solved) PetscCall(BodiesCentreNormal(b, gaps));
-  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
-  PetscCall(IPGetWork(b->tao, IP_UNKNOWNS, &left));
-  for (PetscInt k = 0; *solved; k++) {
-    PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
-    PetscCall(BodiesSolveReducedNormal(b, force, solved));
-    PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
-    if (!*solved) break;
-    PetscCall(BodiesLeft(b, left, &norm));
-    *solved = (PetscBool)!PetscIsInfOrNanReal(norm);
-    if (!k) first = norm;
-    PetscCall(PetscInfo(NULL, "Normal laws: %" PetscInt_FMT " directions, left %g of %g, enough %g\n", b->recycle->basis.n, (double)norm, (double)first, (double)b->enough));
-    if (!*solved || norm <= PetscMax(fraction * first, b->enough) || b->recycle->basis.n == b->recycle->basis.max) break;
-    PetscCall(BodiesExtend(b, left, &added));
-    if (!added) break;
-    PetscCall(BodiesCentreNormal(b, gaps));
-  }
-  PetscCall(IPRestoreWork(b->tao, IP_UNKNOWNS, &left));
-  if (*solved) {
-    PetscCall(MatMult(b->R, b->dx, b->rows));
-    PetscCall(VecGetArrayRead(b->rows, &a));
-    for (PetscInt r = 0; r < 3 * n; r++) du[r] = PetscRealPart(a[r]);
-    PetscCall(VecRestoreArrayRead(b->rows, &a));
-    PetscCall(VecGetArrayRead(force, &a));
-    for (PetscInt i = 0; i < n; i++) {
-      PetscReal change[3];
-
-      ConeMultiply(&D[9 * i], &du[3 * i], change);
-      df[3 * i] = PetscRealPart(a[i]) - f[3 * i];
-      for (PetscInt c = 1; c < 3; c++) df[3 * i + c] = s[3 * i + c] - change[c];
-    }
-    PetscCall(VecRestoreArrayRead(force, &a));
-  }
+  if (*solved) PetscCall(BodiesIterateNormal(b, D, gaps, force, solved));
+  if (*solved) PetscCall(BodiesGetChanges(b, D, s, f, force, du, df));
   PetscCall(VecDestroy(&force));
   PetscCall(VecDestroy(&gaps));
   PetscFunctionReturn(0);

@@ -123,6 +123,22 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt
 }
 
 /*
+   Finds whether W has all unknowns: for few of them if contacts stick, since the residual that directions leave would
+   decide which contacts do
+*/
+static PetscErrorCode FilteredTakesAll(Tao tao, PetscInt n, PetscBool *all)
+{
+  const IPTerms  *terms   = ((TAO_IPFILTER *)tao->data)->terms;
+  const PetscInt  most    = 15000; /* up to this number PCAMGF factors a matrix, too */
+  PetscReal       largest = 0.0;
+
+  PetscFunctionBegin;
+  if (terms->n && terms->coefficient) PetscCall(VecMax(terms->coefficient, NULL, &largest));
+  *all = (PetscBool)(n <= most && largest >= PETSC_INFINITY);
+  PetscFunctionReturn(0);
+}
+
+/*
    Sets W. *few: whether there are constraints, and they involve few unknowns. What is few is decided only with
    -tao_ipfilter_subspace auto and without norm terms.
 */
@@ -130,7 +146,8 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal fraction = 0.5;
-  PetscInt        n, touched;
+  PetscInt        n, touched, start, end;
+  PetscBool       all;
 
   PetscFunctionBegin;
   PetscCall(IPRowsTake(tao));
@@ -139,7 +156,12 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
   PetscCall(ISGetSize(ip->cond->filter, &touched));
   *few = (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n || touched <= fraction * n));
   PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
-  if (*few) PetscCall(FilteredChooseW(tao, &recycle->reduced, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
+  if (!*few) PetscFunctionReturn(0);
+  PetscCall(FilteredTakesAll(tao, n, &all));
+  PetscCall(VecGetOwnershipRange(tao->solution, &start, &end));
+  if (all)
+    PetscCall(ISCreateStride(PetscObjectComm((PetscObject)tao), end - start, start, 1, &IPFilteredOf(tao)->W));
+  else PetscCall(FilteredChooseW(tao, &recycle->reduced, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);
 }
 
