@@ -382,14 +382,13 @@ static PetscErrorCode ConesAssess(Cones s, PetscReal *gap, PetscReal *error, Pet
   PetscFunctionReturn(0);
 }
 
-/* Computes a direction. accuracy: residual that may be left; t: its largest step inside the cones */
-static PetscErrorCode ConesDirection(Cones s, PetscReal target, PetscBool corrector, PetscReal accuracy, PetscReal *t,
-  PetscBool *solved)
+/* Computes a direction in the present subspace of the bodies. t: its largest step inside the cones */
+static PetscErrorCode ConesDirection(Cones s, PetscReal target, PetscBool corrector, PetscReal *t, PetscBool *solved)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < s->c->n; i++) ConeSetTarget(&s->cone[i], target, corrector);
   PetscCall(ConesSetLaws(s, (PetscBool)!corrector, solved));
-  if (*solved) PetscCall(ContactsStep(s->c, s->bodies, 0.0, accuracy, s->du, s->df, solved));
+  if (*solved) PetscCall(ContactsStep(s->c, s->bodies, 1.0, 0.0, s->du, s->df, solved));
   if (!*solved) PetscFunctionReturn(0);
   *t = PETSC_INFINITY;
   for (PetscInt i = 0; i < s->c->n; i++) {
@@ -426,23 +425,21 @@ static PetscErrorCode ConesAdvance(Cones s, PetscReal t)
 PetscErrorCode ConesIterate(Cones s, PetscReal tolerance, PetscReal *error, PetscBool *solved)
 {
   const PetscReal inside = 0.99, /* fraction of the longest step */
-    least                = 1e-6, /* of the centring: below it, rounding errors decide */
-    forcing              = 0.03; /* residual that a system may leave, relative to the error of the iterate */
-  PetscReal t = 0.0, gap, balance = 0.0, after = 0.0, accuracy;
+    least                = 1e-6; /* of the centring: below it, rounding errors decide */
+  PetscReal t            = 0.0, gap, balance = 0.0, after = 0.0;
 
   PetscFunctionBegin;
   *solved = PETSC_TRUE;
   PetscCall(ConesAssess(s, &gap, error, &balance));
   PetscCall(PetscInfo(NULL, "Cones: error %g, gap %g, balance %g\n", (double)*error, (double)gap, (double)balance));
   if (*error < tolerance) PetscFunctionReturn(0);
-  accuracy = forcing * PetscMax(*error, balance) * s->force_now;
   for (PetscInt i = 0; i < s->c->n; i++) ConeSetScalings(&s->cone[i]);
-  PetscCall(ConesDirection(s, 0.0, PETSC_FALSE, accuracy, &t, solved));
+  PetscCall(ConesDirection(s, 0.0, PETSC_FALSE, &t, solved));
   if (!*solved) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < s->c->n; i++) after += ConeGap(&s->cone[i], PetscMin(1.0, t));
   PetscCall(ConesSum(s, &after));
   after = PetscClipInterval(after / s->count / gap, 0.0, 1.0);
-  PetscCall(ConesDirection(s, PetscMax(least, after * after * after) * gap, PETSC_TRUE, accuracy, &t, solved));
+  PetscCall(ConesDirection(s, PetscMax(least, after * after * after) * gap, PETSC_TRUE, &t, solved));
   if (*solved) PetscCall(ConesAdvance(s, PetscMin(1.0, inside * t)));
   PetscFunctionReturn(0);
 }

@@ -369,6 +369,7 @@ static PetscErrorCode BodiesFactor(SubspaceBodies b, PetscBool *factored)
     PetscCall(MatFactorGetError(b->F, &error));
     if (error != MAT_FACTOR_NOERROR) PetscCall(MatDestroy(&b->F)); /* MUMPS cannot use it again */
   } while (error == MAT_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, &b->relaxation));
+  PetscCall(PetscInfo(NULL, "Factors of A_WW: error %d\n", (int)error));
   *factored = (PetscBool)(error == MAT_FACTOR_NOERROR);
   b->nX     = 0;
   PetscFunctionReturn(0);
@@ -599,11 +600,12 @@ static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fra
     PetscCall(BodiesSize(b, left, &size));
     *solved = (PetscBool)!PetscIsInfOrNanReal(size);
     if (!k) first = size;
-    if (!*solved || size <= PetscMax(fraction * first, target) || norm <= b->enough) break;
+    if (!*solved || size <= PetscMax(fraction * first, target) || (fraction > 0.0 && norm <= b->enough)) break;
     PetscCall(BodiesExtend(b, left, &added));
     if (!added) break;
   }
   PetscCall(IPRestoreWork(b->tao, IP_UNKNOWNS, &left));
+  PetscCall(PetscInfo(NULL, "Solve: %" PetscInt_FMT " directions, size %g, first %g, fraction %g, target %g, norm %g, enough %g, added %d, solved %d\n", b->recycle->basis.n, (double)size,(double)first,(double)fraction,(double)target,(double)norm,(double)b->enough,added,*solved));
   *solved = (PetscBool)(*solved && (added || size < first));
   PetscCall(MatMult(b->R, b->dx, b->rows));
   PetscCall(VecGetLocalSize(b->rows, &n));

@@ -134,7 +134,7 @@ static PetscErrorCode FilteredTakesAll(Tao tao, PetscInt n, PetscBool *all)
 
   PetscFunctionBegin;
   if (terms->n && terms->coefficient) PetscCall(VecMax(terms->coefficient, NULL, &largest));
-  *all = (PetscBool)(n <= most && largest >= PETSC_INFINITY);
+  *all = (PetscBool)(terms->n && n <= (largest >= PETSC_INFINITY ? most : 5000));
   PetscFunctionReturn(0);
 }
 
