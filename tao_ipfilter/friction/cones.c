@@ -65,7 +65,7 @@ static void ConeSetKind(const Contacts *c, PetscInt i, Cone *k)
   k->n        = coulomb ? 3 : c->normal[i] ? 1 : 0;
   k->limited  = (PetscBool)(law == CONTACT_LIMITED || law == CONTACT_TRESCA);
   k->scale[0] = c->normal[i] ? 1.0 / PetscSqrtReal(compliance[0]) : 0.0;
-  k->scale[1] = coulomb      ? PetscMin(c->coefficient[i], most) * k->scale[0]
+  k->scale[1] = coulomb                    ? PetscMin(c->coefficient[i], most) * k->scale[0]
                 : k->limited || c->held[i] ? 1.0 / PetscSqrtReal(compliance[1])
                                            : 0.0;
   k->limit    = k->limited ? c->limit[i] / k->scale[1] : 0.0;
@@ -304,7 +304,7 @@ static PetscErrorCode ConesSetLaws(Cones s, PetscBool matrix, PetscBool *ready)
 static PetscErrorCode ConesFindSizes(Cones s, PetscBool *found)
 {
   Contacts *c        = s->c;
-  PetscReal sizes[2] = {0.0, 0.0}, least = PETSC_SQRT_MACHINE_EPSILON;
+  PetscReal sizes[3] = {0.0, 0.0, 0.0}, least = PETSC_SQRT_MACHINE_EPSILON;
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(c->f, 3 * c->n));
@@ -319,7 +319,7 @@ static PetscErrorCode ConesFindSizes(Cones s, PetscBool *found)
   PetscCall(s->bodies->residual(s->bodies->data, c->f, sizes));
   s->force = sizes[0];
   PetscCall(s->bodies->prepare(s->bodies->data, c->D, found));
-  if (*found) PetscCall(ContactsStep(c, s->bodies, 0.1, 0.0, s->du, s->df, found));
+  if (*found) PetscCall(ContactsStep(c, s->bodies, 0.01, 0.0, s->du, s->df, found));
   if (!*found) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < c->n; i++) {
     for (PetscInt r = 0; r < 3; r++) {
@@ -364,7 +364,7 @@ PetscErrorCode ConesStart(Cones s, PetscBool *started)
 */
 static PetscErrorCode ConesAssess(Cones s, PetscReal *gap, PetscReal *error, PetscReal *balance)
 {
-  PetscReal motions = 0.0, sizes[2];
+  PetscReal motions = 0.0, sizes[3];
 
   PetscFunctionBegin;
   *gap = 0.0;
@@ -426,7 +426,7 @@ PetscErrorCode ConesIterate(Cones s, PetscReal tolerance, PetscReal *error, Pets
 {
   const PetscReal inside = 0.99, /* fraction of the longest step */
     least                = 1e-6; /* of the centring: below it, rounding errors decide */
-  PetscReal t            = 0.0, gap, balance = 0.0, after = 0.0;
+  PetscReal t = 0.0, gap, balance = 0.0, after = 0.0;
 
   PetscFunctionBegin;
   *solved = PETSC_TRUE;

@@ -23,7 +23,8 @@ PetscErrorCode ContactsCreate(MPI_Comm comm, PetscInt n, Contacts *c)
   c->n    = n;
   PetscCall(PetscCalloc5(n, &c->law, n, &c->normal, n, &c->closed, n, &c->held, n, &c->released));
   PetscCall(PetscCalloc3(n, &c->coefficient, n, &c->limit, 2 * n, &c->rigid));
-  PetscCall(PetscCalloc7(2 * n, &c->compliance, 3 * n, &c->f, 3 * n, &c->u, 2 * n, &c->shift, 2 * n, &c->place, 9 * n, &c->D, 3 * n, &c->s));
+  PetscCall(PetscCalloc7(2 * n, &c->compliance, 3 * n, &c->f, 3 * n, &c->u, 2 * n, &c->shift, 2 * n, &c->place, 9 * n,
+    &c->D, 3 * n, &c->s));
   PetscFunctionReturn(0);
 }
 

@@ -113,25 +113,25 @@ static PetscErrorCode LawsCopy(IPLaws laws, Vec constraints, Vec terms, PetscRea
 
 /*
    Begins at a point with the gradient g, the constraint values c and the values of norm terms; force, terms: forces of
-   both there. Forces below the optimizer's tolerance count as none: friction cannot hold a contact that is not pressed.
+   both there. Contacts with forces below the accuracy of a solve count as open: friction does not hold them.
 */
 static PetscErrorCode LawsBegin(IPLaws laws, Vec g, Vec c, Vec values, Vec force, Vec terms)
 {
+  const PetscReal     accuracy = 1e-8;
   const TAO_IPFILTER *ip       = (TAO_IPFILTER *)laws->tao->data;
-  const PetscReal     none     = ip->tol * IPErrorBoundForceUnit(ip);
   Contacts           *contacts = &laws->contacts;
 
   PetscFunctionBegin;
   PetscCall(SubspaceBodiesCentre(laws->bodies, g));
   contacts->rounding = ip->first->jacobian * ip->given->rounding;
+  contacts->least    = accuracy * IPErrorBoundForceUnit(ip);
   PetscCall(LawsCopy(laws, c, values, contacts->u, PETSC_FALSE));
   PetscCall(LawsCopy(laws, force, terms, contacts->f, PETSC_FALSE));
   for (PetscInt i = 0; i < contacts->n; i++) {
     ContactsRemoveRigid(contacts, i, &contacts->u[3 * i]);
     ContactsRemoveRigid(contacts, i, &contacts->f[3 * i]);
-    if (!contacts->normal[i] || contacts->f[3 * i] <= none) contacts->f[3 * i] = 0.0;
-    if (IPTermBound(contacts->limit[i], contacts->coefficient[i], contacts->f[3 * i]) == 0.0)
-      contacts->f[3 * i + 1] = contacts->f[3 * i + 2] = 0.0;
+    if (!contacts->normal[i]) contacts->f[3 * i] = 0.0;
+    if (contacts->law[i] == CONTACT_SMOOTH) contacts->f[3 * i + 1] = contacts->f[3 * i + 2] = 0.0;
   }
   PetscCall(ContactIterationBegin(contacts, SubspaceBodiesInterface(laws->bodies), &laws->iteration));
   PetscFunctionReturn(0);

@@ -38,12 +38,13 @@ typedef struct {
   PetscReal  *coefficient, *limit; /* of the law; unused ones are zero */
   PetscReal  *rigid;               /* two per contact: unit direction along which it cannot slip; zeros: none */
   PetscReal
-    *compliance;       /* two per contact: estimates for the normal and for the tangential components [length/force] */
-  PetscReal *f, *u;    /* three per contact: forces, and motions: the gap and the slip */
+    *compliance;    /* two per contact: estimates for the normal and for the tangential components [length/force] */
+  PetscReal *f, *u; /* three per contact: forces, and motions: the gap and the slip */
   PetscReal *shift, *place; /* two per contact: by how much the place was moved from which the slip is measured; slip at
                                which the contact closed last */
-  PetscReal *D, *s;    /* nine and three per contact: linearized laws df = s - D du */
-  PetscReal  rounding; /* size of the rounding errors of a gap [length] */
+  PetscReal *D, *s;         /* nine and three per contact: linearized laws df = s - D du */
+  PetscReal  rounding;      /* size of the rounding errors of a gap [length] */
+  PetscReal  least;         /* normal force up to which a contact counts as open at the begin */
 } Contacts;
 
 /*
@@ -52,8 +53,9 @@ typedef struct {
 */
 typedef struct {
   void *data;
-  /* computes r. sizes: largest entries of r and of R^T f, each divided by the square root of K's diagonal entry */
-  PetscErrorCode (*residual)(void *, const PetscReal f[], PetscReal sizes[2]);
+  /* computes r. sizes: the largest entries of r and of R^T f, and the 2-norm of r, where each entry is divided by the
+     square root of K's diagonal entry [square root of energy] */
+  PetscErrorCode (*residual)(void *, const PetscReal f[], PetscReal sizes[3]);
   /* sets the matrix K + R^T D R. *prepared: false if it is singular */
   PetscErrorCode (*prepare)(void *, const PetscReal D[], PetscBool *prepared);
   /* solves (K + R^T D R) dx = R^T s - r until the residual is at most that fraction of the first one, or at most the
@@ -64,7 +66,7 @@ typedef struct {
      (f - s) u = 0 for the normal ones */
   PetscErrorCode (*solve_normal)(void *, const PetscReal D[], const PetscReal s[], const PetscReal f[],
     const PetscReal u[], PetscReal du[], PetscReal df[], PetscBool *solved);
-  PetscErrorCode (*load)(void *, PetscReal fraction); /* leaves out all but that fraction of the residual that was
+  PetscErrorCode (*load)(void *, PetscReal fraction);    /* leaves out all but that fraction of the residual that was
                                                          computed before the first call */
   PetscErrorCode (*advance)(void *, PetscReal fraction); /* adds fraction dx to x */
   PetscErrorCode (*keep)(void *, PetscBool back);        /* copies x to a second place, or from there */
@@ -104,7 +106,8 @@ PETSC_INTERN PetscErrorCode ConesIterate(Cones, PetscReal tolerance, PetscReal *
 /* newton.c */
 PETSC_INTERN void           ContactsLinearize(const Contacts *, PetscInt i);
 PETSC_INTERN void           ContactsGuessStates(Contacts *, PetscBool interior);
-PETSC_INTERN PetscErrorCode ContactsNewtonStep(Contacts *, const ContactBodies *, PetscReal *change, PetscBool *solved);
+PETSC_INTERN PetscErrorCode ContactsNewtonStep(Contacts *, const ContactBodies *, PetscReal *merit, PetscReal *change,
+  PetscBool *solved);
 
 /* stick.c */
 typedef struct {
@@ -112,7 +115,7 @@ typedef struct {
   const ContactBodies *bodies;
   PetscInt             part, nparts; /* the present part of the load, and the number of parts */
   PetscReal            tension;      /* normal force that contacts bear before the whole load acts [force] */
-  PetscBool            whole;
+  PetscBool            whole;        /* whether the whole load acts and is settled but for the rest of the tension */
   PetscBool            predicted;    /* whether it is known where contacts would close in this part */
   PetscReal           *du, *df;      /* changes of motions and forces in a step */
   PetscReal           *first;        /* motions and forces at the begin */

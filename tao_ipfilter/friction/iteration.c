@@ -1,7 +1,7 @@
 /*
    The iteration for the laws of all contacts: Newton's method from the present state or, if that makes no progress, the
-   interior point method from a cold start, and Newton's method from its end. Contacts that stick while they are closed are
-   held or released each time the other laws are solved.
+   interior point method from a cold start, and Newton's method from its end. Contacts that stick while they are closed
+   are held or released each time the other laws are solved.
 */
 #include "frictionimpl.h"
 
@@ -81,25 +81,25 @@ static PetscErrorCode IterationNewton(ContactIteration *it, PetscBool *done)
 {
   const PetscInt  patience = 3, most = 12;
   const PetscReal exact = 1e-9; /* violation that counts as none, relative to its size at the start */
-  PetscReal       before, violation, rounding, change;
+  PetscReal       before, violation, rounding, change, merit;
 
   PetscFunctionBegin;
   PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &before, &rounding));
-  PetscCall(ContactsNewtonStep(it->contacts, &it->bodies, &change, done));
+  PetscCall(ContactsNewtonStep(it->contacts, &it->bodies, &merit, &change, done));
   if (!*done) PetscFunctionReturn(0);
   if (it->size == 0.0) it->size = PetscMax(before, change);
   PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &violation, &rounding));
-  PetscCall(
-    PetscInfo(NULL, "Newton: violation %g, size %g, change %g\n", (double)violation, (double)it->size, (double)change));
+  PetscCall(PetscInfo(NULL, "Newton: merit %g, violation %g, size %g, change %g\n", (double)merit, (double)violation,
+    (double)it->size, (double)change));
   it->violation = violation > rounding ? violation / it->size : 0.0;
   if (violation <= PetscMax(exact * it->size, rounding)) {
     it->nsteps = it->nfutile = 0;
     if (it->sticks) PetscCall(IterationUpdateHeld(it));
     PetscFunctionReturn(0);
   }
-  it->nfutile = violation <= 0.5 * it->best ? 0 : it->nfutile + 1;
-  it->best    = PetscMin(it->best, violation);
-  *done       = (PetscBool)(!PetscIsInfOrNanReal(violation) && it->nfutile < patience && ++it->nsteps < most);
+  it->nfutile = merit <= 0.5 * it->best ? 0 : it->nfutile + 1;
+  it->best    = PetscMin(it->best, merit);
+  *done       = (PetscBool)(!PetscIsInfOrNanReal(merit) && it->nfutile < patience && ++it->nsteps < most);
   PetscFunctionReturn(0);
 }
 
@@ -131,6 +131,7 @@ static PetscErrorCode IterationReturn(ContactIteration *it, PetscBool *done)
   it->phase  = CONTACT_CONES;
   it->nsteps = 0;
   *done      = (PetscBool)(it->known >= last);
+  if (*done) PetscCall(ConesStart(it->cones, done)); /* with the directions that Newton's method has added */
   if (*done) PetscCall(IterationCones(it, done));
   PetscFunctionReturn(0);
 }

@@ -27,7 +27,7 @@ void ContactsGuessStates(Contacts *c, PetscBool interior)
   for (PetscInt i = 0; i < c->n; i++) {
     const PetscReal f = c->f[3 * i], u = c->u[3 * i], compliance = c->compliance[2 * i];
 
-    c->closed[i] = (PetscBool)(c->normal[i] && f * compliance > (interior ? u : 0.0));
+    c->closed[i] = (PetscBool)(c->normal[i] && (interior ? f * compliance > u : f > c->least));
   }
 }
 
@@ -78,8 +78,8 @@ static void NewtonSlipLaw(const Contacts *c, PetscInt i, const PetscReal t[2], P
     const PetscReal across = off[a] - along * d[a];
 
     /* across d, (1 - theta) dtau + theta rho dv = -off; the stiffness says what that is if theta is almost 1 */
-    s[1 + a] =
-      slope * d[a] * s[0] - along * d[a] - (theta < 1.0 ? across * PetscMin(1.0 / (1.0 - theta), 1.0 / CONTACT_WEAK) : 0.0);
+    s[1 + a] = slope * d[a] * s[0] - along * d[a] -
+               (theta < 1.0 ? across * PetscMin(1.0 / (1.0 - theta), 1.0 / CONTACT_WEAK) : 0.0);
     D[3 * (1 + a)] = slope * d[a] * D[0];
     for (PetscInt b = 0; b < 2; b++) D[3 * (1 + a) + 1 + b] = stiff * ((a == b ? 1.0 : 0.0) - d[a] * d[b]);
   }
@@ -125,18 +125,20 @@ static PetscErrorCode NewtonNorm(const Contacts *c, const PetscReal du[], PetscR
 }
 
 /*
-   Finds the fraction of a step with the smallest violation of the laws, by halving it. If no fraction is better than
-   the start, it is the whole step, since many short steps would make no progress.
+   Finds the fraction of a step with the smallest merit, by halving it. The merit is the violation of the laws together
+   with the residual of the bodies, which falls in proportion to the step. If no fraction is better than the start, it
+   is the whole step, since many short steps would make no progress. merit: that of the fraction
 */
 static PetscErrorCode NewtonChooseFraction(const Contacts *c, const PetscReal du[], const PetscReal df[],
-  PetscReal *fraction)
+  PetscReal residual, PetscReal *fraction, PetscReal *merit)
 {
   const PetscInt halvings = 8;
-  PetscReal      violation, rounding, least, *f, *u;
+  PetscReal      violation, rounding, *f, *u, whole = 0.0, start;
 
   PetscFunctionBegin;
   *fraction = 1.0;
-  PetscCall(ContactsViolation(c, c->f, c->u, &least, &rounding));
+  PetscCall(ContactsViolation(c, c->f, c->u, &violation, &rounding));
+  start = *merit = PetscSqrtReal(PetscSqr(violation) + PetscSqr(residual));
   PetscCall(PetscMalloc2(3 * c->n, &f, 3 * c->n, &u));
   for (PetscReal alpha = 1.0; alpha >= PetscPowRealInt(0.5, halvings); alpha *= 0.5) {
     for (PetscInt r = 0; r < 3 * c->n; r++) {
@@ -144,19 +146,24 @@ static PetscErrorCode NewtonChooseFraction(const Contacts *c, const PetscReal du
       u[r] = c->u[r] + alpha * du[r];
     }
     PetscCall(ContactsViolation(c, f, u, &violation, &rounding));
-    if (!(violation < least)) continue;
-    least     = violation;
+    violation = PetscSqrtReal(PetscSqr(violation) + PetscSqr((1.0 - alpha) * residual));
+    if (alpha == 1.0) whole = violation;
+    if (!(violation < *merit)) continue;
+    *merit    = violation;
     *fraction = alpha;
   }
+  if (*merit == start) *merit = whole;
   PetscCall(PetscFree2(f, u));
   PetscFunctionReturn(0);
 }
 
-/* Takes one Newton step. change: norm of the change of motions [square root of energy] */
-PetscErrorCode ContactsNewtonStep(Contacts *c, const ContactBodies *bodies, PetscReal *change, PetscBool *solved)
+/* Takes one Newton step. merit: see NewtonChooseFraction(); change: norm of the change of motions. Both are square
+   roots of energies. */
+PetscErrorCode ContactsNewtonStep(Contacts *c, const ContactBodies *bodies, PetscReal *merit, PetscReal *change,
+  PetscBool *solved)
 {
   const PetscReal forcing = 0.1; /* residual of a system, relative to that with the directions there are */
-  PetscReal       sizes[2], fraction, *du, *df;
+  PetscReal       sizes[3], fraction, *du, *df;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc2(3 * c->n, &du, 3 * c->n, &df));
@@ -168,7 +175,7 @@ PetscErrorCode ContactsNewtonStep(Contacts *c, const ContactBodies *bodies, Pets
   PetscCall(bodies->prepare(bodies->data, c->D, solved));
   if (*solved) PetscCall(ContactsStep(c, bodies, forcing, 0.0, du, df, solved));
   if (*solved) {
-    PetscCall(NewtonChooseFraction(c, du, df, &fraction));
+    PetscCall(NewtonChooseFraction(c, du, df, sizes[2], &fraction, merit));
     for (PetscInt r = 0; r < 3 * c->n; r++) {
       c->u[r] += fraction * du[r];
       c->f[r] += fraction * df[r];

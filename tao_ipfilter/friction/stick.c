@@ -1,9 +1,10 @@
 /*
-   Contacts that stick while they are closed. They may have several states of equilibrium; the one that continues the last
-   state is chosen. A contact that is closed at the begin is held at its place: it has no slip. The laws of the normal
-   components are solved exactly while these contacts are held, as without friction. Held contacts that have opened are
-   then released: they slide freely if they close again. Open contacts that have closed are held where they would have
-   closed if all forces grew in proportion. This is repeated until nothing changes. It ends, since a contact is held once.
+   Contacts that stick while they are closed. They may have several states of equilibrium; the one that continues the
+   last state is chosen. A contact that is closed at the begin is held at its place: it has no slip. The laws of the
+   normal components are solved exactly while these contacts are held, as without friction. Held contacts that have
+   opened are then released: they slide freely if they close again. Open contacts that have closed are held where they
+   would have closed if all forces grew in proportion. This is repeated until nothing changes. It ends, since a contact
+   is held once.
 
    If contacts are released, the load grows in parts from that of the begin, and what is closed is held again at the end
    of each part. Until the whole load acts, all contacts bear a tension that is small, but larger than rounding errors,
@@ -71,8 +72,8 @@ static void StickHold(Contacts *c)
 }
 
 /*
-   Releases held contacts that are open, and holds closed ones that were not released. The slip of the others is measured
-   from where they are. released, held: their numbers on all ranks
+   Releases held contacts that are open, and holds closed ones that were not released. The slip of the others is
+   measured from where they are. released, held: their numbers on all ranks
 */
 PetscErrorCode StickUpdate(Contacts *c, PetscInt *released, PetscInt *held)
 {
@@ -126,8 +127,8 @@ static PetscErrorCode StickPredict(ContactStick *s)
 {
   const PetscReal accuracy = 1e-3; /* of the places */
   Contacts       *c        = s->contacts;
-  PetscBool       needed = PETSC_FALSE, solved;
-  PetscReal       sizes[2];
+  PetscBool       needed   = PETSC_FALSE, solved;
+  PetscReal       sizes[3];
 
   PetscFunctionBegin;
   s->predicted = PETSC_TRUE;
@@ -154,7 +155,7 @@ static PetscErrorCode StickPredict(ContactStick *s)
 static PetscErrorCode StickSolve(ContactStick *s, PetscBool *solved)
 {
   Contacts *c = s->contacts;
-  PetscReal sizes[2];
+  PetscReal sizes[3];
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < c->n; i++) {
@@ -186,7 +187,7 @@ static PetscErrorCode StickDivide(ContactStick *s)
   const PetscInt  parts = 4; /* three leaves: energy 13 % from that of 12 load steps with 4 parts each; 50 % without */
   const PetscReal small = 1e-6;
   Contacts       *c     = s->contacts;
-  PetscReal       sizes[2];
+  PetscReal       sizes[3];
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < c->n; i++) s->tension = PetscMax(s->tension, small * c->f[3 * i]);
@@ -202,8 +203,8 @@ static PetscErrorCode StickDivide(ContactStick *s)
 }
 
 /*
-   Solves the laws of the normal components once, and updates what is held. *settled: whether nothing changed at the whole
-   load; *solved: false if the laws were not solved
+   Solves the laws of the normal components once, and updates what is held. *settled: whether nothing changed at the
+   whole load; *solved: false if the laws were not solved
 */
 PetscErrorCode StickIterate(ContactStick *s, PetscBool *settled, PetscBool *solved)
 {

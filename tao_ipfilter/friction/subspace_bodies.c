@@ -283,39 +283,47 @@ static PetscErrorCode BodiesSpread(SubspaceBodies b, const PetscReal f[], PetscB
   PetscFunctionReturn(0);
 }
 
-/* Returns the largest entry of v, each divided by the square root of K's diagonal entry */
-static PetscErrorCode BodiesSize(SubspaceBodies b, Vec v, PetscReal *size)
+/* Returns the largest entry of v, and the 2-norm unless it is NULL, where each entry is divided by the square root of
+   K's diagonal entry */
+static PetscErrorCode BodiesSize(SubspaceBodies b, Vec v, PetscReal *size, PetscReal *norm)
 {
   const PetscScalar *a, *d;
   PetscInt           n;
-  PetscReal          largest  = 0.0;
+  PetscReal          largest = 0.0, sum = 0.0;
   const Vec          diagonal = ((TAO_IPFILTER *)b->tao->data)->stiff->hdiag;
 
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(v, &n));
   PetscCall(VecGetArrayRead(v, &a));
   PetscCall(VecGetArrayRead(diagonal, &d));
-  for (PetscInt i = 0; i < n; i++)
-    if (PetscAbsScalar(d[i]) > 0.0) largest = PetscMax(largest, PetscSqr(PetscAbsScalar(a[i])) / PetscAbsScalar(d[i]));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscReal square = PetscAbsScalar(d[i]) > 0.0 ? PetscSqr(PetscAbsScalar(a[i])) / PetscAbsScalar(d[i]) : 0.0;
+
+    largest = PetscMax(largest, square);
+    sum += square;
+  }
   PetscCall(VecRestoreArrayRead(diagonal, &d));
   PetscCall(VecRestoreArrayRead(v, &a));
   PetscCallMPI(MPI_Allreduce(&largest, size, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)v)));
   *size = PetscSqrtReal(*size);
+  if (!norm) PetscFunctionReturn(0);
+  PetscCallMPI(MPI_Allreduce(&sum, norm, 1, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)v)));
+  *norm = PetscSqrtReal(*norm);
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode BodiesResidual(void *data, const PetscReal f[], PetscReal sizes[2])
+static PetscErrorCode BodiesResidual(void *data, const PetscReal f[], PetscReal sizes[3])
 {
   const SubspaceBodies b = (SubspaceBodies)data;
 
   PetscFunctionBegin;
   PetscCall(BodiesSpread(b, f, PETSC_FALSE, b->r));
-  PetscCall(BodiesSize(b, b->r, &sizes[1]));
+  PetscCall(BodiesSize(b, b->r, &sizes[1], NULL));
   PetscCall(VecAYPX(b->r, -1.0, b->g));
   PetscCall(VecAXPY(b->r, 1.0, b->Kx));
   if (b->first) PetscCall(VecAXPY(b->r, -b->lacks, b->first));
   PetscCall(IPFixedZero(b->tao, b->r));
-  PetscCall(BodiesSize(b, b->r, &sizes[0]));
+  PetscCall(BodiesSize(b, b->r, &sizes[0], &sizes[2]));
   PetscFunctionReturn(0);
 }
 
@@ -369,7 +377,6 @@ static PetscErrorCode BodiesFactor(SubspaceBodies b, PetscBool *factored)
     PetscCall(MatFactorGetError(b->F, &error));
     if (error != MAT_FACTOR_NOERROR) PetscCall(MatDestroy(&b->F)); /* MUMPS cannot use it again */
   } while (error == MAT_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, &b->relaxation));
-  PetscCall(PetscInfo(NULL, "Factors of A_WW: error %d\n", (int)error));
   *factored = (PetscBool)(error == MAT_FACTOR_NOERROR);
   b->nX     = 0;
   PetscFunctionReturn(0);
@@ -597,7 +604,7 @@ static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fra
     PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
     if (!*solved) break;
     PetscCall(BodiesLeft(b, left, &norm));
-    PetscCall(BodiesSize(b, left, &size));
+    PetscCall(BodiesSize(b, left, &size, NULL));
     *solved = (PetscBool)!PetscIsInfOrNanReal(size);
     if (!k) first = size;
     if (!*solved || size <= PetscMax(fraction * first, target) || (fraction > 0.0 && norm <= b->enough)) break;
@@ -605,7 +612,6 @@ static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fra
     if (!added) break;
   }
   PetscCall(IPRestoreWork(b->tao, IP_UNKNOWNS, &left));
-  PetscCall(PetscInfo(NULL, "Solve: %" PetscInt_FMT " directions, size %g, first %g, fraction %g, target %g, norm %g, enough %g, added %d, solved %d\n", b->recycle->basis.n, (double)size,(double)first,(double)fraction,(double)target,(double)norm,(double)b->enough,added,*solved));
   *solved = (PetscBool)(*solved && (added || size < first));
   PetscCall(MatMult(b->R, b->dx, b->rows));
   PetscCall(VecGetLocalSize(b->rows, &n));
@@ -652,8 +658,9 @@ static PetscErrorCode BodiesCentreNormal(SubspaceBodies b, Vec gaps)
 static PetscErrorCode BodiesSolveReducedNormal(SubspaceBodies b, Vec force, PetscBool *solved)
 {
   PetscFunctionBegin;
-  b->normal.system.rounding = ((TAO_IPFILTER *)b->tao->data)->first->jacobian * ((TAO_IPFILTER *)b->tao->data)->given->rounding;
-  b->normal.system.soft     = b->recycle->basis.has_modes;
+  b->normal.system.rounding =
+    ((TAO_IPFILTER *)b->tao->data)->first->jacobian * ((TAO_IPFILTER *)b->tao->data)->given->rounding;
+  b->normal.system.soft = b->recycle->basis.has_modes;
   PetscCall(VecCopy(b->base, b->dx));
   PetscCall(VecISSet(b->dx, b->W, 0.0));
   PetscCall(IPReducedSolve(&b->normal, b->dy, b->dx, force, solved));
@@ -728,8 +735,6 @@ static PetscErrorCode BodiesIterateNormal(SubspaceBodies b, const PetscReal D[],
     if (b->recycle->basis.n == b->recycle->basis.max) PetscCall(BodiesMakeRoomNormal(b, D, gaps));
     PetscCall(BodiesExtend(b, left, &added));
   } while (added);
-  PetscCall(PetscInfo(NULL, "Normal laws: %" PetscInt_FMT " directions, left %g of %g, enough %g, solved %d\n",
-    b->recycle->basis.n, (double)norm, (double)b->load_norm, (double)b->enough, *solved));
   PetscCall(IPRestoreWork(b->tao, IP_UNKNOWNS, &left));
   PetscFunctionReturn(0);
 }
@@ -839,15 +844,15 @@ static PetscErrorCode BodiesInterrupted(void *data, PetscBool *stop)
 ContactBodies SubspaceBodiesInterface(SubspaceBodies b)
 {
   const ContactBodies bodies = {
-    .data        = b,
-    .residual    = BodiesResidual,
-    .prepare     = BodiesPrepare,
-    .solve       = BodiesSolve,
+    .data         = b,
+    .residual     = BodiesResidual,
+    .prepare      = BodiesPrepare,
+    .solve        = BodiesSolve,
     .solve_normal = BodiesSolveNormal,
-    .load        = BodiesLoad,
-    .advance     = BodiesAdvance,
-    .keep        = BodiesKeep,
-    .interrupted = BodiesInterrupted,
+    .load         = BodiesLoad,
+    .advance      = BodiesAdvance,
+    .keep         = BodiesKeep,
+    .interrupted  = BodiesInterrupted,
   };
 
   return bodies;

@@ -123,18 +123,19 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt
 }
 
 /*
-   Finds whether W has all unknowns: for few of them if contacts stick, since the residual that directions leave would
-   decide which contacts do
+   Finds whether W has all unknowns. With norm terms this is the case if there are few of them: directions would then
+   cost more than factors of the whole matrix. If contacts stick, it holds for more of them, since the residual that
+   directions leave would decide which contacts are held.
 */
 static PetscErrorCode FilteredTakesAll(Tao tao, PetscInt n, PetscBool *all)
 {
-  const IPTerms  *terms   = ((TAO_IPFILTER *)tao->data)->terms;
-  const PetscInt  most    = 15000; /* up to this number PCAMGF factors a matrix, too */
-  PetscReal       largest = 0.0;
+  const IPTerms *terms = ((TAO_IPFILTER *)tao->data)->terms;
+  const PetscInt few = 5000, most = 15000; /* up to the latter PCAMGF factors a matrix, too */
+  PetscReal      largest = 0.0;
 
   PetscFunctionBegin;
   if (terms->n && terms->coefficient) PetscCall(VecMax(terms->coefficient, NULL, &largest));
-  *all = (PetscBool)(terms->n && n <= (largest >= PETSC_INFINITY ? most : 5000));
+  *all = (PetscBool)(terms->n && n <= (largest >= PETSC_INFINITY ? most : few));
   PetscFunctionReturn(0);
 }
 
@@ -147,7 +148,7 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal fraction = 0.5;
   PetscInt        n, touched, start, end;
-  PetscBool       all;
+  PetscBool       all = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(IPRowsTake(tao));
@@ -159,8 +160,7 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
   if (!*few) PetscFunctionReturn(0);
   PetscCall(FilteredTakesAll(tao, n, &all));
   PetscCall(VecGetOwnershipRange(tao->solution, &start, &end));
-  if (all)
-    PetscCall(ISCreateStride(PetscObjectComm((PetscObject)tao), end - start, start, 1, &IPFilteredOf(tao)->W));
+  if (all) PetscCall(ISCreateStride(PetscObjectComm((PetscObject)tao), end - start, start, 1, &IPFilteredOf(tao)->W));
   else PetscCall(FilteredChooseW(tao, &recycle->reduced, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);
 }

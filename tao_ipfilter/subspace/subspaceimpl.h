@@ -80,7 +80,7 @@ typedef struct {
   PetscBool        first;
   PetscObjectId    K_id; /* K for which the space was set up */
   PetscObjectState K_state;
-  IS               W, own; /* W, and the rows of K that belong to it */
+  IS               W, own;     /* W, and the rows of K that belong to it */
   Mat              KWW;        /* K_WW, including the companions' springs */
   PetscInt         generation; /* generation of the basis when Z was computed */
   PetscInt         n, m;       /* sizes: of W, number of constraints */

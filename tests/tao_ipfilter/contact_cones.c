@@ -6,6 +6,7 @@ static char help[] =
 #include "../../tao_ipfilter/friction/contacts.c"
 #include "../../tao_ipfilter/friction/cones.c"
 #include "../../tao_ipfilter/friction/newton.c"
+#include "../../tao_ipfilter/friction/stick.c"
 #include "../../tao_ipfilter/friction/iteration.c"
 
 /* What contacts.c needs of the optimizer */
@@ -37,17 +38,19 @@ typedef struct {
   PetscReal k, g[3 * N], x[3 * N], dx[3 * N], r[3 * N], D[9 * N], kept[3 * N];
 } Springs;
 
-static PetscErrorCode SpringsResidual(void *data, const PetscReal f[], PetscReal sizes[2])
+static PetscErrorCode SpringsResidual(void *data, const PetscReal f[], PetscReal sizes[3])
 {
   Springs *s = (Springs *)data;
 
   PetscFunctionBeginUser;
-  sizes[0] = sizes[1] = 0.0;
+  sizes[0] = sizes[1] = sizes[2] = 0.0;
   for (PetscInt i = 0; i < 3 * N; i++) {
     s->r[i]  = s->k * s->x[i] + s->g[i] - f[i];
     sizes[0] = PetscMax(sizes[0], PetscAbsReal(s->r[i]) / PetscSqrtReal(s->k));
     sizes[1] = PetscMax(sizes[1], PetscAbsReal(f[i]) / PetscSqrtReal(s->k));
+    sizes[2] += PetscSqr(s->r[i]) / s->k;
   }
+  sizes[2] = PetscSqrtReal(sizes[2]);
   PetscFunctionReturn(0);
 }
 
@@ -152,8 +155,13 @@ static PetscErrorCode TestBlocks(PetscReal k, PetscReal unit)
                   friction[N][2] = {{-1.0, -2.0}, {-1.8, -2.4}, {0.0, 0.0}, {0.0, -2.0}, {0.0, 0.0}, {-1.0, 0.0}};
   Springs          s             = {.k = k};
   ContactIteration it            = {0};
-  ContactBodies    bodies        = {&s, SpringsResidual, SpringsPrepare, SpringsSolve, SpringsAdvance, SpringsKeep,
-              SpringsInterrupted};
+  ContactBodies    bodies        = {.data = &s,
+              .residual                   = SpringsResidual,
+              .prepare                    = SpringsPrepare,
+              .solve                      = SpringsSolve,
+              .advance                    = SpringsAdvance,
+              .keep                       = SpringsKeep,
+              .interrupted                = SpringsInterrupted};
   Contacts         c;
   PetscReal        worst   = 0.0;
   PetscInt         systems = 0;

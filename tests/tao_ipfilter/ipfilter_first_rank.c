@@ -93,7 +93,7 @@ static PetscErrorCode CreateChain(PetscInt npoints, Chain *chain)
   PetscCall(VecDuplicate(chain->q.g, &chain->limit));
   PetscCall(VecSet(chain->limit, PETSC_INFINITY));
   PetscCall(VecDuplicate(chain->q.g, &chain->coefficient));
-  PetscCall(VecSet(chain->coefficient, 0.3));
+  PetscCall(VecSet(chain->coefficient, PETSC_INFINITY));
   PetscFunctionReturn(0);
 }
 
@@ -180,8 +180,9 @@ static PetscErrorCode FailEverywhere(PetscBool friction)
     nwrong += !least;
     PetscCall(DestroyChain(&chain));
   }
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s friction: %s places on the first rank, an error on all ranks: %s\n",
-    friction ? "with" : "without", nplaces > 3 ? "several" : "FEW", nwrong ? "NO" : "yes"));
+  PetscCall(
+    PetscPrintf(PETSC_COMM_WORLD, "%s contacts that stick: %s places on the first rank, an error on all ranks: %s\n",
+      friction ? "with" : "without", nplaces > 3 ? "several" : "FEW", nwrong ? "NO" : "yes"));
   PetscFunctionReturn(0);
 }
 
