@@ -36,6 +36,8 @@ struct _p_SubspaceBodies {
   Vec        base, rhs;             /* dx = base + what the subspace adds, for the right-hand side rhs of the latter */
   Vec        on_W, dw0, load, rows; /* work vectors on W; one with the entries of contacts */
   PetscReal *X, *S, *factors, *dy; /* A_WW^-1 Q: columns on W; Schur complement in columns of length max; its factors */
+  PetscReal *loads;                 /* loads of the first nloads directions in this solve */
+  PetscInt   nloads;
   PetscInt   nX, generation;       /* number of columns of X; generation of the directions that it belongs to */
   PetscReal  enough;               /* residual [2-norm] that any solve may leave */
   PetscBLASInt *pivots;
@@ -62,7 +64,7 @@ PetscErrorCode SubspaceBodiesDestroy(SubspaceBodies *bodies)
   PetscCall(MatDestroy(&b->JW));
   PetscCall(VecDestroy(&b->first));
   PetscCall(IPReducedDestroy(&b->normal));
-  PetscCall(PetscFree5(b->X, b->S, b->factors, b->dy, b->pivots));
+  PetscCall(PetscFree6(b->X, b->S, b->factors, b->dy, b->loads, b->pivots));
   PetscCall(PetscFree(*bodies));
   PetscFunctionReturn(0);
 }
@@ -192,7 +194,7 @@ PetscErrorCode SubspaceBodiesCreate(Tao tao, IPRecycle *recycle, IS W, PetscInt 
   PetscCall(VecDuplicate(b->on_W, &b->dw0));
   PetscCall(VecDuplicate(b->on_W, &b->load));
   PetscCall(VecGetLocalSize(b->on_W, &nw));
-  PetscCall(PetscMalloc5((size_t)nw * (size_t)max, &b->X, max * max, &b->S, max * max, &b->factors, max, &b->dy, max,
+  PetscCall(PetscMalloc6((size_t)nw * (size_t)max, &b->X, max * max, &b->S, max * max, &b->factors, max, &b->dy, max, &b->loads, max,
     &b->pivots));
   PetscFunctionReturn(0);
 }
@@ -489,38 +491,55 @@ static PetscErrorCode BodiesAddColumns(PetscInt k, const PetscReal factors[], co
   PetscFunctionReturn(0);
 }
 
+/* Computes the loads P^T rhs - Q^T dw0 of the directions that are new in this solve */
+static PetscErrorCode BodiesLoadDirections(SubspaceBodies b)
+{
+  const IPBasis     *basis = &b->recycle->basis;
+  const PetscInt     first = b->nloads, n = basis->n - first;
+  const PetscScalar *w;
+  PetscInt           m;
+  PetscReal         *sums;
+
+  PetscFunctionBegin;
+  if (n <= 0) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(n, &sums));
+  PetscCall(VecGetLocalSize(b->dw0, &m));
+  PetscCall(VecGetArrayRead(b->dw0, &w));
+  for (PetscInt j = 0; j < n; j++) sums[j] = BodiesDot(m, basis->q[first + j], w);
+  PetscCall(VecRestoreArrayRead(b->dw0, &w));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)n, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)b->dx)));
+  PetscCall(IPBasisDots(basis, first, n, b->rhs, b->loads + first));
+  for (PetscInt j = 0; j < n; j++) b->loads[first + j] -= sums[j];
+  PetscCall(PetscFree(sums));
+  b->nloads = basis->n;
+  PetscFunctionReturn(0);
+}
+
 /*
    Computes dx = base + (dw, dy) with dw0 = A_WW^-1 rhs_W, S dy = P^T rhs - Q^T dw0, dw = dw0 - A_WW^-1 Q dy
 */
 static PetscErrorCode BodiesSolveInSubspace(SubspaceBodies b)
 {
-  const IPBasis     *basis = &b->recycle->basis;
-  const PetscInt     k     = basis->n;
-  const PetscScalar *w;
-  PetscInt           m;
-  PetscReal         *sums;
-  PetscBLASInt       nk, ld, one = 1, info;
+  const IPBasis *basis = &b->recycle->basis;
+  const PetscInt k     = basis->n;
+  PetscReal     *minus;
+  PetscBLASInt   nk, ld, one = 1, info;
 
   PetscFunctionBegin;
   PetscCall(VecCopy(b->dw0, b->load));
   PetscCall(VecCopy(b->base, b->dx));
+  PetscCall(BodiesLoadDirections(b));
   if (k) {
-    PetscCall(PetscMalloc1(k, &sums));
-    PetscCall(VecGetLocalSize(b->dw0, &m));
-    PetscCall(VecGetArrayRead(b->dw0, &w));
-    for (PetscInt j = 0; j < k; j++) sums[j] = BodiesDot(m, basis->q[j], w);
-    PetscCall(VecRestoreArrayRead(b->dw0, &w));
-    PetscCallMPI(
-      MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)k, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)b->dx)));
-    PetscCall(IPBasisDots(basis, 0, k, b->rhs, b->dy));
-    for (PetscInt j = 0; j < k; j++) b->dy[j] -= sums[j];
+    PetscCall(PetscArraycpy(b->dy, b->loads, k));
     PetscCall(PetscBLASIntCast(k, &nk));
     PetscCall(PetscBLASIntCast(basis->max, &ld));
     PetscCallBLAS("LAPACKgetrs", LAPACKgetrs_("N", &nk, &one, b->factors, &ld, b->pivots, b->dy, &nk, &info));
     PetscCall(IPBasisAdd(basis, b->dy, b->dx));
-    for (PetscInt j = 0; j < k; j++) sums[j] = -b->dy[j];
-    PetscCall(BodiesAddColumns(k, sums, b->X, b->load));
-    PetscCall(PetscFree(sums));
+    PetscCall(PetscMalloc1(k, &minus));
+    for (PetscInt j = 0; j < k; j++) minus[j] = -b->dy[j];
+    PetscCall(BodiesAddColumns(k, minus, b->X, b->load));
+    PetscCall(PetscFree(minus));
   }
   PetscCall(VecISAXPY(b->dx, b->W, 1.0, b->load));
   PetscFunctionReturn(0);
@@ -557,6 +576,7 @@ static PetscErrorCode BodiesMakeRoom(SubspaceBodies b, Vec left)
   PetscCall(VecCopy(b->dx, b->base));
   PetscCall(VecCopy(left, b->rhs));
   PetscCall(VecZeroEntries(b->dw0));
+  b->nloads = 0;
   PetscFunctionReturn(0);
 }
 
@@ -597,6 +617,7 @@ static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fra
   PetscCall(VecZeroEntries(b->base));
   PetscCall(VecISCopy(b->rhs, b->W, SCATTER_REVERSE, b->load));
   PetscCall(MatSolve(b->F, b->load, b->dw0));
+  b->nloads = 0;
   for (PetscInt k = 0;; k++) {
     PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
     PetscCall(BodiesFactorDirections(b, solved));

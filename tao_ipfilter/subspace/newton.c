@@ -112,7 +112,7 @@ static PetscErrorCode NewtonSolveModel(Tao tao, IPRecycle *recycle, PetscReal ta
 /* Solves the model with norm terms until its residual is below `target` and the laws hold */
 static PetscErrorCode NewtonSolveLaws(Tao tao, PetscReal target, Vec d, Vec force, PetscBool *solved)
 {
-  const PetscReal enough = 1e-3; /* relative violation of the laws: later models change more */
+  const PetscReal enough = 1e-6; /* relative violation of the laws: at a larger one, states of contacts are unknown */
   PetscReal       norm = PETSC_INFINITY, violation = PETSC_INFINITY;
   PetscBool       done = PETSC_TRUE;
   Vec             r;
