@@ -119,6 +119,22 @@ PetscErrorCode ContactsViolation(const Contacts *c, const PetscReal force[], con
   PetscFunctionReturn(0);
 }
 
+/* Returns the square root of the sum of squares of motions, each divided by its compliance [square root of energy] */
+PetscErrorCode ContactsNorm(const Contacts *c, const PetscReal du[], PetscReal *norm)
+{
+  PetscFunctionBegin;
+  *norm = 0.0;
+  for (PetscInt i = 0; i < c->n; i++) {
+    const PetscReal *d = &du[3 * i], *compliance = &c->compliance[2 * i];
+
+    if (c->normal[i]) *norm += d[0] * d[0] / compliance[0];
+    if (c->law[i] != CONTACT_SMOOTH) *norm += (d[1] * d[1] + d[2] * d[2]) / compliance[1];
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, norm, 1, MPIU_REAL, MPIU_SUM, c->comm));
+  *norm = PetscSqrtReal(*norm);
+  PetscFunctionReturn(0);
+}
+
 /*
    Solves the bodies' equations with the linearized laws df = s - D du in place of the laws. du, df: changes of motions
    and forces; fraction, target: accuracy of the solve, see ContactBodies

@@ -54,20 +54,26 @@ static PetscErrorCode IterationUpdateHeld(ContactIteration *it)
   PetscFunctionReturn(0);
 }
 
-/* Solves the laws of the normal components once while contacts that stick are held */
+/* Solves the laws of the normal components once while contacts that stick are held. A violation that does not fall is a
+   rounding error. */
 static PetscErrorCode IterationStick(ContactIteration *it, PetscBool *done)
 {
   const PetscInt most = 1000;
-  PetscReal      rounding;
+  Contacts      *c    = it->contacts;
+  PetscReal      before, change = 0.0, violation, rounding;
   PetscBool      settled;
 
   PetscFunctionBegin;
-  if (it->size == 0.0)
-    PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &it->size, &rounding));
+  PetscCall(ContactsViolation(c, c->f, c->u, &before, &rounding));
   PetscCall(StickIterate(&it->stick, &settled, done));
+  if (*done) PetscCall(ContactsNorm(c, it->stick.du, &change));
+  it->size      = PetscMax(it->size, PetscMax(before, change));
   it->violation = PETSC_INFINITY;
-  if (settled) PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &it->violation, &rounding));
-  if (settled) it->violation = it->violation <= rounding ? 0.0 : it->violation / PetscMax(it->size, rounding);
+  if (settled) {
+    PetscCall(ContactsViolation(c, c->f, c->u, &violation, &rounding));
+    it->violation = violation > rounding && violation <= 0.5 * it->best ? violation / it->size : 0.0;
+    it->best      = violation;
+  }
   it->nsteps = settled ? 0 : it->nsteps + 1;
   if (it->nsteps > most) *done = PETSC_FALSE;
   PetscFunctionReturn(0);

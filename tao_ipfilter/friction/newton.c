@@ -108,22 +108,6 @@ void ContactsLinearize(const Contacts *c, PetscInt i)
   else ContactsSetNoSlip(c, i);
 }
 
-/* Returns the square root of the sum of squares of motions, each divided by its compliance [square root of energy] */
-static PetscErrorCode NewtonNorm(const Contacts *c, const PetscReal du[], PetscReal *norm)
-{
-  PetscFunctionBegin;
-  *norm = 0.0;
-  for (PetscInt i = 0; i < c->n; i++) {
-    const PetscReal *d = &du[3 * i], *compliance = &c->compliance[2 * i];
-
-    if (c->normal[i]) *norm += d[0] * d[0] / compliance[0];
-    if (c->law[i] != CONTACT_SMOOTH) *norm += (d[1] * d[1] + d[2] * d[2]) / compliance[1];
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, norm, 1, MPIU_REAL, MPIU_SUM, c->comm));
-  *norm = PetscSqrtReal(*norm);
-  PetscFunctionReturn(0);
-}
-
 /*
    Finds the fraction of a step with the smallest merit, by halving it. The merit is the violation of the laws together
    with the residual of the bodies, which falls in proportion to the step. If no fraction is better than the start, it
@@ -181,7 +165,7 @@ PetscErrorCode ContactsNewtonStep(Contacts *c, const ContactBodies *bodies, Pets
       c->f[r] += fraction * df[r];
     }
     PetscCall(bodies->advance(bodies->data, fraction));
-    PetscCall(NewtonNorm(c, du, change));
+    PetscCall(ContactsNorm(c, du, change));
     NewtonExchange(c, du, fraction);
   }
   PetscCall(PetscFree2(du, df));

@@ -36,10 +36,10 @@ struct _p_SubspaceBodies {
   Vec        base, rhs;             /* dx = base + what the subspace adds, for the right-hand side rhs of the latter */
   Vec        on_W, dw0, load, rows; /* work vectors on W; one with the entries of contacts */
   PetscReal *X, *S, *factors, *dy; /* A_WW^-1 Q: columns on W; Schur complement in columns of length max; its factors */
-  PetscReal *loads;                 /* loads of the first nloads directions in this solve */
+  PetscReal *loads;                /* loads of the first nloads directions in this solve */
   PetscInt   nloads;
-  PetscInt   nX, generation;       /* number of columns of X; generation of the directions that it belongs to */
-  PetscReal  enough;               /* residual [2-norm] that any solve may leave */
+  PetscInt   nX, generation; /* number of columns of X; generation of the directions that it belongs to */
+  PetscReal  enough;         /* residual [2-norm] that any solve may leave */
   PetscBLASInt *pivots;
   PetscInt      relaxation; /* work space of MUMPS beyond its estimate [per cent]; 0: its default */
 };
@@ -194,8 +194,8 @@ PetscErrorCode SubspaceBodiesCreate(Tao tao, IPRecycle *recycle, IS W, PetscInt 
   PetscCall(VecDuplicate(b->on_W, &b->dw0));
   PetscCall(VecDuplicate(b->on_W, &b->load));
   PetscCall(VecGetLocalSize(b->on_W, &nw));
-  PetscCall(PetscMalloc6((size_t)nw * (size_t)max, &b->X, max * max, &b->S, max * max, &b->factors, max, &b->dy, max, &b->loads, max,
-    &b->pivots));
+  PetscCall(PetscMalloc6((size_t)nw * (size_t)max, &b->X, max * max, &b->S, max * max, &b->factors, max, &b->dy, max,
+    &b->loads, max, &b->pivots));
   PetscFunctionReturn(0);
 }
 
