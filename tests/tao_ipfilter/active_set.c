@@ -15,8 +15,8 @@ PetscErrorCode IPComplianceColumns(IPCompliance *c, PetscInt n, const PetscInt r
   PetscFunctionReturn(0);
 }
 
-/* C = L L^T with a lower triangle of twos and a unit diagonal (Fathi, Computational complexity of LCPs associated with
-   positive definite symmetric matrices, 1979), in that order or in the opposite one */
+/* Sets C = L L^T (Fathi, Computational complexity of LCPs associated with positive definite symmetric matrices, 1979).
+   L is lower triangular; its diagonal entries are 1, the others 2. back: whether the order of the rows is reversed */
 static void SetFathi(PetscInt m, PetscBool back, PetscReal C[])
 {
   for (PetscInt i = 0; i < m; i++) {
@@ -28,8 +28,9 @@ static void SetFathi(PetscInt m, PetscBool back, PetscReal C[])
   }
 }
 
-/* The compliance of beams that lie on each other: each contact acts on the beam above and, the other way round, on the
-   one below, whose deflection at a for a force at b is a^2 (3 b - a) for a < b; a local compliance is added */
+/* Sets C to the compliance of cantilevers that lie on each other, with n contacts between neighbours. A contact acts on
+   the beam above it, and with the opposite sign on the beam below it. A force at b deflects a beam at a < b by
+   a^2 (3 b - a). Each contact has a small compliance of its own. */
 static void SetBeams(PetscInt nbeams, PetscInt n, PetscReal C[])
 {
   const PetscInt m = (nbeams - 1) * n;
@@ -44,7 +45,8 @@ static void SetBeams(PetscInt nbeams, PetscInt n, PetscReal C[])
   }
 }
 
-/* Solves C lambda - h >= 0, lambda >= 0 and prints whether the conditions hold. start: whether all rows are active */
+/* Solves the complementarity problem C lambda >= h, lambda >= 0, lambda^T (C lambda - h) = 0, and prints whether the
+   solution satisfies it. start: whether all rows are active at the start, or none */
 static PetscErrorCode Solve(const char name[], PetscInt m, const PetscReal h[], PetscBool start)
 {
   IPReducedSystem s   = {.m = m};
@@ -68,8 +70,10 @@ static PetscErrorCode Solve(const char name[], PetscInt m, const PetscReal h[], 
   for (PetscInt i = 0; i < m; i++) {
     PetscReal gap = -h[i], size = 0.0;
 
-    for (PetscInt j = 0; j < m; j++) gap += matrix[i + j * m] * s.lambda[j];
-    for (PetscInt j = 0; j < m; j++) size += PetscAbsReal(matrix[i + j * m] * s.lambda[j]);
+    for (PetscInt j = 0; j < m; j++) {
+      gap += matrix[i + j * m] * s.lambda[j];
+      size += PetscAbsReal(matrix[i + j * m] * s.lambda[j]);
+    }
     largest = PetscMax(largest, size);
     worst   = PetscMax(worst, PetscAbsReal(PetscMin(s.lambda[i] * matrix[i + i * m], gap)));
   }
@@ -96,7 +100,8 @@ static PetscErrorCode SolveFathi(PetscBool back)
   PetscFunctionReturn(0);
 }
 
-/* Beams bent at the tip of the last: without contact, the last one passes through the others */
+/* Solves for the contact forces of a stack of cantilevers. A force at the tip of the uppermost presses it onto the
+   others. */
 static PetscErrorCode SolveBeams(PetscInt nbeams, PetscInt n)
 {
   const PetscInt m = (nbeams - 1) * n;
