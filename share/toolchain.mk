@@ -31,8 +31,11 @@ mpi_name     := $(if $(findstring Open MPI,$(shell mpiexec --version 2>/dev/null
 HDF5_CFLAGS  := $(or $(call pkg_config,--cflags hdf5-$(mpi_name)),$(call pkg_config,--cflags hdf5))
 HDF5_LIBS    := $(if $(wildcard $(petsc_libdir)/libhdf5.*),-lhdf5, \
                 $(or $(call pkg_config,--libs hdf5-$(mpi_name)),$(call pkg_config,--libs hdf5),-lhdf5))
+# LAPACK as PETSc was configured with it
+LAPACK_LIBS  := $(shell sed -n 's/^BLASLAPACK_LIB *= *//p' /dev/null \
+                $(wildcard $(petsc_libdir)/petsc/conf/petscvariables))
 # What a program of the mechanics library links beside PETSc
-CONTACT_LIBS := $(HDF5_LIBS) -lmetis -lyaml -lm
+CONTACT_LIBS := $(HDF5_LIBS) -lmetis -lyaml $(LAPACK_LIBS) -lm
 
 ifeq ($(origin CC),default)
   CC := $(or $(call pkg_config,--variable=ccompiler PETSc),mpicc)

@@ -11,6 +11,21 @@ static const char *const IPEqualityMethods[] = {"auto", "augmented", "condensed"
 static const char *const IPSubspaceUses[]    = {"false", "true", "auto", "IPSubspaceUse", "IP_SUBSPACE_", NULL};
 static const char *const IPScalings[]        = {"problem", "gradient", "none", "IPScaling", "IP_SCALING_", NULL};
 
+/* The values that an option may have. A number that is not between the ends is refused, and NaN always. */
+typedef enum { IP_ANY, IP_NOT_NEGATIVE, IP_POSITIVE, IP_FRACTION, IP_HALF } OptionRange;
+
+static const struct {
+  const char *text;
+  PetscReal   low, high;
+  PetscBool   low_allowed;
+} option_ranges[] = {
+  [IP_ANY]          = {"a number", PETSC_NINFINITY, PETSC_MAX_REAL, PETSC_TRUE},
+  [IP_NOT_NEGATIVE] = {"zero or positive", 0.0, PETSC_MAX_REAL, PETSC_TRUE},
+  [IP_POSITIVE]     = {"positive", 0.0, PETSC_MAX_REAL, PETSC_FALSE},
+  [IP_FRACTION]     = {"between 0 and 1", 0.0, 1.0, PETSC_FALSE},
+  [IP_HALF]         = {"between 0 and 0.5", 0.0, 0.5, PETSC_FALSE},
+};
+
 /*
    A real-valued option and its default. The name includes -tao_ipfilter_; offset: position of the value in IPOptions
    [bytes].
@@ -19,33 +34,34 @@ typedef struct {
   const char *option, *text;
   size_t      offset;
   PetscReal   value;
+  OptionRange range;
 } RealOption;
 
-#define IP_REAL(name, member, value, text) \
+#define IP_REAL(name, member, value, range, text) \
   { \
-    "-tao_ipfilter_" name, text, offsetof(IPOptions, member), value \
+    "-tao_ipfilter_" name, text, offsetof(IPOptions, member), value, range \
   }
 
 static const RealOption real_options[] = {
-  IP_REAL("mu_init", mu0, 1.0, "barrier parameter at a cold start"),
-  IP_REAL("slack_init", s0, 1.0, "slacks at a cold start"),
-  IP_REAL("dual_init", z0, 10.0, "multipliers of the slacks at a cold start"),
-  IP_REAL("gamma_phi", gamma_phi, 1e-8,
+  IP_REAL("mu_init", mu0, 1.0, IP_POSITIVE, "barrier parameter at a cold start"),
+  IP_REAL("slack_init", s0, 1.0, IP_POSITIVE, "slacks at a cold start"),
+  IP_REAL("dual_init", z0, 10.0, IP_POSITIVE, "multipliers of the slacks at a cold start"),
+  IP_REAL("gamma_phi", gamma_phi, 1e-8, IP_FRACTION,
     "fraction of the violation by which an accepted step must reduce the barrier function"),
-  IP_REAL("eta_phi", eta_phi, 1e-8, "fraction of the predicted decrease that a step must reach (Armijo)"),
-  IP_REAL("delta_max", delta_max, 1e20, "largest shift of an indefinite Hessian"),
-  IP_REAL("proximal", proximal, 1e-5,
+  IP_REAL("eta_phi", eta_phi, 1e-8, IP_HALF, "fraction of the predicted decrease that a step must reach (Armijo)"),
+  IP_REAL("delta_max", delta_max, 1e20, IP_POSITIVE, "largest shift of an indefinite Hessian"),
+  IP_REAL("proximal", proximal, 1e-5, IP_POSITIVE,
     "for condensed equality constraints: size of the proximal term relative to the weights of the constraints"),
-  IP_REAL("filter_switch", filter_switch, 10.0,
+  IP_REAL("filter_switch", filter_switch, 10.0, IP_NOT_NEGATIVE,
     "the filter is used if (J^T D J)_ii exceeds this many times H_ii for some i; 0: always"),
-  IP_REAL("dual_inf_tol", dual_inf_tol, -1.0,
+  IP_REAL("dual_inf_tol", dual_inf_tol, -1.0, IP_ANY,
     "absolute limit of the stationarity residual at convergence; negative: 1 with scaling by gradients, else none"),
-  IP_REAL("constr_viol_tol", constr_viol_tol, -1.0,
+  IP_REAL("constr_viol_tol", constr_viol_tol, -1.0, IP_ANY,
     "absolute limit of the constraint violation at convergence; negative: 1e-4 with scaling by gradients, else none"),
-  IP_REAL("compl_inf_tol", compl_inf_tol, -1.0,
+  IP_REAL("compl_inf_tol", compl_inf_tol, -1.0, IP_ANY,
     "absolute limit of the complementarity products at convergence; negative: 1e-4 with scaling by gradients, else "
     "none"),
-  IP_REAL("direct_memory", direct_memory, 2000,
+  IP_REAL("direct_memory", direct_memory, 2000, IP_NOT_NEGATIVE,
     "memory in MB, over all ranks, that MUMPS may use for the whole matrix if the Krylov method fails; 0: never"),
 };
 
@@ -76,11 +92,15 @@ PetscErrorCode IPOptionsSetPrefix(Tao tao)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode OptionCheckPositive(Tao tao, const char option[], PetscReal value)
+/* Raises an error if the value of an option is outside its range or NaN */
+static PetscErrorCode OptionCheck(Tao tao, const char option[], OptionRange range, PetscReal value)
 {
+  const PetscBool above = (PetscBool)(value > option_ranges[range].low ||
+                                      (option_ranges[range].low_allowed && value == option_ranges[range].low));
+
   PetscFunctionBegin;
-  PetscCheck(value > 0.0, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE, "%s must be positive, not %g",
-    option, (double)value);
+  PetscCheck(above && value < option_ranges[range].high, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
+    "%s must be %s, not %g", option, option_ranges[range].text, (double)value);
   PetscFunctionReturn(0);
 }
 
@@ -94,9 +114,8 @@ static PetscErrorCode OptionsReadReals(Tao tao, AMGFOptionItems PetscOptionsObje
     PetscReal *value = (PetscReal *)((char *)opt + real_options[k].offset);
 
     PetscCall(PetscOptionsReal(real_options[k].option, real_options[k].text, TAOIPFILTER, *value, value, NULL));
+    PetscCall(OptionCheck(tao, real_options[k].option, real_options[k].range, *value));
   }
-  PetscCall(OptionCheckPositive(tao, "-tao_ipfilter_slack_init", opt->s0));
-  PetscCall(OptionCheckPositive(tao, "-tao_ipfilter_proximal", opt->proximal));
   PetscFunctionReturn(0);
 }
 
@@ -130,6 +149,8 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
     &opt->max_mu_first, NULL));
   PetscCall(PetscOptionsInt("-tao_ipfilter_max_soc", "Largest number of second-order corrections per step", TAOIPFILTER,
     opt->max_soc, &opt->max_soc, NULL));
+  PetscCall(OptionCheck(tao, "-tao_ipfilter_mu_reductions_first", IP_NOT_NEGATIVE, opt->max_mu_first));
+  PetscCall(OptionCheck(tao, "-tao_ipfilter_max_soc", IP_NOT_NEGATIVE, opt->max_soc));
   PetscCall(PetscOptionsBool("-tao_ipfilter_direct",
     "Factor the whole matrix by MUMPS and use its inertia, instead of a Krylov method", TAOIPFILTER, opt->direct_always,
     &opt->direct_always, NULL));

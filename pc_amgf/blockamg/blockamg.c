@@ -53,7 +53,9 @@ static PetscErrorCode PCDestroy_BlockAMG(PC pc)
    do not: they replace applications by recurrences, which hold for a linear preconditioner only, and this one is linear
    to 1e-7. Use `PCHYPRE` with them. Matrices and vectors are scaled by powers of 2, so units have no influence. If
    coupled rows differ in stiffness by a factor of 1e7, the contribution of the soft rows is lost in rounding: use
-   `PCHYPRE` for such operators. Only the lower triangle is used on each rank.
+   `PCHYPRE` for such operators. Only the lower triangle is used on each rank. An
+   operator that is not symmetric, such as one whose rows of prescribed values keep their columns, is found once for
+   each pattern; hypre's own cycle is used for it.
 
    For an indefinite operator, negative eigenvalues of diagonal blocks are replaced by their absolute values: `KSPCG`
    then ends with `KSP_DIVERGED_INDEFINITE_MAT`, or with `KSP_DIVERGED_NANORINF` if the cycle diverges beyond the range
@@ -73,7 +75,7 @@ PetscErrorCode PCCreate_BlockAMG(PC pc)
   pc->data                = amg;
   pc->ops->setup          = PCSetUp_BlockAMG;
   pc->ops->apply          = PCApply_BlockAMG;
-  pc->ops->applytranspose = PCApply_BlockAMG;
+  pc->ops->applytranspose = PCApplyTranspose_BlockAMG;
   pc->ops->view           = PCView_BlockAMG;
   pc->ops->reset          = PCReset_BlockAMG;
   pc->ops->destroy        = PCDestroy_BlockAMG;

@@ -141,9 +141,13 @@ typedef struct {
 } BlockHierarchy;
 
 typedef struct {
-  PC              hypre; /* BoomerAMG, which sets up the hierarchy; NULL except during the set-up */
+  PC              hypre; /* BoomerAMG, which sets up the hierarchy; NULL except during the set-up, or if the operator is
+                            not symmetric: then its own cycle is used */
   BlockHierarchy *h;
-  char            why[200]; /* why there is no hierarchy; empty if there is one */
+  char            why[200];  /* why there is no hierarchy; empty if there is one */
+  PetscBool       symmetric; /* whether the operator of the last test is symmetric */
+  PetscObjectId   tested;    /* this operator; with another one, or another nonzero pattern, the test is repeated */
+  PetscObjectState pattern;
 } PC_BlockAMG;
 
 /* Returns whether the diagonal entries of the unknowns, or ghosts, at positions p and q differ much */
@@ -223,7 +227,10 @@ PETSC_INTERN PetscErrorCode BlockHierarchyIsFinite_Private(const BlockHierarchy 
 PETSC_INTERN PetscErrorCode BlockHierarchyDestroy_Private(BlockHierarchy **);
 /* v_cycle.c */
 PETSC_INTERN PetscErrorCode PCApply_BlockAMG(PC, Vec, Vec);
+PETSC_INTERN PetscErrorCode PCApplyTranspose_BlockAMG(PC, Vec, Vec);
 PETSC_INTERN PetscErrorCode PCBlockAMGApplyProduct_BlockAMG(PC, Vec r, Vec z, Vec product);
+/* symmetry.c */
+PETSC_INTERN PetscErrorCode BlockTestSymmetry_Private(PC);
 /* take_hierarchy.c */
 PETSC_INTERN PetscErrorCode PCSetUp_BlockAMG(PC);
 /* view_hierarchy.c */

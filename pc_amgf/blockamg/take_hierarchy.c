@@ -94,11 +94,13 @@ static PetscErrorCode SetUpHypre(PC pc, PetscBool *later, PetscBool *failed)
   PetscCall(PCGetOptionsPrefix(pc, &prefix));
   PetscCall(PCSetOptionsPrefix(amg->hypre, prefix));
   PetscCall(MatGetBlockSize(pc->pmat, &bs));
-  PetscCall(SetUpConvertOperator(pc, &matrix, later));
-  PetscCall(PCSetOperators(amg->hypre, pc->pmat, matrix)); /* the Pmat carries the near null space, which its copy
-                                                                does not */
-  PetscCall(MatDestroy(&matrix));
-  PetscCall(PCAMGFConfigureBoomerAMG_Private(amg->hypre, bs, PETSC_FALSE));
+  if (amg->symmetric) {
+    PetscCall(SetUpConvertOperator(pc, &matrix, later));
+    PetscCall(PCSetOperators(amg->hypre, pc->pmat, matrix)); /* the Pmat carries the near null space, which its copy
+                                                                  does not */
+    PetscCall(MatDestroy(&matrix));
+  } else PetscCall(PCSetOperators(amg->hypre, pc->mat, pc->pmat));
+  PetscCall(PCAMGFConfigureBoomerAMG_Private(amg->hypre, bs, (PetscBool)!amg->symmetric));
   PetscCall(SetUpCheckType(pc));
   PetscCall(PCAMGFGuardBegin_Private(&guard, NULL));
   error = PCSetUp(amg->hypre);
@@ -144,6 +146,7 @@ PetscErrorCode PCSetUp_BlockAMG(PC pc)
     "PCBLOCKAMG needs a square operator, not one of %" PetscInt_FMT " rows and %" PetscInt_FMT " columns", M, N);
   PetscCall(PCSetFailedReason(pc, PC_NOERROR));
   amg->why[0] = '\0';
+  PetscCall(PCDestroy(&amg->hypre));
   PetscCall(BlockHierarchyDestroy_Private(&amg->h));
   PetscCall(SetUpFindBadRow(pc->pmat, &row));
   if (row >= 0) {
@@ -153,6 +156,7 @@ PetscErrorCode PCSetUp_BlockAMG(PC pc)
     PetscCall(SetUpFail(pc, PC_FACTOR_NUMERIC_ZEROPIVOT, why));
     PetscFunctionReturn(0);
   }
+  PetscCall(BlockTestSymmetry_Private(pc));
   PetscCall(PetscLogEventBegin(PC_BLOCKAMG_SetUp, pc, 0, 0, 0));
   PetscCall(SetUpHypre(pc, &later, &failed));
   PetscCall(PetscLogEventEnd(PC_BLOCKAMG_SetUp, pc, 0, 0, 0));
@@ -162,6 +166,7 @@ PetscErrorCode PCSetUp_BlockAMG(PC pc)
     PetscCall(SetUpFail(pc, PC_SUBPC_ERROR, "the set-up of hypre's BoomerAMG failed"));
     PetscFunctionReturn(0);
   }
+  if (!amg->symmetric) PetscFunctionReturn(0);
   PetscCall(SetUpConvert(pc, later));
   PetscCall(BlockHierarchyIsFinite_Private(amg->h, &finite));
   if (finite) PetscFunctionReturn(0);

@@ -199,9 +199,14 @@ static PetscErrorCode ApplyCycle(BlockHierarchy *h, Vec r, Vec z, Vec product)
 
 PetscErrorCode PCApply_BlockAMG(PC pc, Vec r, Vec z)
 {
-  BlockHierarchy *h = ((PC_BlockAMG *)pc->data)->h;
+  PC              hypre = ((PC_BlockAMG *)pc->data)->hypre;
+  BlockHierarchy *h     = ((PC_BlockAMG *)pc->data)->h;
 
   PetscFunctionBegin;
+  if (hypre) {
+    PetscCall(PCApply(hypre, r, z));
+    PetscFunctionReturn(0);
+  }
   if (!h) { /* the set-up failed: report this to the KSP */
     PetscCall(VecSet(z, 0.0));
     PetscCall(VecFlag(z, 1));
@@ -210,6 +215,16 @@ PetscErrorCode PCApply_BlockAMG(PC pc, Vec r, Vec z)
   PetscCall(PetscLogEventBegin(PC_BLOCKAMG_Apply, pc, r, z, 0));
   PetscCall(ApplyCycle(h, r, z, NULL));
   PetscCall(PetscLogEventEnd(PC_BLOCKAMG_Apply, pc, r, z, 0));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode PCApplyTranspose_BlockAMG(PC pc, Vec r, Vec z)
+{
+  PC hypre = ((PC_BlockAMG *)pc->data)->hypre;
+
+  PetscFunctionBegin;
+  if (hypre) PetscCall(PCApplyTranspose(hypre, r, z));
+  else PetscCall(PCApply_BlockAMG(pc, r, z));
   PetscFunctionReturn(0);
 }
 

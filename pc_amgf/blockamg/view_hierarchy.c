@@ -28,6 +28,11 @@ PetscErrorCode PCView_BlockAMG(PC pc, PetscViewer viewer)
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)viewer, PETSCVIEWERASCII, &ascii));
   if (!ascii) PetscFunctionReturn(0);
+  if (amg->hypre) {
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  the operator is not symmetric: hypre's own cycle\n"));
+    PetscCall(PCView(amg->hypre, viewer));
+    PetscFunctionReturn(0);
+  }
   PetscCall(PetscViewerASCIIPrintf(viewer,
     "  V(1,1)-cycle in single precision, symmetric Gauss-Seidel, on the hierarchy of hypre's BoomerAMG\n"));
   if (!h) {

@@ -34,30 +34,37 @@ PetscErrorCode SpringsMeasureStiffness(const Bodies *bodies, PetscReal *largest)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Computes a stiffness per row: share x Young's modulus x size of each body, distributed to its vertices by
-   volume [force/length] */
-PetscErrorCode SpringsOfSize(const Bodies *bodies, PetscReal share, Vec stiffness)
+/* Computes a stiffness per row [force/length]. density[b]: stiffness of body b per volume [force/length^4] */
+PetscErrorCode SpringsDistribute(const Bodies *bodies, const PetscReal density[], Vec stiffness)
 {
-  Scene              scene = bodies->scene;
-  PetscReal         *volume;
   const PetscScalar *m;
   PetscScalar       *k;
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(scene->nbodies, &volume));
-  PetscCall(SpringsMeasureVolumes(bodies, volume));
   PetscCall(VecGetLocalSize(bodies->mass, &n));
   PetscCall(VecGetArrayRead(bodies->mass, &m));
   PetscCall(VecGetArrayWrite(stiffness, &k));
-  for (PetscInt i = 0; i < n; ++i) {
-    const PetscInt b = bodies->places.body[i / 3];
-
-    k[i] = share * scene->bodies[b].material.young * PetscCbrtReal(volume[b]) * PetscRealPart(m[i]) / volume[b];
-  }
+  for (PetscInt i = 0; i < n; ++i) k[i] = density[bodies->places.body[i / 3]] * PetscRealPart(m[i]);
   PetscCall(VecRestoreArrayWrite(stiffness, &k));
   PetscCall(VecRestoreArrayRead(bodies->mass, &m));
-  PetscCall(PetscFree(volume));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Computes a stiffness per row: share x Young's modulus x size of each body, distributed to its vertices by
+   volume [force/length] */
+PetscErrorCode SpringsOfSize(const Bodies *bodies, PetscReal share, Vec stiffness)
+{
+  Scene      scene = bodies->scene;
+  PetscReal *volume, *density;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(scene->nbodies, &volume, scene->nbodies, &density));
+  PetscCall(SpringsMeasureVolumes(bodies, volume));
+  for (PetscInt b = 0; b < scene->nbodies; ++b)
+    density[b] = volume[b] > 0.0 ? share * scene->bodies[b].material.young * PetscCbrtReal(volume[b]) / volume[b] : 0.0;
+  PetscCall(SpringsDistribute(bodies, density, stiffness));
+  PetscCall(PetscFree2(volume, density));
   PetscFunctionReturn(0);
 }
 

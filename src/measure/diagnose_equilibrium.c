@@ -9,10 +9,23 @@
    drive. There is then no equilibrium (Farkas' lemma).
 */
 #include "measureimpl.h"
+#include <petscblaslapack.h>
+#include "src/mesh/supports/supportsimpl.h"
 #include "src/state/interrupt.h"
 #include "src/state/path.h"
 
-#define EQUILIBRIUM_ROWS 3 /* number of linearizations whose rows form the cone */
+/*
+   Linearizations of contact at the last state, from which rows are taken if those before have no suitable row: with the
+   usual search distance; with dual functions, whose forces may act at the edges of faces; and with a search distance of
+   the size of the bodies, since a moving body may reach other faces
+*/
+typedef enum { CONE_NEAR, CONE_EDGES, CONE_FAR, CONE_KINDS } ConeKind;
+
+/* Rates of gaps and slips in the free motions */
+typedef struct {
+  ContactLinearization lin;
+  Mat                  gap, slip; /* one, and two rows per contact row; slip is NULL without friction */
+} ConeRows;
 
 /* Rays with n components each, and their factors. The sum of factor times ray is the nearest point found so far. */
 typedef struct {
@@ -21,17 +34,10 @@ typedef struct {
   PetscReal *amount;          /* factor of each ray [force] */
   PetscInt   nfactored, ncap; /* number of rays in `Q` and `R`; number for which these have space */
   PetscReal *Q, *R;           /* QR factors of the matrix of the rays; column k of R has k + 1 numbers */
+  ConeRows   rows[CONE_KINDS];
 } ContactCone;
 
-/* The row that resists a motion most, and its friction; the same on all ranks */
-typedef struct {
-  PetscReal rate;     /* work of the force below on the motion, negative */
-  PetscInt  row;      /* global row; PETSC_DECIDE: there is none */
-  PetscReal shear[2]; /* friction force */
-  PetscReal normal;   /* normal force: 1; or 0 if the friction is not proportional to it, and acts alone */
-} ConeRow;
-
-static PetscErrorCode ConeAllocate(PetscInt n, ContactCone *cone)
+static PetscErrorCode ConeCreate(PetscInt n, ContactCone *cone)
 {
   PetscFunctionBegin;
   *cone = (ContactCone){.n = n, .nmax = 20 * n + 100};
@@ -39,103 +45,130 @@ static PetscErrorCode ConeAllocate(PetscInt n, ContactCone *cone)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ConeFree(ContactCone *cone)
+static PetscErrorCode ConeDestroy(ContactCone *cone)
 {
   PetscFunctionBegin;
+  for (PetscInt k = 0; k < CONE_KINDS; ++k) {
+    PetscCall(ContactLinearizationDestroy(&cone->rows[k].lin));
+    PetscCall(MatDestroy(&cone->rows[k].gap));
+    PetscCall(MatDestroy(&cone->rows[k].slip));
+  }
   PetscCall(PetscFree3(cone->ray, cone->normal, cone->amount));
   PetscCall(PetscFree(cone->Q));
   PetscCall(PetscFree(cone->R));
   PetscFunctionReturn(0);
 }
 
-/*
-   Finds the row whose force does the most negative work on the motion w. Pairs that stick, or have a shear limit, allow
-   any friction force.
-*/
-static PetscErrorCode ConeFindRow(Simulation sim, PetscReal time, ContactLinearization lin, Vec w, ConeRow *found)
+/* Linearizes contact at the last state, and computes the rates of the rows in the free motions */
+static PetscErrorCode ConeLinearize(Simulation sim, const FreeMotions *m, ConeKind kind, ConeRows *rows)
 {
-  Vec                rates, slips = NULL;
-  const PetscScalar *a, *s        = NULL;
-  PetscInt           first;
-  struct {
-    double value;
-    int    rank;
-  } best = {0.0, 0};
-  PetscMPIInt rank;
+  ContactDualPairs used;
+  PetscReal        extent;
+  PetscBool        changed;
 
   PetscFunctionBegin;
-  *found = (ConeRow){.row = PETSC_DECIDE};
-  PetscCall(VecDuplicate(lin->g, &rates));
-  PetscCall(MatMult(lin->J, w, rates));
-  if (lin->slip) {
-    PetscCall(MatCreateVecs(lin->slip, NULL, &slips));
-    PetscCall(MatMult(lin->slip, w, slips));
-    PetscCall(VecGetArrayRead(slips, &s));
+  PetscCall(ContactGetDual(sim->contact, &used));
+  if (kind >= CONE_EDGES) PetscCall(ContactSetDual(sim->contact, CONTACT_DUAL_ALL, &changed));
+  if (kind == CONE_FAR) {
+    PetscCall(VecNorm(sim->places.x, NORM_INFINITY, &extent));
+    PetscCall(ContactSetReach(sim->contact, 2.0 * PetscSqrtReal(3.0) * extent, 0.0));
   }
-  PetscCall(VecGetOwnershipRange(rates, &first, NULL));
-  PetscCall(VecGetArrayRead(rates, &a));
-  for (PetscInt r = 0; r < lin->nlocal; ++r) {
-    const PetscReal slip[2] = {s ? PetscRealPart(s[2 * r]) : 0.0, s ? PetscRealPart(s[2 * r + 1]) : 0.0};
-    const PetscReal size    = PetscSqrtReal(slip[0] * slip[0] + slip[1] * slip[1]);
-    PetscReal       mu, rate = PetscRealPart(a[r]);
-    PetscBool       alone = PETSC_FALSE;
-
-    PetscCall(FrictionGetCoefficient(sim->scene, time, lin->pair[r], &mu));
-    if (mu < PETSC_INFINITY) rate -= mu * size;
-    else if (-size < rate) {
-      rate  = -size;
-      alone = PETSC_TRUE;
-    } else mu = 0.0;
-    if (found->row >= 0 && rate >= found->rate) continue;
-    *found = (ConeRow){.rate = rate, .row = first + r, .normal = alone ? 0.0 : 1.0};
-    for (PetscInt c = 0; size > 0.0 && c < 2; ++c) found->shear[c] = -(alone ? 1.0 : mu) * slip[c] / size;
-  }
-  PetscCall(VecRestoreArrayRead(rates, &a));
-  if (slips) PetscCall(VecRestoreArrayRead(slips, &s));
-  PetscCall(VecDestroy(&slips));
-  PetscCall(VecDestroy(&rates));
-  PetscCallMPI(MPI_Comm_rank(sim->comm, &rank));
-  best.value = found->row >= 0 ? (double)found->rate : (double)PETSC_MAX_REAL;
-  best.rank  = rank;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MINLOC, sim->comm));
-  PetscCallMPI(MPI_Bcast(found, (PetscMPIInt)sizeof(*found), MPI_BYTE, best.rank, sim->comm));
+  PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &rows->lin));
+  PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
+  PetscCall(ContactSetDual(sim->contact, used, &changed));
+  PetscCall(MatMatMult(rows->lin->J, m->Z, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &rows->gap));
+  if (rows->lin->slip) PetscCall(MatMatMult(rows->lin->slip, m->Z, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &rows->slip));
   PetscFunctionReturn(0);
 }
 
 /*
-   Computes the ray of a row: the generalized force on the free motions of a unit of its force. shear: whether friction
-   is included.
+   Computes the force of local row r that does the most negative work on a motion: normal and shear force. Pairs that
+   stick, or have a shear limit, allow any friction force. *rate: its work, negative
 */
-static PetscErrorCode ConeGetRay(const FreeMotions *m, ContactLinearization lin, const ConeRow *row, PetscBool shear,
-  PetscReal ray[])
+static PetscErrorCode ConeGetForce(Simulation sim, PetscReal time, const ConeRows *rows, PetscInt r,
+  const PetscReal motion[], PetscReal force[3], PetscReal *rate)
 {
-  Vec      unit, force;
-  PetscInt first, end;
+  PetscReal slip[2] = {0.0, 0.0}, size, mu, shear;
+  PetscInt  first;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(m->x, &force));
-  PetscCall(VecDuplicate(lin->g, &unit));
-  PetscCall(VecZeroEntries(unit));
-  PetscCall(VecGetOwnershipRange(unit, &first, &end));
-  if (row->row >= first && row->row < end) PetscCall(VecSetValue(unit, row->row, row->normal, INSERT_VALUES));
-  PetscCall(VecAssemblyBegin(unit));
-  PetscCall(VecAssemblyEnd(unit));
-  PetscCall(MatMultTranspose(lin->J, unit, force));
-  PetscCall(VecDestroy(&unit));
-  if (lin->slip && shear) {
-    PetscCall(MatCreateVecs(lin->slip, NULL, &unit));
-    PetscCall(VecZeroEntries(unit));
-    for (PetscInt c = 0; c < 2; ++c) {
-      if (row->row >= first && row->row < end)
-        PetscCall(VecSetValue(unit, 2 * row->row + c, row->shear[c], INSERT_VALUES));
-    }
-    PetscCall(VecAssemblyBegin(unit));
-    PetscCall(VecAssemblyEnd(unit));
-    PetscCall(MatMultTransposeAdd(lin->slip, unit, force, force));
-    PetscCall(VecDestroy(&unit));
+  PetscCall(MatGetOwnershipRange(rows->gap, &first, NULL));
+  PetscCall(FreeMotionsGetRate(rows->gap, first + r, motion, rate));
+  for (PetscInt c = 0; c < 2 && rows->slip; ++c)
+    PetscCall(FreeMotionsGetRate(rows->slip, 2 * (first + r) + c, motion, &slip[c]));
+  size     = PetscSqrtReal(slip[0] * slip[0] + slip[1] * slip[1]);
+  force[0] = 1.0;
+  PetscCall(FrictionGetCoefficient(sim->scene, time, rows->lin->pair[r], &mu));
+  if (mu < PETSC_INFINITY) {
+    shear = mu;
+    *rate -= mu * size;
+  } else if (-size < *rate) {
+    /* this friction is not proportional to the normal force, and acts alone */
+    shear    = 1.0;
+    force[0] = 0.0;
+    *rate    = -size;
+  } else shear = 0.0;
+  for (PetscInt c = 0; c < 2; ++c) force[1 + c] = size > 0.0 ? -shear * slip[c] / size : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* Adds factor times row `row` of a matrix to a ray */
+static PetscErrorCode ConeAddRow(Mat A, PetscInt row, PetscReal factor, PetscReal ray[])
+{
+  const PetscInt    *columns;
+  const PetscScalar *values;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetRow(A, row, &n, &columns, &values));
+  for (PetscInt k = 0; k < n; ++k) ray[columns[k]] += factor * PetscRealPart(values[k]);
+  PetscCall(MatRestoreRow(A, row, &n, &columns, &values));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Appends the ray of the row whose force does the most negative work on a motion, the same on all ranks. *found: false
+   if no force does at least the work `least`, which is negative; no ray is then appended
+*/
+static PetscErrorCode ConeAppend(Simulation sim, PetscReal time, ContactCone *cone, const ConeRows *rows,
+  const PetscReal motion[], PetscReal least, PetscBool *found)
+{
+  const PetscInt n   = cone->n;
+  PetscReal     *ray = &cone->ray[n * cone->nrays], *normal = &cone->normal[n * cone->nrays], force[3] = {0.0};
+  PetscInt       row = PETSC_DECIDE, first;
+  PetscMPIInt    rank;
+  struct {
+    double value;
+    int    rank;
+  } best = {(double)least, 0};
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_rank(sim->comm, &rank));
+  for (PetscInt r = 0; r < rows->lin->nlocal; ++r) {
+    PetscReal own[3], rate;
+
+    PetscCall(ConeGetForce(sim, time, rows, r, motion, own, &rate));
+    if (rate >= best.value) continue;
+    best.value = (double)rate;
+    row        = r;
+    PetscCall(PetscArraycpy(force, own, 3));
   }
-  PetscCall(FreeMotionsSum(m, force, ray));
-  PetscCall(VecDestroy(&force));
+  best.rank = rank;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MINLOC, sim->comm));
+  *found = (PetscBool)(best.value < least);
+  if (!*found) PetscFunctionReturn(0);
+  PetscCall(PetscArrayzero(ray, n));
+  PetscCall(PetscArrayzero(normal, n));
+  if (rank == best.rank) {
+    PetscCall(MatGetOwnershipRange(rows->gap, &first, NULL));
+    row += first;
+    PetscCall(ConeAddRow(rows->gap, row, force[0], normal));
+    PetscCall(PetscArraycpy(ray, normal, n));
+    for (PetscInt c = 0; c < 2 && rows->slip; ++c) PetscCall(ConeAddRow(rows->slip, 2 * row + c, force[1 + c], ray));
+  }
+  PetscCallMPI(MPI_Bcast(ray, (PetscMPIInt)n, MPIU_REAL, best.rank, sim->comm));
+  PetscCallMPI(MPI_Bcast(normal, (PetscMPIInt)n, MPIU_REAL, best.rank, sim->comm));
+  cone->amount[cone->nrays++] = 0.0;
   PetscFunctionReturn(0);
 }
 
@@ -147,53 +180,33 @@ static PetscReal ConeDot(PetscInt n, const PetscReal a[], const PetscReal b[])
   return sum;
 }
 
-#define CONE_BLOCK 4 /* number of columns that are multiplied together, which is faster than one by one */
-
-/* Computes A^T x. A: columns of n numbers each */
-static void ConeDots(PetscInt n, PetscInt columns, const PetscReal A[], const PetscReal x[], PetscReal product[])
+/* Computes product = A^T x. A: columns of n numbers each */
+static PetscErrorCode ConeDots(PetscInt n, PetscInt columns, const PetscReal A[], const PetscReal x[],
+  PetscReal product[])
 {
-  PetscInt k = 0;
+  const PetscReal    one = 1.0, zero = 0.0;
+  const PetscBLASInt inc = 1;
+  PetscBLASInt       m, k;
 
-  for (; k + CONE_BLOCK <= columns; k += CONE_BLOCK) {
-    const PetscReal *a  = &A[n * k];
-    PetscReal        s0 = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0;
-
-    for (PetscInt i = 0; i < n; ++i) {
-      s0 += a[i] * x[i];
-      s1 += a[n + i] * x[i];
-      s2 += a[2 * n + i] * x[i];
-      s3 += a[3 * n + i] * x[i];
-    }
-    product[k]     = s0;
-    product[k + 1] = s1;
-    product[k + 2] = s2;
-    product[k + 3] = s3;
-  }
-  for (; k < columns; ++k) product[k] = ConeDot(n, &A[n * k], x);
+  PetscFunctionBegin;
+  PetscCall(PetscBLASIntCast(n, &m));
+  PetscCall(PetscBLASIntCast(columns, &k));
+  if (k) PetscCallBLAS("BLASgemv", BLASgemv_("T", &m, &k, &one, A, &m, x, &inc, &zero, product, &inc));
+  PetscFunctionReturn(0);
 }
 
 /* Computes y += alpha A factor. A: columns of n numbers each */
-static void ConeAdd(PetscInt n, PetscInt columns, const PetscReal A[], PetscReal alpha, const PetscReal factor[],
-  PetscReal y[])
+static PetscErrorCode ConeAdd(PetscInt n, PetscInt columns, const PetscReal A[], PetscReal alpha,
+  const PetscReal factor[], PetscReal y[])
 {
-  PetscInt k = 0;
+  const PetscReal    one = 1.0;
+  const PetscBLASInt inc = 1;
+  PetscBLASInt       m, k;
 
-  for (; k + CONE_BLOCK <= columns; k += CONE_BLOCK) {
-    const PetscReal *a = &A[n * k], f0 = alpha * factor[k], f1 = alpha * factor[k + 1], f2 = alpha * factor[k + 2],
-                    f3 = alpha * factor[k + 3];
-
-    for (PetscInt i = 0; i < n; ++i) y[i] += f0 * a[i] + f1 * a[n + i] + f2 * a[2 * n + i] + f3 * a[3 * n + i];
-  }
-  for (; k < columns; ++k)
-    for (PetscInt i = 0; i < n; ++i) y[i] += alpha * factor[k] * A[n * k + i];
-}
-
-/* Computes the unbalanced load: left = load + the sum of factor times ray */
-static PetscErrorCode ConeSubtract(const ContactCone *cone, const PetscReal load[], PetscReal left[])
-{
   PetscFunctionBegin;
-  PetscCall(PetscArraycpy(left, load, cone->n));
-  ConeAdd(cone->n, cone->nrays, cone->ray, 1.0, cone->amount, left);
+  PetscCall(PetscBLASIntCast(n, &m));
+  PetscCall(PetscBLASIntCast(columns, &k));
+  if (k) PetscCallBLAS("BLASgemv", BLASgemv_("N", &m, &k, &alpha, A, &m, factor, &inc, &one, y, &inc));
   PetscFunctionReturn(0);
 }
 
@@ -226,8 +239,8 @@ static PetscErrorCode ConeOrthogonalize(ContactCone *cone)
     remainder = whole;
     for (PetscInt pass = 0; pass < 2; ++pass) { /* the second pass removes the rounding errors of a small remainder */
       if (pass && remainder > again * whole) break;
-      ConeDots(n, k, cone->Q, q, along);
-      ConeAdd(n, k, cone->Q, -1.0, along, q);
+      PetscCall(ConeDots(n, k, cone->Q, q, along));
+      PetscCall(ConeAdd(n, k, cone->Q, -1.0, along, q));
       for (PetscInt j = 0; j < k; ++j) R[j] += along[j];
       remainder = ConeDot(n, q, q);
     }
@@ -243,7 +256,7 @@ static PetscErrorCode ConeSolve(ContactCone *cone, const PetscReal load[], Petsc
 {
   PetscFunctionBegin;
   PetscCall(ConeOrthogonalize(cone));
-  ConeDots(cone->n, cone->nrays, cone->Q, load, amount);
+  PetscCall(ConeDots(cone->n, cone->nrays, cone->Q, load, amount));
   for (PetscInt k = 0; k < cone->nrays; ++k) amount[k] = -amount[k];
   for (PetscInt k = cone->nrays - 1; k >= 0; --k) {
     const PetscReal *R = ConeColumn(cone, k);
@@ -305,112 +318,75 @@ static PetscErrorCode ConeBalance(ContactCone *cone, const PetscReal load[])
    Computes `left`, the loads that contact forces cannot balance. size: sum of the magnitudes of the nodal loads.
    *none: no equilibrium exists, or only one with contact forces of more than a thousand times the loads.
 */
-static PetscErrorCode ConeProject(PetscReal time, const FreeMotions *m, PetscInt nlins, ContactLinearization lins[],
-  const PetscReal load[], PetscReal size, ContactCone *cone, PetscReal left[], PetscBool *none)
+static PetscErrorCode ConeProject(Simulation sim, PetscReal time, const FreeMotions *m, const PetscReal load[],
+  PetscReal size, ContactCone *cone, PetscReal left[], PetscBool *none)
 {
-  const PetscReal beyond = 1e3, negligible = 1e-7;
+  const PetscReal beyond = 1e3, negligible = sim->springs.weak ? WEAK_SPRINGS_SHARE : 1e-7;
   const PetscInt  n = m->n;
   PetscBool       stop;
-  Vec             w;
 
   PetscFunctionBegin;
   *none = PETSC_FALSE;
-  PetscCall(VecDuplicate(m->x, &w));
-  for (PetscInt it = 0; it < cone->nmax && cone->nrays < cone->nmax; ++it) {
-    ConeRow  row, best = {.row = PETSC_DECIDE};
-    PetscInt of = 0;
+  for (PetscInt it = 0; it < cone->nmax && cone->nrays < cone->nmax && !*none; ++it) {
+    PetscBool found = PETSC_FALSE;
 
-    PetscCall(InterruptTest(m->sim, &stop));
+    PetscCall(InterruptTest(sim, &stop));
     if (stop) break;
-    PetscCall(ConeSubtract(cone, load, left));
+    PetscCall(PetscArraycpy(left, load, n));
+    PetscCall(ConeAdd(n, cone->nrays, cone->ray, 1.0, cone->amount, left));
     if (PetscSqrtReal(ConeDot(n, left, left)) <= negligible * size) break;
-    PetscCall(FreeMotionsDisplace(m, left, w));
-    for (PetscInt l = 0; l < nlins; ++l) {
-      PetscCall(ConeFindRow(m->sim, time, lins[l], w, &row));
-      if (row.row >= 0 && (best.row < 0 || row.rate < best.rate)) {
-        best = row;
-        of   = l;
-      }
+    for (ConeKind kind = CONE_NEAR; kind < CONE_KINDS && sim->contact && !found; ++kind) {
+      if (!cone->rows[kind].lin) PetscCall(ConeLinearize(sim, m, kind, &cone->rows[kind]));
+      PetscCall(
+        ConeAppend(sim, time, cone, &cone->rows[kind], left, -ConeDot(n, load, left) / (beyond * size), &found));
     }
-    *none = (PetscBool)(best.row < 0 || best.rate >= -ConeDot(n, load, left) / (beyond * size));
-    if (*none) break;
-    PetscCall(ConeGetRay(m, lins[of], &best, PETSC_TRUE, &cone->ray[n * cone->nrays]));
-    PetscCall(ConeGetRay(m, lins[of], &best, PETSC_FALSE, &cone->normal[n * cone->nrays]));
-    cone->amount[cone->nrays++] = 0.0;
-    PetscCall(ConeBalance(cone, load));
+    *none = (PetscBool)!found;
+    if (found) PetscCall(ConeBalance(cone, load));
   }
-  PetscCall(VecDestroy(&w));
   PetscFunctionReturn(0);
 }
 
-/* Removes from a motion the part that changes the gaps of the rows that carry a force. What remains is sliding. */
-static void ConeSlide(const ContactCone *cone, PetscReal motion[])
-{
-  const PetscInt n   = cone->n;
-  PetscReal     *own = cone->normal;
-
-  for (PetscInt k = 0; k < cone->nrays; ++k) {
-    PetscReal *v = &own[n * k], whole = ConeDot(n, v, v), remainder;
-
-    for (PetscInt pass = 0; pass < 2; ++pass) {
-      for (PetscInt j = 0; j < k; ++j) {
-        const PetscReal along = ConeDot(n, v, &own[n * j]);
-
-        for (PetscInt i = 0; i < n; ++i) v[i] -= along * own[n * j + i];
-      }
-    }
-    remainder = ConeDot(n, v, v);
-    for (PetscInt i = 0; i < n; ++i) v[i] = remainder > 1e-12 * whole ? v[i] / PetscSqrtReal(remainder) : 0.0;
-  }
-  for (PetscInt k = 0; k < cone->nrays; ++k) {
-    const PetscReal along = ConeDot(n, motion, &own[n * k]);
-
-    for (PetscInt i = 0; i < n; ++i) motion[i] -= along * own[n * k + i];
-  }
-}
-
 /*
-   Linearizes contact at the last state three times: with the usual search distance; with dual functions, whose forces
-   may act at the edges of faces; and with a search distance of the size of the bodies, since a moving body may reach
-   other faces
+   Removes from a motion the part that changes the gaps of the rows that carry a force. What remains is sliding. The
+   motion is unchanged if nothing remains.
 */
-static PetscErrorCode EquilibriumLinearize(const FreeMotions *m, ContactLinearization lins[EQUILIBRIUM_ROWS])
+static PetscErrorCode ConeSlide(const ContactCone *cone, PetscReal motion[])
 {
-  Simulation       sim = m->sim;
-  ContactDualPairs used;
-  PetscReal        extent;
-  PetscBool        changed;
+  const PetscInt n = cone->n;
+  PetscInt       nfree;
+  PetscReal     *matrix, *slide, *along;
 
   PetscFunctionBegin;
-  PetscCall(ContactGetDual(sim->contact, &used));
-  PetscCall(VecNorm(m->x, NORM_INFINITY, &extent));
-  PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &lins[0]));
-  PetscCall(ContactSetDual(sim->contact, CONTACT_DUAL_ALL, &changed));
-  PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &lins[1]));
-  PetscCall(ContactSetReach(sim->contact, 2.0 * PetscSqrtReal(3.0) * extent, 0.0));
-  PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &lins[2]));
-  PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
-  PetscCall(ContactSetDual(sim->contact, used, &changed));
+  PetscCall(PetscCalloc3(n * n, &matrix, n, &slide, n, &along));
+  for (PetscInt k = 0; k < cone->nrays; ++k) {
+    const PetscReal *v = &cone->normal[n * k], square = ConeDot(n, v, v);
+
+    for (PetscInt i = 0; i < n * n && square > 0.0; ++i) matrix[i] += v[i / n] * v[i % n] / square;
+  }
+  PetscCall(SupportFindNull(n, matrix, &nfree));
+  PetscCall(ConeDots(n, nfree, matrix, motion, along));
+  PetscCall(ConeAdd(n, nfree, matrix, 1.0, along, slide));
+  if (ConeDot(n, slide, slide) > 1e-6 * ConeDot(n, motion, motion)) PetscCall(PetscArraycpy(motion, slide, n));
+  PetscCall(PetscFree3(matrix, slide, along));
   PetscFunctionReturn(0);
 }
 
 /* Reports the motion of the bodies that contact does not hold. left: unbalanced load on the free motions. */
-static PetscErrorCode EquilibriumReport(const FreeMotions *m, const ContactCone *cone, const PetscReal left[],
-  PetscBool frictional, StepReport *report)
+static PetscErrorCode EquilibriumReport(Simulation sim, const FreeMotions *m, const ContactCone *cone, PetscReal left[],
+  StepReport *report)
 {
-  PetscReal *motion, whole = ConeDot(m->n, left, left);
-  Vec        w;
+  Vec w;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(m->n, &motion));
-  PetscCall(PetscArraycpy(motion, left, m->n));
-  ConeSlide(cone, motion);
-  PetscCall(VecDuplicate(m->x, &w));
-  PetscCall(FreeMotionsDisplace(m, ConeDot(m->n, motion, motion) > 1e-6 * whole ? motion : left, w));
-  if (frictional) PetscCall(ReportReason(report, PETSC_FALSE, "friction does not hold the bodies"));
-  PetscCall(RigidMotionReport(m->sim, w, "nothing stops it", NULL, report));
+  PetscCall(ConeSlide(cone, left));
+  PetscCall(VecDuplicate(sim->places.x, &w));
+  PetscCall(FreeMotionsDisplace(m, left, w));
+  PetscCall(ReportReason(report, PETSC_FALSE,
+    cone->rows[CONE_NEAR].slip ? "friction does not hold the bodies"
+    : sim->contact             ? "contact does not hold the bodies"
+                               : "nothing holds the bodies"));
+  PetscCall(RigidMotionReport(sim, w, "nothing stops it", NULL, report));
   PetscCall(VecDestroy(&w));
-  PetscCall(PetscFree(motion));
   PetscFunctionReturn(0);
 }
 
@@ -428,21 +404,19 @@ static PetscErrorCode EquilibriumTurnBack(Simulation sim, PetscReal time, Vec lo
 }
 
 /*
-   Tests, after a solve failed, whether an equilibrium exists for the loads at `time` and the positions of the last
-   state. *none: no equilibrium exists; the report then names the moving body and its motion. A signal ends the test,
-   and *none is false.
+   Tests whether an equilibrium exists for the loads at `time` and the positions of the last state. *none: no
+   equilibrium exists; the report then names the moving body and its motion. A signal ends the test, and *none is false.
 */
 PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, StepReport *report, PetscBool *none)
 {
-  ContactLinearization lins[EQUILIBRIUM_ROWS];
-  ContactCone          cone;
-  FreeMotions          motions;
-  PetscReal           *load, *left, size;
-  PetscBool            stop;
+  ContactCone cone;
+  FreeMotions motions;
+  PetscReal  *load, *left, size;
+  PetscBool   stop;
 
   PetscFunctionBegin;
   *none = PETSC_FALSE;
-  if (!sim->contact || !force) PetscFunctionReturn(0);
+  if (!force) PetscFunctionReturn(0);
   PetscCall(InterruptTest(sim, &stop));
   if (stop) PetscFunctionReturn(0);
   PetscCall(EquilibriumTurnBack(sim, time, force));
@@ -450,13 +424,11 @@ PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, St
   PetscCall(FreeMotionsCreate(sim, &motions));
   if (motions.n && size > 0.0) {
     PetscCall(PetscMalloc2(motions.n, &load, motions.n, &left));
-    PetscCall(ConeAllocate(motions.n, &cone));
-    PetscCall(EquilibriumLinearize(&motions, lins));
+    PetscCall(ConeCreate(motions.n, &cone));
     PetscCall(FreeMotionsSum(&motions, force, load));
-    PetscCall(ConeProject(time, &motions, EQUILIBRIUM_ROWS, lins, load, size, &cone, left, none));
-    if (*none) PetscCall(EquilibriumReport(&motions, &cone, left, (PetscBool)(lins[0]->slip != NULL), report));
-    for (PetscInt l = 0; l < EQUILIBRIUM_ROWS; ++l) PetscCall(ContactLinearizationDestroy(&lins[l]));
-    PetscCall(ConeFree(&cone));
+    PetscCall(ConeProject(sim, time, &motions, load, size, &cone, left, none));
+    if (*none) PetscCall(EquilibriumReport(sim, &motions, &cone, left, report));
+    PetscCall(ConeDestroy(&cone));
     PetscCall(PetscFree2(load, left));
   }
   PetscCall(FreeMotionsDestroy(&motions));

@@ -1,298 +1,300 @@
-/* Computes the rigid motions of the bodies that only contact resists, but no prescribed displacement, spring or tie */
+/*
+   Free motions: the rigid motions of the bodies, and of groups that ties and springs hold together, that no prescribed
+   displacement, spring or tie resists. Weak springs do not count. Only contact can resist these motions. They serve the
+   search for an equilibrium, the optimizer's search space, and the position of bodies that have lost contact.
+*/
 #include "measureimpl.h"
+#include "src/mesh/supports/supportsimpl.h"
 #include "src/state/path.h"
 
 /*
-   Gets the positions of the bodies' nodes. For bodies at small strain they are undeformed, as in the energy, unless
-   rigid bodies turn.
+   Creates the matrix of all rigid motions at the positions x, six columns per body: translations, and rotations about
+   the mean of the body's nodes by 1/size, with its largest coordinate from there as the size
 */
-static PetscErrorCode FreeMotionsGetPlaces(Simulation sim, Vec *x)
+static PetscErrorCode FreeMotionsCreateModes(Simulation sim, Vec places, Mat *modes)
 {
-  PetscBool linear;
-
-  PetscFunctionBegin;
-  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
-  PetscCall(VecDuplicate(sim->places.x, x));
-  PetscCall(VecCopy(sim->places.x, *x));
-  if (!linear || sim->rigid.turns) PetscCall(VecAXPY(*x, 1.0, sim->path->u));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode FreeMotionsMeasureBodies(FreeMotions *m)
-{
-  Simulation         sim = m->sim;
+  const PetscInt     nbodies = sim->scene->nbodies;
   const PetscScalar *x;
-  PetscInt           n;
+  PetscReal         *center, *size;
+  PetscInt           n, N, first;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc2(3 * m->nbodies, &m->center, m->nbodies, &m->size));
-  PetscCall(VertexPlacesGetCentres(&sim->places, m->x, m->nbodies, m->center));
-  PetscCall(VecGetLocalSize(m->x, &n));
-  PetscCall(VecGetArrayRead(m->x, &x));
+  PetscCall(PetscCalloc2(3 * nbodies, &center, nbodies, &size));
+  PetscCall(VertexPlacesGetCentres(&sim->places, places, nbodies, center));
+  PetscCall(VecGetLocalSize(places, &n));
+  PetscCall(VecGetSize(places, &N));
+  PetscCall(VecGetOwnershipRange(places, &first, NULL));
+  PetscCall(VecGetArrayRead(places, &x));
   for (PetscInt i = 0; i < n; ++i) {
     const PetscInt b = sim->places.body[i / 3];
 
-    m->size[b] = PetscMax(m->size[b], PetscAbsReal(PetscRealPart(x[i]) - m->center[3 * b + i % 3]));
+    size[b] = PetscMax(size[b], PetscAbsReal(PetscRealPart(x[i]) - center[3 * b + i % 3]));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, m->size, (PetscMPIInt)m->nbodies, MPIU_REAL, MPIU_MAX, sim->comm));
-  PetscCall(VecRestoreArrayRead(m->x, &x));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, size, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_MAX, sim->comm));
+  PetscCall(MatCreateAIJ(sim->comm, n, PETSC_DECIDE, N, 6 * nbodies, 3, NULL, 3, NULL, modes));
+  for (PetscInt i = 0; i < n; ++i) {
+    const PetscInt    b = sim->places.body[i / 3], c = i % 3, d = (c + 1) % 3, e = (c + 2) % 3, row = first + i;
+    const PetscInt    columns[3] = {6 * b + c, 6 * b + 3 + d, 6 * b + 3 + e};
+    const PetscScalar values[3]  = {1.0, (PetscRealPart(x[i - c + e]) - center[3 * b + e]) / size[b],
+       (center[3 * b + d] - PetscRealPart(x[i - c + d])) / size[b]};
+
+    PetscCall(MatSetValues(*modes, 1, &row, 3, columns, values, INSERT_VALUES));
+  }
+  PetscCall(VecRestoreArrayRead(places, &x));
+  PetscCall(MatAssemblyBegin(*modes, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*modes, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscFree2(center, size));
   PetscFunctionReturn(0);
 }
 
-/*
-   Computes the displacements w for motions of the bodies, 6 numbers per body: translations, and rotation angles times
-   the size of the body
-*/
-static PetscErrorCode FreeMotionsDisplaceBodies(const FreeMotions *m, const PetscReal motion[], Vec w)
+/* Creates a vector with 1 in rows that are prescribed or have a spring that is not weak, and 0 in the others */
+static PetscErrorCode FreeMotionsMarkResisted(Simulation sim, Vec *resisted)
 {
-  const PetscScalar *x;
+  const PetscScalar *k, *weak = NULL;
   PetscScalar       *a;
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(w, &n));
-  PetscCall(VecGetArrayRead(m->x, &x));
-  PetscCall(VecGetArrayWrite(w, &a));
+  PetscCall(VecDuplicate(sim->places.x, resisted));
+  PetscCall(VecZeroEntries(*resisted));
+  PetscCall(PrescribedSet(&sim->prescribed, 1.0, *resisted));
+  if (!sim->springs.stiffness) PetscFunctionReturn(0);
+  PetscCall(VecGetLocalSize(*resisted, &n));
+  PetscCall(VecGetArray(*resisted, &a));
+  PetscCall(VecGetArrayRead(sim->springs.stiffness, &k));
+  if (sim->springs.weak) PetscCall(VecGetArrayRead(sim->springs.weak, &weak));
   for (PetscInt i = 0; i < n; ++i) {
-    const PetscInt   b = m->sim->places.body[i / 3], c = i % 3, d = (c + 1) % 3, e = (c + 2) % 3, v = i - c;
-    const PetscReal *t = &motion[6 * b], *r = t + 3, *o = &m->center[3 * b];
-
-    a[i] = t[c] + (r[d] * (PetscRealPart(x[v + e]) - o[e]) - r[e] * (PetscRealPart(x[v + d]) - o[d])) / m->size[b];
+    if (PetscRealPart(k[i]) > (weak ? PetscRealPart(weak[i]) : 0.0)) a[i] = 1.0;
   }
-  PetscCall(VecRestoreArrayWrite(w, &a));
-  PetscCall(VecRestoreArrayRead(m->x, &x));
+  if (weak) PetscCall(VecRestoreArrayRead(sim->springs.weak, &weak));
+  PetscCall(VecRestoreArrayRead(sim->springs.stiffness, &k));
+  PetscCall(VecRestoreArray(*resisted, &a));
   PetscFunctionReturn(0);
 }
 
-/* Computes the work of forces on the bodies' motions, 6 numbers per body */
-static PetscErrorCode FreeMotionsSumBodies(const FreeMotions *m, Vec force, PetscReal motion[])
+/* Adds the matrix B, which is then destroyed, to A */
+static PetscErrorCode FreeMotionsAdd(Mat A, PetscReal factor, Mat *B)
 {
-  const PetscScalar *x, *f;
-  PetscInt           n;
-
   PetscFunctionBegin;
-  PetscCall(PetscArrayzero(motion, 6 * m->nbodies));
-  PetscCall(VecGetLocalSize(force, &n));
-  PetscCall(VecGetArrayRead(m->x, &x));
-  PetscCall(VecGetArrayRead(force, &f));
-  for (PetscInt i = 0; i < n; ++i) {
-    const PetscInt   b = m->sim->places.body[i / 3], c = i % 3, d = (c + 1) % 3, e = (c + 2) % 3, v = i - c;
-    const PetscReal *o = &m->center[3 * b], value = PetscRealPart(f[i]);
-
-    motion[6 * b + c] += value;
-    motion[6 * b + 3 + d] += (PetscRealPart(x[v + e]) - o[e]) * value / m->size[b];
-    motion[6 * b + 3 + e] -= (PetscRealPart(x[v + d]) - o[d]) * value / m->size[b];
-  }
-  PetscCall(VecRestoreArrayRead(force, &f));
-  PetscCall(VecRestoreArrayRead(m->x, &x));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, motion, (PetscMPIInt)(6 * m->nbodies), MPIU_REAL, MPIU_SUM, m->sim->comm));
+  PetscCall(MatAXPY(A, factor, *B, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatDestroy(B));
   PetscFunctionReturn(0);
 }
 
 /*
-   Computes the force with which prescribed, sprung and tied rows resist displacements w, with a stiffness of about 1
-   each
+   Computes the matrix of the resistance to the modes, with a stiffness of 1 of each prescribed, sprung or tied row,
+   on all ranks
 */
-static PetscErrorCode FreeMotionsResist(const FreeMotions *m, Vec w, Vec resisted, Vec force)
+static PetscErrorCode FreeMotionsMeasureResistance(Simulation sim, Mat modes, Mat *resistance)
 {
-  Simulation sim = m->sim;
-  PetscReal  size;
-  Vec        other, follows;
+  Mat       part, more, *all;
+  Vec       resisted;
+  IS        rows;
+  PetscReal size;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(w, &other));
-  PetscCall(VecDuplicate(w, &follows));
-  PetscCall(VecPointwiseMult(force, resisted, w));
+  PetscCall(FreeMotionsMarkResisted(sim, &resisted));
+  PetscCall(MatDuplicate(modes, MAT_COPY_VALUES, &part));
+  PetscCall(MatDiagonalScale(part, resisted, NULL));
+  PetscCall(VecDestroy(&resisted));
+  PetscCall(MatTransposeMatMult(part, part, MAT_INITIAL_MATRIX, PETSC_DEFAULT, resistance));
+  PetscCall(MatDestroy(&part));
   if (sim->ties.C) {
-    PetscCall(MatMult(sim->ties.C, w, other));
-    PetscCall(VecAYPX(other, -1.0, w));
-    PetscCall(VecAXPY(force, 1.0, other));
-    PetscCall(MatMultTranspose(sim->ties.C, other, follows));
-    PetscCall(VecAXPY(force, -1.0, follows));
+    PetscCall(MatMatMult(sim->ties.C, modes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &part));
+    PetscCall(MatAXPY(part, -1.0, modes, DIFFERENT_NONZERO_PATTERN));
+    PetscCall(MatTransposeMatMult(part, part, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &more));
+    PetscCall(MatDestroy(&part));
+    PetscCall(FreeMotionsAdd(*resistance, 1.0, &more));
   }
   if (sim->springs.between) {
     PetscCall(MatNorm(sim->springs.between, NORM_INFINITY, &size));
-    PetscCall(MatMult(sim->springs.between, w, other));
-    if (size > 0.0) PetscCall(VecAXPY(force, 1.0 / size, other));
+    PetscCall(MatPtAP(sim->springs.between, modes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &more));
+    PetscCall(FreeMotionsAdd(*resistance, size > 0.0 ? 1.0 / size : 0.0, &more));
   }
-  PetscCall(VecDestroy(&follows));
-  PetscCall(VecDestroy(&other));
+  PetscCall(ISCreateStride(PETSC_COMM_SELF, 6 * sim->scene->nbodies, 0, 1, &rows));
+  PetscCall(MatCreateSubMatrices(*resistance, 1, &rows, &rows, MAT_INITIAL_MATRIX, &all));
+  PetscCall(ISDestroy(&rows));
+  PetscCall(MatDestroy(resistance));
+  PetscCall(PetscObjectReference((PetscObject)all[0]));
+  *resistance = all[0];
+  PetscCall(MatDestroySubMatrices(1, &all));
   PetscFunctionReturn(0);
 }
 
-/* Sets `resisted` to 1 in rows that are prescribed or have a spring, and to 0 in the others */
-static PetscErrorCode FreeMotionsMarkResisted(Simulation sim, Vec resisted)
+/* Finds groups of bodies that ties or springs connect. group[b]: the first body of the group of body b */
+static PetscErrorCode FreeMotionsGroup(Mat resistance, PetscInt nbodies, PetscInt group[])
 {
-  PetscScalar       *a;
-  const PetscScalar *k;
-  PetscInt           n;
-
   PetscFunctionBegin;
-  PetscCall(VecZeroEntries(resisted));
-  PetscCall(PrescribedSet(&sim->prescribed, 1.0, resisted));
-  if (!sim->springs.stiffness) PetscFunctionReturn(0);
-  PetscCall(VecGetLocalSize(resisted, &n));
-  PetscCall(VecGetArray(resisted, &a));
-  PetscCall(VecGetArrayRead(sim->springs.stiffness, &k));
-  for (PetscInt i = 0; i < n; ++i) {
-    if (PetscRealPart(k[i]) > 0.0) a[i] = 1.0;
-  }
-  PetscCall(VecRestoreArrayRead(sim->springs.stiffness, &k));
-  PetscCall(VecRestoreArray(resisted, &a));
-  PetscFunctionReturn(0);
-}
+  for (PetscInt b = 0; b < nbodies; ++b) group[b] = b;
+  for (PetscInt i = 0; i < 6 * nbodies; ++i) {
+    PetscInt        n;
+    const PetscInt *columns;
 
-/* Computes the symmetric matrix of the resistance to the bodies' motions, [6 nbodies x 6 nbodies] */
-static PetscErrorCode FreeMotionsMeasureResistance(const FreeMotions *m, PetscReal resistance[])
-{
-  const PetscInt size = 6 * m->nbodies;
-  PetscReal     *motion, *work;
-  Vec            w, force, resisted;
+    PetscCall(MatGetRow(resistance, i, &n, &columns, NULL));
+    for (PetscInt k = 0; k < n; ++k) {
+      const PetscInt a = group[i / 6], b = group[columns[k] / 6];
 
-  PetscFunctionBegin;
-  PetscCall(VecDuplicate(m->x, &w));
-  PetscCall(VecDuplicate(m->x, &force));
-  PetscCall(VecDuplicate(m->x, &resisted));
-  PetscCall(FreeMotionsMarkResisted(m->sim, resisted));
-  PetscCall(PetscCalloc2(size, &motion, size, &work));
-  for (PetscInt k = 0; k < size; ++k) {
-    motion[k] = 1.0;
-    PetscCall(FreeMotionsDisplaceBodies(m, motion, w));
-    PetscCall(FreeMotionsResist(m, w, resisted, force));
-    PetscCall(FreeMotionsSumBodies(m, force, work));
-    for (PetscInt i = 0; i < size; ++i) resistance[size * k + i] = work[i];
-    motion[k] = 0.0;
+      for (PetscInt c = 0; a != b && c < nbodies; ++c)
+        if (group[c] == PetscMax(a, b)) group[c] = PetscMin(a, b);
+    }
+    PetscCall(MatRestoreRow(resistance, i, &n, &columns, NULL));
   }
-  PetscCall(PetscFree2(motion, work));
-  PetscCall(VecDestroy(&resisted));
-  PetscCall(VecDestroy(&force));
-  PetscCall(VecDestroy(&w));
   PetscFunctionReturn(0);
 }
 
 /*
-   Eliminates by Gauss's method, each time the motion with the largest resistance. pivot[k]: k-th eliminated motion; *n:
-   number of motions with resistance.
+   Finds the free motions of the group with the given first body as combinations of the modes. member: its bodies;
+   motion: an orthonormal basis, with six numbers per member, one after the other
 */
-static void FreeMotionsEliminate(PetscInt size, PetscReal a[], PetscInt pivot[], PetscInt *n)
+static PetscErrorCode FreeMotionsSolveGroup(Mat resistance, PetscInt nbodies, const PetscInt group[], PetscInt first,
+  PetscInt *nmembers, PetscInt member[], PetscInt *nmotions, PetscReal **motion)
 {
-  const PetscReal none = 1e-9; /* relative to the resistance of a held node, which is about 1 */
-  PetscBool       more = PETSC_TRUE;
-
-  for (*n = 0; more && *n < size; *n += more) {
-    PetscInt  best = PETSC_DECIDE;
-    PetscReal scale;
-
-    for (PetscInt i = 0; i < size; ++i) {
-      PetscBool taken = PETSC_FALSE;
-
-      for (PetscInt k = 0; k < *n; ++k) taken = (PetscBool)(taken || pivot[k] == i);
-      if (!taken && (best < 0 || a[size * i + i] > a[size * best + best])) best = i;
-    }
-    more = (PetscBool)(a[size * best + best] > none);
-    if (!more) break;
-    pivot[*n] = best;
-    scale     = 1.0 / a[size * best + best];
-    for (PetscInt j = 0; j < size; ++j) a[size * best + j] *= scale;
-    for (PetscInt i = 0; i < size; ++i) {
-      const PetscReal factor = a[size * i + best];
-
-      for (PetscInt j = 0; i != best && j < size; ++j) a[size * i + j] -= factor * a[size * best + j];
-    }
-  }
-}
-
-/* Makes motion n orthogonal to the earlier ones, and of length 1 */
-static void FreeMotionsOrthonormalize(PetscInt size, PetscInt n, PetscReal motion[])
-{
-  PetscReal *v = &motion[size * n], square = 0.0;
-
-  for (PetscInt k = 0; k < 2 * n; ++k) {
-    const PetscReal *before = &motion[size * (k % n)];
-    PetscReal        along  = 0.0;
-
-    for (PetscInt i = 0; i < size; ++i) along += before[i] * v[i];
-    for (PetscInt i = 0; i < size; ++i) v[i] -= along * before[i];
-  }
-  for (PetscInt i = 0; i < size; ++i) square += v[i] * v[i];
-  for (PetscInt i = 0; i < size; ++i) v[i] /= PetscSqrtReal(square);
-}
-
-/* Computes the motions without resistance, one for each motion that was not eliminated */
-static PetscErrorCode FreeMotionsFind(FreeMotions *m)
-{
-  const PetscInt size = 6 * m->nbodies;
-  PetscReal     *a;
-  PetscInt      *pivot, npivots;
-  PetscBool     *taken;
+  PetscInt n, size, *place;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(size * size, &a, size, &pivot));
-  PetscCall(PetscCalloc1(size, &taken));
-  PetscCall(FreeMotionsMeasureResistance(m, a));
-  FreeMotionsEliminate(size, a, pivot, &npivots);
-  for (PetscInt k = 0; k < npivots; ++k) taken[pivot[k]] = PETSC_TRUE;
-  PetscCall(PetscCalloc1(size * (size - npivots), &m->motion));
-  for (PetscInt j = 0; j < size; ++j) {
-    if (taken[j]) continue;
-    m->motion[size * m->n + j] = 1.0;
-    for (PetscInt k = 0; k < npivots; ++k) m->motion[size * m->n + pivot[k]] = -a[size * pivot[k] + j];
-    FreeMotionsOrthonormalize(size, m->n++, m->motion);
+  *nmembers = 0;
+  PetscCall(PetscMalloc1(nbodies, &place));
+  for (PetscInt b = 0; b < nbodies; ++b) {
+    place[b] = *nmembers;
+    if (group[b] == first) member[(*nmembers)++] = b;
   }
-  PetscCall(PetscFree(taken));
-  PetscCall(PetscFree2(a, pivot));
+  size = 6 * *nmembers;
+  PetscCall(PetscCalloc1(size * size, motion));
+  for (PetscInt i = 0; i < size; ++i) {
+    const PetscInt     row = 6 * member[i / 6] + i % 6;
+    const PetscInt    *columns;
+    const PetscScalar *values;
+
+    PetscCall(MatGetRow(resistance, row, &n, &columns, &values));
+    for (PetscInt k = 0; k < n; ++k)
+      (*motion)[size * i + 6 * place[columns[k] / 6] + columns[k] % 6] = PetscRealPart(values[k]);
+    PetscCall(MatRestoreRow(resistance, row, &n, &columns, &values));
+  }
+  PetscCall(SupportFindNull(size, *motion, nmotions));
+  PetscCall(PetscFree(place));
   PetscFunctionReturn(0);
 }
 
-/* Computes the free motions at the last state. Collective. */
+/* Creates the matrix whose columns are the free motions as combinations of the modes */
+static PetscErrorCode FreeMotionsCombine(Simulation sim, Mat modes, Mat resistance, PetscInt *n, Mat *combined)
+{
+  const PetscInt nbodies = sim->scene->nbodies;
+  PetscInt      *group, *member, nmembers, nmotions, local;
+  PetscReal     *motion;
+  PetscMPIInt    rank;
+
+  PetscFunctionBegin;
+  *n = 0;
+  PetscCallMPI(MPI_Comm_rank(sim->comm, &rank));
+  PetscCall(PetscMalloc2(nbodies, &group, nbodies, &member));
+  PetscCall(FreeMotionsGroup(resistance, nbodies, group));
+  PetscCall(MatGetLocalSize(modes, NULL, &local));
+  PetscCall(MatCreate(sim->comm, combined));
+  PetscCall(MatSetSizes(*combined, local, PETSC_DECIDE, PETSC_DETERMINE, 6 * nbodies));
+  PetscCall(MatSetType(*combined, MATAIJ));
+  PetscCall(MatSetUp(*combined));
+  for (PetscInt b = 0; b < nbodies; ++b) {
+    if (group[b] != b) continue;
+    PetscCall(FreeMotionsSolveGroup(resistance, nbodies, group, b, &nmembers, member, &nmotions, &motion));
+    for (PetscInt i = 0; i < 6 * nmembers && !rank; ++i) {
+      for (PetscInt k = 0; k < nmotions; ++k)
+        PetscCall(
+          MatSetValue(*combined, 6 * member[i / 6] + i % 6, *n + k, motion[6 * nmembers * k + i], INSERT_VALUES));
+    }
+    *n += nmotions;
+    PetscCall(PetscFree(motion));
+  }
+  PetscCall(MatAssemblyBegin(*combined, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*combined, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscFree2(group, member));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Collective. Computes the free motions at the last state. Bodies at small strain are at their undeformed positions, as
+   in the energy, unless rigid bodies turn.
+*/
 PetscErrorCode FreeMotionsCreate(Simulation sim, FreeMotions *m)
 {
+  PetscBool linear;
+  Mat       modes, resistance, combined;
+  Vec       places;
+
   PetscFunctionBegin;
-  *m = (FreeMotions){.sim = sim, .nbodies = sim->scene->nbodies};
-  PetscCall(FreeMotionsGetPlaces(sim, &m->x));
-  PetscCall(FreeMotionsMeasureBodies(m));
-  PetscCall(FreeMotionsFind(m));
+  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
+  PetscCall(VecDuplicate(sim->places.x, &places));
+  PetscCall(VecCopy(sim->places.x, places));
+  if (!linear || sim->rigid.turns) PetscCall(VecAXPY(places, 1.0, sim->path->u));
+  PetscCall(FreeMotionsCreateModes(sim, places, &modes));
+  PetscCall(VecDestroy(&places));
+  PetscCall(FreeMotionsMeasureResistance(sim, modes, &resistance));
+  m->comm = sim->comm;
+  PetscCall(FreeMotionsCombine(sim, modes, resistance, &m->n, &combined));
+  PetscCall(MatMatMult(modes, combined, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &m->Z));
+  PetscCall(MatDestroy(&combined));
+  PetscCall(MatDestroy(&resistance));
+  PetscCall(MatDestroy(&modes));
+  PetscFunctionReturn(0);
+}
+
+/* Computes the product of row i of a matrix, which this rank owns, with `motion` */
+PetscErrorCode FreeMotionsGetRate(Mat A, PetscInt row, const PetscReal motion[], PetscReal *rate)
+{
+  const PetscInt    *columns;
+  const PetscScalar *values;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  *rate = 0.0;
+  PetscCall(MatGetRow(A, row, &n, &columns, &values));
+  for (PetscInt k = 0; k < n; ++k) *rate += PetscRealPart(values[k]) * motion[columns[k]];
+  PetscCall(MatRestoreRow(A, row, &n, &columns, &values));
   PetscFunctionReturn(0);
 }
 
 /* Computes the displacements w of a combination of the free motions */
 PetscErrorCode FreeMotionsDisplace(const FreeMotions *m, const PetscReal motion[], Vec w)
 {
-  const PetscInt size = 6 * m->nbodies;
-  PetscReal     *bodies;
+  PetscScalar *a;
+  PetscInt     first, end;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(size, &bodies));
-  for (PetscInt k = 0; k < m->n; ++k) {
-    for (PetscInt i = 0; i < size; ++i) bodies[i] += motion[k] * m->motion[size * k + i];
+  PetscCall(VecGetOwnershipRange(w, &first, &end));
+  PetscCall(VecGetArrayWrite(w, &a));
+  for (PetscInt i = first; i < end; ++i) {
+    PetscReal value;
+
+    PetscCall(FreeMotionsGetRate(m->Z, i, motion, &value));
+    a[i - first] = value;
   }
-  PetscCall(FreeMotionsDisplaceBodies(m, bodies, w));
-  PetscCall(PetscFree(bodies));
+  PetscCall(VecRestoreArrayWrite(w, &a));
   PetscFunctionReturn(0);
 }
 
 /* Computes the work of forces on the free motions */
 PetscErrorCode FreeMotionsSum(const FreeMotions *m, Vec force, PetscReal motion[])
 {
-  const PetscInt size = 6 * m->nbodies;
-  PetscReal     *bodies;
+  const PetscScalar *f, *values;
+  const PetscInt    *columns;
+  PetscInt           first, end, n;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(size, &bodies));
-  PetscCall(FreeMotionsSumBodies(m, force, bodies));
-  for (PetscInt k = 0; k < m->n; ++k) {
-    motion[k] = 0.0;
-    for (PetscInt i = 0; i < size; ++i) motion[k] += bodies[i] * m->motion[size * k + i];
+  PetscCall(PetscArrayzero(motion, m->n));
+  PetscCall(VecGetOwnershipRange(force, &first, &end));
+  PetscCall(VecGetArrayRead(force, &f));
+  for (PetscInt i = first; i < end; ++i) {
+    PetscCall(MatGetRow(m->Z, i, &n, &columns, &values));
+    for (PetscInt k = 0; k < n; ++k) motion[columns[k]] += PetscRealPart(values[k] * f[i - first]);
+    PetscCall(MatRestoreRow(m->Z, i, &n, &columns, &values));
   }
-  PetscCall(PetscFree(bodies));
+  PetscCall(VecRestoreArrayRead(force, &f));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, motion, (PetscMPIInt)m->n, MPIU_REAL, MPIU_SUM, m->comm));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode FreeMotionsDestroy(FreeMotions *m)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree2(m->center, m->size));
-  PetscCall(PetscFree(m->motion));
-  PetscCall(VecDestroy(&m->x));
+  PetscCall(MatDestroy(&m->Z));
   PetscFunctionReturn(0);
 }

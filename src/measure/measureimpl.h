@@ -23,20 +23,20 @@ PETSC_INTERN PetscErrorCode RigidMotionReport(Simulation, Vec u, const char know
 
 /* free_motions.c: rigid motions of all bodies that no prescribed displacement, spring or tie resists */
 typedef struct {
-  Simulation sim;
-  PetscInt   nbodies, n;
-  Vec        x;             /* coordinates of the nodes [length] */
-  PetscReal *center, *size; /* centre (3 numbers) and size of each body [length] */
-  PetscReal *motion;        /* [6 nbodies n], orthonormal; for each body three translations, and three angles times
-                               its size */
+  MPI_Comm comm;
+  PetscInt n;
+  Mat      Z; /* one column for each motion: the displacements of the nodes [length] */
 } FreeMotions;
 
 PETSC_INTERN PetscErrorCode FreeMotionsCreate(Simulation, FreeMotions *);
+PETSC_INTERN PetscErrorCode FreeMotionsGetRate(Mat, PetscInt row, const PetscReal motion[], PetscReal *rate);
 PETSC_INTERN PetscErrorCode FreeMotionsDisplace(const FreeMotions *, const PetscReal motion[], Vec w);
 PETSC_INTERN PetscErrorCode FreeMotionsSum(const FreeMotions *, Vec force, PetscReal motion[]);
 PETSC_INTERN PetscErrorCode FreeMotionsDestroy(FreeMotions *);
 
 /* diagnose_equilibrium.c */
+#define WEAK_SPRINGS_SHARE 0.01 /* largest part of the loads on a body that its weak springs may carry */
+
 PETSC_INTERN PetscErrorCode EquilibriumDiagnose(Simulation, PetscReal time, Vec load, StepReport *, PetscBool *none);
 
 /* forces.c: forces and moments of pairs, faces and bodies */

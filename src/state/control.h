@@ -53,16 +53,14 @@ struct _n_StepControl {
   KSP             ksp;     /* linear solver for quadratic load steps without contact; NULL until it is needed */
   Forecast        forecast;
   StepObserver    observer;
-  PetscBool       slipped;        /* true after a warning of a body that slips away */
-  PetscInt        unsupported;    /* number of consecutive attempts at this load step that failed because contact cannot
+  PetscBool       lost_contact; /* true after a warning of a body that has lost contact */
+  PetscInt        unsupported;  /* number of consecutive attempts at this load step that failed because contact cannot
                                  hold the loads; a proven failure counts 2 */
-  char           *cause;          /* reason for which the first of these attempts failed; NULL if there was none */
-  PetscReal       weak_stiffness; /* stiffness of the proximal term of bodies on weak springs, divided by the stiffness
-                                 of the bodies; 0: no such term */
-  PetscInt        dual_tried;     /* number of the last load step that was tried with dual shape functions, from 1;
+  char           *cause;        /* reason for which the first of these attempts failed; NULL if there was none */
+  PetscInt        dual_tried;   /* number of the last load step that was tried with dual shape functions, from 1;
                                      0: none */
-  StepFailure     failure;        /* the failed attempt that is repeated with them */
-  int             interrupted;    /* signal that was caught; 0: none */
+  StepFailure     failure;      /* the failed attempt that is repeated with them */
+  int             interrupted;  /* signal that was caught; 0: none */
 };
 
 #endif

@@ -142,24 +142,6 @@ static PetscErrorCode AttemptCheckStart(Simulation sim, const StepReport *report
   PetscFunctionReturn(0);
 }
 
-/* Solves with contact. If no state is found without the weak springs that hold loose bodies, they are added. */
-static PetscErrorCode AttemptContact(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report,
-  ContactSolution *sol, ContactLinearization *at_u)
-{
-  PetscFunctionBegin;
-  PetscCall(ContactUpdatesSolve(p, foreseen, u, report, sol, at_u));
-  while (!report->converged && ProximalMayHoldWeak(p)) {
-    PetscCall(ContactLinearizationDestroy(at_u));
-    PetscCall(ContactLinearizationDestroy(&p->sim->solved->linearization));
-    PetscCall(ProximalHoldWeak(p, u));
-    PetscCall(ContactUpdatesSolve(p, PETSC_FALSE, u, report, sol, at_u));
-  }
-  PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
-  PetscCall(MissedFindPassed(p->sim, p->time, u, report));
-  PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
-  PetscFunctionReturn(0);
-}
-
 /*
    Measures the new state and makes it the last one of sim->path, which takes u. *at_u: the linearization at u, which
    the next load step takes
@@ -213,8 +195,13 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   if (first && time > (PetscReal)(first - 1) && sim->path->largest_increment > 0.0)
     PetscCall(StepProblemSetBounds(&p, sim->path->largest_increment));
   PetscCall(ForecastGet(&p, u, &foreseen));
-  if (sim->contact) PetscCall(AttemptContact(&p, foreseen, u, report, &sol, &at_u));
-  else PetscCall(AttemptBodies(&p, foreseen, u, report, &sol));
+  if (sim->contact) {
+    PetscCall(ContactUpdatesSolve(&p, foreseen, u, report, &sol, &at_u));
+    PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
+    PetscCall(LostContactSettle(&p, last, u, &sol, &at_u, report));
+    PetscCall(MissedFindPassed(sim, time, u, report));
+    PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
+  } else PetscCall(AttemptBodies(&p, foreseen, u, report, &sol));
   PetscCall(AttemptCountUnsupported(&p, report));
   PetscCall(AttemptJudgeTimeStep(sim, time, u, report));
   if (report->converged) {

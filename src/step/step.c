@@ -145,7 +145,6 @@ static PetscErrorCode SimulationAdvance(Simulation sim, PetscReal end, StepRepor
   if (report->converged) {
     ++report->substeps;
     PetscCall(DualGapsAccept(sim, report));
-    PetscCall(SlippedAwayWarn(sim, report));
     if (sim->control->observer.reach) PetscCall(sim->control->observer.reach(sim));
     *increment = SimulationLengthen(sim, *increment);
   }

@@ -22,8 +22,9 @@ PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepRe
 PETSC_INTERN PetscErrorCode DualGapsTry(Simulation, StepReport *, PetscBool *again);
 PETSC_INTERN PetscErrorCode DualGapsAccept(Simulation, const StepReport *);
 
-/* slipped_away.c: warns of bodies that leave the contact and move far away */
-PETSC_INTERN PetscErrorCode SlippedAwayWarn(Simulation, const StepReport *);
+/* lost_contact.c: places bodies that have lost contact */
+PETSC_INTERN PetscErrorCode LostContactSettle(const StepProblem *, ContactLinearization last, Vec u, ContactSolution *,
+  ContactLinearization *at_u, const StepReport *);
 
 /* step.c: its functions are declared in step.h */
 

@@ -48,12 +48,13 @@ static PetscBool Violated(const TAO_IPFILTER *ip)
   return (PetscBool)(ip->kkt->violation > small);
 }
 
-/* Returns whether the violation is also small relative to the constraints' own terms (own.c) */
-static PetscBool OwnMet(const TAO_IPFILTER *ip)
+/*
+   Returns whether the violation is also at most `limit` relative to the constraints' own terms (own.c). A relaxation
+   violates constraints whose terms vanish by more.
+*/
+static PetscBool OwnMet(const TAO_IPFILTER *ip, PetscReal limit)
 {
-  const PetscReal trace = 1e-6;
-
-  return (PetscBool)(ip->kkt->own <= PetscMax(trace, ip->tol));
+  return (PetscBool)(ip->kkt->own <= PetscMax(ip->relax->times ? IP_ACCEPTABLE_TOL : limit, ip->tol));
 }
 
 /* Returns whether both measures of the KKT error are within the tolerance, and the absolute tolerances are met */
@@ -61,7 +62,7 @@ static PetscBool Converged(const TAO_IPFILTER *ip)
 {
   const IPKKT *k = ip->kkt;
 
-  if (IPBothErrors(ip) > ip->tol || !OwnMet(ip)) return PETSC_FALSE;
+  if (IPBothErrors(ip) > ip->tol || !OwnMet(ip, ip->tol)) return PETSC_FALSE;
   return (PetscBool)(k->inf_du <= IPAbsoluteTolerance(ip, ip->opt->dual_inf_tol, 1.0) &&
                      k->inf_pr <= IPAbsoluteTolerance(ip, ip->opt->constr_viol_tol, 1e-4) &&
                      k->inf_compl <= IPAbsoluteTolerance(ip, ip->opt->compl_inf_tol, 1e-4));
@@ -70,7 +71,7 @@ static PetscBool Converged(const TAO_IPFILTER *ip)
 /* Returns whether both measures of the KKT error are within the acceptable tolerance */
 PetscBool IPAcceptable(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(IPBothErrors(ip) <= IP_ACCEPTABLE_TOL && OwnMet(ip));
+  return (PetscBool)(IPBothErrors(ip) <= IP_ACCEPTABLE_TOL && OwnMet(ip, IP_ACCEPTABLE_TOL));
 }
 
 /* Computes the size of the unknowns with which steps are compared: at least a small fraction of the first size */
@@ -165,7 +166,6 @@ static PetscErrorCode ObserveFall(Tao tao)
   cut = (PetscBool)(shifted || (!rec->ntiny && cut));
   rec->nidle  = open && cut && f > rec->lowest - some ? rec->nidle + 1 : 0;
   rec->falls  = (PetscBool)(open && cut && rec->nidle < patience);
-  rec->nopen  = rec->falls && Converged(ip) && shifted ? rec->nopen + 1 : 0;
   rec->lowest = rec->nidle ? PetscMin(rec->lowest, f) : f;
   rec->before = f;
   PetscFunctionReturn(0);
@@ -203,65 +203,6 @@ PetscBool IPRefines(TAO_IPFILTER *ip)
   return (PetscBool)(ip->rec->nrefined++ < most);
 }
 
-/* Computes |x_i| of the largest unknown and its curvature |H_ii| */
-static PetscErrorCode LargestUnknown(Tao tao, PetscReal *size, PetscReal *curvature)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscInt      i, first, last;
-  Vec           v;
-
-  PetscFunctionBegin;
-  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
-  PetscCall(VecCopy(tao->solution, v));
-  PetscCall(VecAbs(v));
-  PetscCall(VecMax(v, &i, size));
-  PetscCall(VecGetOwnershipRange(v, &first, &last));
-  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v));
-  *curvature = 0.0;
-  if (i >= first && i < last) {
-    const PetscScalar *h;
-
-    PetscCall(VecGetArrayRead(ip->stiff->hdiag, &h));
-    *curvature = PetscAbsScalar(h[i - first]);
-    PetscCall(VecRestoreArrayRead(ip->stiff->hdiag, &h));
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, curvature, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Finds whether the iterates of a nonconvex problem grow without limit. At infinity gradient and curvature may vanish
-   as at a minimum. The iterates have run away if the unknowns are much larger than at the start and the Hessian still
-   needs a shift there, in several iterates where the objective still falls. If the largest unknown has no curvature, a
-   smaller growth suffices.
-*/
-static PetscErrorCode RunsAway(Tao tao, PetscBool *away)
-{
-  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscReal large = 100.0, beyond = 10.0, flat = 1e-8;
-  const PetscInt  patience = 10;
-  PetscReal       size, stiffness, curvature;
-  PetscBool       vanishes, before;
-
-  PetscFunctionBegin;
-  PetscCall(VecNorm(ip->stiff->hdiag, NORM_INFINITY, &stiffness));
-  *away = (PetscBool)(tao->niter && stiffness > 0.0 && ip->bar->curved && !ip->qn->B && ip->first->x > 0.0 &&
-                      ip->shift->delta > 0.0);
-  if (!*away) PetscFunctionReturn(0);
-  PetscCall(LargestUnknown(tao, &size, &curvature));
-  vanishes      = (PetscBool)(curvature > 0.0 && curvature <= flat * stiffness); /* it is 0 for linear unknowns */
-  *away         = (PetscBool)(size > (vanishes ? beyond : large) * ip->first->x);
-  before        = (PetscBool)(ip->rec->away || !ip->rec->nrefined);
-  ip->rec->away = *away;
-  *away         = (PetscBool)(*away && (ip->rec->falls ? ip->rec->nopen >= patience : before));
-  if (!*away) PetscFunctionReturn(0);
-  ip->rec->nrefined = 0;
-  PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
-    "no solution: the unknowns grow without limit, from %g to %g, where the objective is nearly flat",
-    (double)ip->first->x, (double)size));
-  PetscFunctionReturn(0);
-}
-
 /* If refinement failed after an iterate had converged, gives the best iterate, which is present again, its reason */
 PetscErrorCode IPConvergeRefined(Tao tao)
 {
@@ -285,8 +226,8 @@ static PetscErrorCode TestWithoutMultipliers(Tao tao, PetscBool *stationary)
 
   PetscFunctionBegin;
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
-  *stationary =
-    (PetscBool)(gradient == 0.0 && !ip->terms->n && ip->kkt->violation <= ip->tol && OwnMet(ip) && !ip->relax->times);
+  *stationary = (PetscBool)(gradient == 0.0 && !ip->terms->n && ip->kkt->primal <= ip->tol && ip->kkt->own <= ip->tol &&
+                            !ip->relax->times);
   if (!*stationary) PetscFunctionReturn(0);
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->at.z[b]) PetscCall(VecSet(ip->at.z[b], 0.0));
@@ -349,7 +290,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   const IPKKT  *k  = ip->kkt;
-  PetscBool     own, stationary = PETSC_FALSE, fritz_john, unbounded, away = PETSC_FALSE;
+  PetscBool     own, stationary = PETSC_FALSE, fritz_john, unbounded;
   PetscReal     lowest;
 
   PetscFunctionBegin;
@@ -361,14 +302,12 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   if (!Converged(ip)) PetscCall(TestWithoutMultipliers(tao, &stationary));
   PetscCall(IPDegenerateFritzJohn(tao, &fritz_john));
   PetscCall(IPTestUnbounded(tao, &lowest, &unbounded));
-  if (ip->watch->left) unbounded = PETSC_FALSE; /* steps of the watchdog are taken without a test */
   if (stationary) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL,
       "converged: the gradient of the objective is zero, and the constraints are met"));
   } else if (Converged(ip) && IPConstraintsMet(tao)) {
-    PetscCall(RunsAway(tao, &away));
-    if (!away) PetscCall(ConvergeUnlessDegenerate(tao));
-  } else if (fritz_john && OwnMet(ip) && IPConstraintsMet(tao)) {
+    PetscCall(ConvergeUnlessDegenerate(tao));
+  } else if (fritz_john && OwnMet(ip, IP_ACCEPTABLE_TOL) && IPConstraintsMet(tao)) {
     const PetscBool acceptable = (PetscBool)(IPBothErrors(ip) <= IP_ACCEPTABLE_TOL);
 
     PetscCall(IPSetReason(tao, acceptable ? TAO_CONVERGED_STEPTOL : TAO_DIVERGED_USER,

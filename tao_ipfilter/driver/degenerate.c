@@ -53,7 +53,8 @@ static PetscErrorCode DegenerateStagnates(Tao tao, PetscBool *stands)
 /*
    Finds whether the Fritz John conditions hold without the objective: the gradients of satisfied equality constraints
    vanish, so that their multipliers grow without limit, and the stationarity residual is small relative to the
-   multipliers' forces
+   multipliers' forces. Bounds and inequality constraints without an interior have the same effect, and are relaxed
+   first.
 */
 PetscErrorCode IPDegenerateFritzJohn(Tao tao, PetscBool *holds)
 {
@@ -64,8 +65,8 @@ PetscErrorCode IPDegenerateFritzJohn(Tao tao, PetscBool *holds)
 
   PetscFunctionBegin;
   *holds = PETSC_FALSE;
-  if (!ip->me || ip->opt->scaling == IP_SCALING_NONE || k->primal > ip->tol || k->violation > ip->tol ||
-      k->complementarity > ip->tol)
+  if (!ip->me || IPRelaxApplies(ip) || ip->opt->scaling == IP_SCALING_NONE || k->primal > ip->tol ||
+      k->violation > ip->tol || k->complementarity > ip->tol)
     PetscFunctionReturn(0);
   PetscCall(DegenerateForceAtStart(tao, &force));
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));

@@ -46,8 +46,9 @@ static PetscErrorCode ResetSolve(Tao tao)
 
 /*
    Returns whether the present iterate is better than the best one. It is if its violation is smaller, or if both
-   violations are within the tolerance and its KKT error is not larger. If one of the two iterates is acceptable, only
-   the KKT errors are compared. If both are equally good, the present one is better.
+   violations are within the tolerance and its objective is not larger. If one of the two iterates is acceptable, or
+   norm terms are present, which no objective contains, the KKT errors are compared. If both are equally good, the
+   present one is better.
 */
 static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
 {
@@ -57,7 +58,9 @@ static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
 
   if (acceptable || ip->rec->best_error <= IP_ACCEPTABLE_TOL)
     return (PetscBool)(acceptable && (ip->rec->falls || IPBothErrors(ip) <= same * ip->rec->best_error));
-  return (PetscBool)(violation < best || (violation == best && IPBothErrors(ip) <= same * ip->rec->best_error));
+  if (ip->terms->n)
+    return (PetscBool)(violation < best || (violation == best && IPBothErrors(ip) <= same * ip->rec->best_error));
+  return (PetscBool)(violation < best || (violation == best && ip->at.f <= ip->best.f));
 }
 
 /* Stores the current iterate as the best one if it is better */
@@ -174,36 +177,40 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   PetscFunctionReturn(0);
 }
 
-/*
-   Returns whether constraints are violated by more than the last iterations of a solve leave, relative to all
-   constraints or to the terms of one
-*/
+/* Returns whether constraints are violated by more than the tolerance, relative to all constraints or to the terms of
+   one */
 static PetscBool StillViolated(const TAO_IPFILTER *ip)
 {
-  const PetscReal limit = PetscMax(100.0 * ip->tol, 1e-6);
+  return (PetscBool)(ip->kkt->primal > ip->tol || ip->kkt->own > PetscMax(ip->tol, IP_ACCEPTABLE_TOL));
+}
 
-  return (PetscBool)(ip->kkt->primal > limit || ip->kkt->own > limit);
+/* Ends the solve if the present iterate is acceptable. solved: a direction was found */
+static PetscErrorCode AcceptIfGoodEnough(Tao tao, PetscBool solved)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (IPAcceptable(ip) && !ip->rec->falls && IPConstraintsMet(tao) && !(solved && ip->bar->free))
+    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
+      "acceptable: no step reduces the KKT error %g further; the tolerance is %g", (double)IPBothErrors(ip),
+      (double)ip->tol));
+  PetscFunctionReturn(0);
 }
 
 /*
    Handles a step for which no direction was found (solved: false) or no step length. The fallbacks are, in this order:
-   use the monotone rule for mu for some iterations; relax constraints without an interior; reduce the violation alone
-   (restoration).
+   use the monotone rule for mu for some iterations; reduce the violation alone (restoration).
 */
 static PetscErrorCode Recover(Tao tao, PetscBool solved)
 {
   TAO_IPFILTER   *ip         = (TAO_IPFILTER *)tao->data;
   const PetscInt  iterations = 10;
   const PetscBool violated   = StillViolated(ip);
-  PetscBool       ok = PETSC_FALSE, infeasible = PETSC_FALSE, relaxed;
+  PetscBool       ok = PETSC_FALSE, infeasible = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (IPAcceptable(ip) && !ip->rec->falls && IPConstraintsMet(tao) && !(solved && ip->bar->free)) {
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-      "acceptable: no step reduces the KKT error %g further; the tolerance is %g", (double)IPBothErrors(ip),
-      (double)ip->tol));
-    PetscFunctionReturn(0);
-  }
+  if (!violated) PetscCall(AcceptIfGoodEnough(tao, solved));
+  if (tao->reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
   if (!solved && ip->lin->failed) {
     PetscCall(EndLinear(tao));
     PetscFunctionReturn(0);
@@ -212,13 +219,12 @@ static PetscErrorCode Recover(Tao tao, PetscBool solved)
     PetscCall(IPBarrierHold(tao, iterations));
     PetscFunctionReturn(0);
   }
-  if (!violated) {
-    PetscCall(IPRelaxInstead(tao, &relaxed));
-    if (relaxed) PetscFunctionReturn(0);
-  } else {
+  if (violated) {
     PetscCall(IPMeritMeasure(tao)); /* measured by the line search only if there was a direction */
     PetscCall(IPRestore(tao, &ok, &infeasible));
     if (!ok) PetscCall(IPComputeKKT(tao));
+    if (!ok) PetscCall(AcceptIfGoodEnough(tao, solved));
+    if (tao->reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
   }
   if (ok) {
     ip->search->tag = 'R';

@@ -59,29 +59,6 @@ static PetscErrorCode UnboundedAtIterate(Tao tao, PetscBool *unbounded)
   PetscFunctionReturn(0);
 }
 
-/*
-   Counts consecutive full steps along which the objective fell linearly, so that only the shift of the Hessian limited
-   them. *fall: decrease of the objective in the last step.
-*/
-static PetscErrorCode UnboundedCount(Tao tao, PetscReal *fall)
-{
-  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscReal straight = 1e-3;
-  PetscScalar     slope;
-  PetscBool       counts = (PetscBool)(tao->niter && ip->shift->delta > 0.0 && ip->search->alpha == 1.0 &&
-                                 ip->search->tag != 'R' && !ip->terms->n);
-
-  PetscFunctionBegin;
-  *fall           = ip->rec->last_f - ip->at.f;
-  ip->rec->last_f = ip->at.f;
-  if (counts) {
-    PetscCall(VecDot(tao->gradient, ip->dir.x, &slope));
-    counts = (PetscBool)(*fall > 0.0 && PetscAbsReal(*fall + PetscRealPart(slope)) <= straight * *fall);
-  }
-  ip->rec->nstraight = counts ? ip->rec->nstraight + 1 : 0;
-  PetscFunctionReturn(0);
-}
-
 #define IP_UNBOUNDED_ROUNDING 1e-9 /* violation that counts as rounding, relative to the terms of a step */
 
 /*
@@ -133,18 +110,20 @@ static PetscErrorCode UnboundedAdmits(Tao tao, Vec d, PetscReal times, PetscBool
 }
 
 /*
-   Finds whether a multiple of the direction d leads from the iterate to a point that shows an unbounded objective.
-   fall: decrease of the objective along d. *f: objective at that point.
+   Finds whether the objective falls by UnboundedFall() from the iterate along a multiple of the direction d, at the end
+   of which bounds and constraints are satisfied. slope: derivative of the objective along d. *f: objective at that
+   point.
 */
-static PetscErrorCode UnboundedAlong(Tao tao, Vec d, PetscReal fall, PetscReal *f, PetscBool *unbounded)
+static PetscErrorCode UnboundedAlong(Tao tao, Vec d, PetscReal slope, PetscReal *f, PetscBool *unbounded)
 {
-  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal goal = ip->first->f - UnboundedFall(ip), times = 2.0 * (ip->at.f - goal) / fall;
+  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
+  const PetscReal fall  = UnboundedFall(ip);
+  PetscReal       times = 2.0 * fall / -slope;
 
   PetscFunctionBegin;
   PetscCall(VecWAXPY(ip->trial.x, times, d, tao->solution));
   PetscCall(TaoComputeObjective(tao, ip->trial.x, f));
-  *unbounded = (PetscBool)(!IPUndefined(*f) && *f < goal);
+  *unbounded = (PetscBool)(!IPUndefined(*f) && *f < ip->at.f - fall);
   if (*unbounded) PetscCall(UnboundedAdmits(tao, d, times, unbounded));
   PetscFunctionReturn(0);
 }
@@ -162,31 +141,9 @@ PetscErrorCode IPSetUnbounded(Tao tao, PetscReal lowest)
   PetscFunctionReturn(0);
 }
 
-/* Finds whether the objective is unbounded. *f: lowest value found. Must be called once per iteration. */
-PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
-{
-  TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscInt patience = 5;
-  PetscReal      fall;
-
-  PetscFunctionBegin;
-  *f = ip->at.f;
-  PetscCall(UnboundedHasAllBounds(tao, unbounded));
-  if (*unbounded) {
-    *unbounded = PETSC_FALSE;
-    PetscFunctionReturn(0);
-  }
-  PetscCall(UnboundedAtIterate(tao, unbounded));
-  PetscCall(UnboundedCount(tao, &fall));
-  if (!*unbounded && UnboundedFall(ip) > 0.0 && ip->rec->nstraight && ip->rec->nstraight % patience == 0)
-    PetscCall(UnboundedAlong(tao, ip->dir.x, fall, f, unbounded));
-  PetscFunctionReturn(0);
-}
-
 /*
-   Finds, after the line search has failed, whether the objective is unbounded along the last direction, or along the
-   ray from the origin through the iterate. Where the objective falls along curved constraints, steps may become too
-   short before the iterates show that it is unbounded.
+   Finds whether the objective is unbounded along the last direction, or along the ray from the origin through the
+   iterate. *f: lowest value found.
 */
 PetscErrorCode IPTestUnboundedRays(Tao tao, PetscReal *f, PetscBool *unbounded)
 {
@@ -202,7 +159,27 @@ PetscErrorCode IPTestUnboundedRays(Tao tao, PetscReal *f, PetscBool *unbounded)
     PetscScalar slope;
 
     PetscCall(VecDot(tao->gradient, d[k], &slope));
-    if (PetscRealPart(slope) < 0.0) PetscCall(UnboundedAlong(tao, d[k], -PetscRealPart(slope), f, unbounded));
+    if (PetscRealPart(slope) < 0.0) PetscCall(UnboundedAlong(tao, d[k], PetscRealPart(slope), f, unbounded));
   }
+  PetscFunctionReturn(0);
+}
+
+/*
+   Finds whether the objective is unbounded: it has fallen far, and a ray proves that it falls further, or the iterates
+   diverge: the unknowns have grown by the same factor. The fall alone may be large only beside a start at which the
+   objective happened to be small.
+*/
+PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
+{
+  const PetscReal first = ((TAO_IPFILTER *)tao->data)->first->x;
+  PetscReal       size;
+
+  PetscFunctionBegin;
+  *f = ((TAO_IPFILTER *)tao->data)->at.f;
+  PetscCall(UnboundedAtIterate(tao, unbounded));
+  if (!*unbounded) PetscFunctionReturn(0);
+  PetscCall(IPTestUnboundedRays(tao, f, unbounded));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  if (size > IP_UNBOUNDED_FACTOR * (first > 0.0 ? first : 1.0)) *unbounded = PETSC_TRUE;
   PetscFunctionReturn(0);
 }

@@ -26,7 +26,30 @@ static PetscErrorCode CheckLayout(Tao tao, Vec v, const char name[], Vec model, 
     name, local[0], first, local[1], of);
 }
 
-/* Checks the layouts of masses, bounds and starting values. Vectors for constraints that do not exist are not used. */
+/* Raises an error if a tolerance is NaN or infinite: the comparison with it would not mean anything */
+static PetscErrorCode CheckTolerance(Tao tao, PetscReal tolerance, const char name[])
+{
+  PetscFunctionBegin;
+  PetscCheck(!PetscIsInfOrNanReal(tolerance), PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
+    "The tolerance %s must be a finite number, not %g", name, (double)tolerance);
+  PetscFunctionReturn(0);
+}
+
+/* Checks what the caller has set by functions of TAO that TAOIPFILTER does not see called */
+static PetscErrorCode CheckProblem(Tao tao)
+{
+  PetscFunctionBegin;
+  PetscCheck(!tao->ops->computeconstraints, PetscObjectComm((PetscObject)tao), PETSC_ERR_SUP,
+    "TAOIPFILTER does not use the constraints of TaoSetConstraintsRoutine(): call TaoSetEqualityConstraintsRoutine() "
+    "or TaoSetInequalityConstraintsRoutine()");
+  PetscCall(CheckTolerance(tao, tao->gatol, "gatol"));
+  PetscCall(CheckTolerance(tao, tao->catol, "catol"));
+  PetscCall(CheckTolerance(tao, tao->crtol, "crtol"));
+  PetscFunctionReturn(0);
+}
+
+/* Checks what the caller has set, and the layouts of masses, bounds and starting values. Vectors for constraints that
+   do not exist are not used. */
 PetscErrorCode IPGivenCheck(Tao tao)
 {
   const IPGiven *given = ((TAO_IPFILTER *)tao->data)->given;
@@ -35,6 +58,7 @@ PetscErrorCode IPGivenCheck(Tao tao)
   const char unknowns[] = "unknowns", rows[] = "inequality constraints";
 
   PetscFunctionBegin;
+  PetscCall(CheckProblem(tao));
   PetscCall(CheckLayout(tao, given->primal_mass, "Primal mass", x, unknowns));
   PetscCall(CheckLayout(tao, given->slack_mass, "Slack mass", c, rows));
   PetscCall(CheckLayout(tao, tao->XL, "Lower bounds of the variables", x, unknowns));

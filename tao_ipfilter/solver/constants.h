@@ -42,9 +42,6 @@
   1e-4                        /* violation below which Armijo's condition is used, relative to the first
                                      violation */
 #define IP_THETA_MAX_FACT 1e4 /* largest accepted violation, relative to the first one */
-#define IP_OBJ_MAX_INC \
-  1e5 /* largest increase of the barrier function that is accepted for less violation, relative to the function's
-         size */
 #define IP_KAPPA_SOC \
   0.99                           /* second-order corrections continue only if each reduces the violation to this
                                      fraction */

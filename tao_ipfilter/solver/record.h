@@ -23,15 +23,10 @@ struct _n_IPRecord {
                                                   iterates that nidle counts */
   PetscBool            falls;                  /* whether the objective may still fall noticeably, though the error is
                                                   negligible relative to a first value (convergence.c) */
-  PetscInt             nidle, nopen;           /* convergence.c: number of consecutive steps that did not lower the
-                                                  objective, but do not show that it cannot fall; number of consecutive
-                                                  iterates that have converged but for this, with a shift */
-  PetscBool            away;                   /* whether the iterate that had converged before seemed to run away */
+  PetscInt             nidle;                  /* convergence.c: number of consecutive steps that did not lower the
+                                                  objective, but do not show that it cannot fall */
   PetscInt             nacceptable;            /* number of consecutive acceptable iterates */
-  PetscInt             nstraight;     /* number of consecutive full steps with a shift along which the objective fell
-                                         linearly */
-  PetscReal            last_f;        /* objective before the next such step */
-  PetscInt             napplications; /* filtered subspace method: number of applications of the preconditioner */
+  PetscInt             napplications;     /* filtered subspace method: number of applications of the preconditioner */
   PetscInt             nreduced, npivots; /* filtered subspace method: number of reduced problems; number of active
                                              sets tried in them */
   PetscInt             ndirections;       /* filtered subspace method: number of iterations that added a direction,

@@ -18,15 +18,12 @@ struct _n_IPSearch {
   PetscReal rounding;           /* rounding error of phi */
   PetscReal theta_rounding;     /* rounding error of theta */
   PetscReal alpha, alpha_dual;
-  PetscReal before;               /* norm of the previous search direction; that of the last one is dir.norm */
-  PetscBool slows;                /* whether the last step of a length above zero was one of linear convergence */
-  Vec       slow;                 /* its direction then */
-  PetscInt  ntrials, ndefined;    /* number of trial points of the last search; of those with finite values, also in the
+  PetscReal before;            /* norm of the previous search direction; that of the last one is dir.norm */
+  PetscBool slows;             /* whether the last step of a length above zero was one of linear convergence */
+  Vec       slow;              /* its direction then */
+  PetscInt  ntrials, ndefined; /* number of trial points of the last search; of those with finite values, also in the
                                   restoration after it */
-  PetscBool blocked;              /* whether the last rejected trial point was rejected by the filter alone */
-  PetscInt  ncut;                 /* number of consecutive steps that were shortened to a small fraction */
-  PetscInt  nblocked, nunblocked; /* number of consecutive steps that were shortened by the filter; number of times
-                                     that the filter was cleared for this reason */
+  PetscInt  ncut;              /* number of consecutive steps that were shortened to a small fraction */
   char      tag; /* how the step was accepted: f, h, F or H (second-order correction), R (restoration), w (watchdog) */
 };
 

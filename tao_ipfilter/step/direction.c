@@ -330,7 +330,7 @@ static PetscErrorCode DirectionSolveNewton(Tao tao, PetscBool *usable)
 {
   PetscFunctionBegin;
   PetscCall(DirectionSolveSystem(tao, usable));
-  if (*usable && DirectionIsCondensed((TAO_IPFILTER *)tao->data)) PetscCall(CurvatureTest(tao, usable));
+  if (*usable) PetscCall(CurvatureTest(tao, usable));
   if (*usable) PetscCall(DirectionDescends(tao, usable));
   PetscFunctionReturn(0);
 }

@@ -54,20 +54,6 @@ static PetscReal SearchFirstViolation(const TAO_IPFILTER *ip)
 }
 
 /*
-   Returns the largest allowed increase of the barrier function for less violation. If hardly any violation remains,
-   only a small increase is allowed.
-*/
-static PetscReal SearchHighestRise(const TAO_IPFILTER *ip)
-{
-  const IPSearch *search = ip->search;
-  const PetscReal trace = 1e-10, reduced = 1e-2,
-                  factor = search->theta <= trace * SearchFirstViolation(ip) ? reduced : IP_OBJ_MAX_INC;
-
-  return ip->opt->scaling == IP_SCALING_NONE ? PETSC_INFINITY
-                                             : factor * PetscMax(PetscAbsReal(search->phi), search->phi_ref);
-}
-
-/*
    Finds whether the trial point with (theta, phi) at the step length alpha is acceptable. *objective: whether phi
    decides, either because it falls as the switching condition predicts, or because there is no violation to reduce. In
    this case the old iterate is not added to the filter (Waechter and Biegler 2006, equations (18) to (20)).
@@ -82,19 +68,16 @@ static PetscErrorCode SearchAccepts(Tao tao, PetscReal alpha, PetscReal slope, P
   const PetscBool  alone    = (PetscBool)(search->theta <= search->theta_rounding);
   const PetscBool  switches = SearchSwitches(ip, alpha, slope);
   const PetscBool  armijo   = (PetscBool)(change <= opt->eta_phi * alpha * PetscMin(slope, 0.0) + search->rounding);
-  PetscBool        descends;
 
   PetscFunctionBegin;
   *objective = (PetscBool)(alone || (switches && armijo));
-  if (theta > IP_THETA_MAX_FACT * first || change > SearchHighestRise(ip)) *accepted = PETSC_FALSE;
+  if (theta > IP_THETA_MAX_FACT * first) *accepted = PETSC_FALSE;
   else if (alone || (search->theta <= IP_THETA_MIN_FACT * first && switches)) *accepted = armijo;
   else
     *accepted =
       (PetscBool)(theta <= (1.0 - IP_GAMMA_THETA) * search->theta ||
                   change <= -opt->gamma_phi * (search->phi_ref / search->theta_ref) * search->theta + search->rounding);
-  descends = *accepted;
-  if (descends) PetscCall(IPFilterSetAccepts(ip->filter, theta, phi - search->rounding, accepted));
-  if (!*accepted) search->blocked = descends;
+  if (*accepted) PetscCall(IPFilterSetAccepts(ip->filter, theta, phi - search->rounding, accepted));
   PetscFunctionReturn(0);
 }
 
@@ -266,24 +249,6 @@ static PetscErrorCode SearchCorrect(Tao tao, PetscReal alpha, PetscReal slope, P
 }
 
 /*
-   Clears the filter if the filter alone has shortened several consecutive descent steps, since it then contains
-   iterates from another region. This is done at most five times per solve (IPOPT's filter_reset_trigger and
-   max_filter_resets).
-*/
-static PetscErrorCode SearchUnblock(TAO_IPFILTER *ip)
-{
-  const PetscInt patience = 5, limit = 5;
-
-  PetscFunctionBegin;
-  ip->search->nblocked = ip->search->blocked ? ip->search->nblocked + 1 : 0;
-  if (ip->search->nblocked < patience || ip->search->nunblocked >= limit) PetscFunctionReturn(0);
-  ip->search->nblocked = 0;
-  ip->search->nunblocked++;
-  PetscCall(IPFilterSetReset(ip->filter));
-  PetscFunctionReturn(0);
-}
-
-/*
    Takes a step of the watchdog, if it is active: the longest step that the bounds allow, without a test. The new point
    is compared with the iterate at which the watchdog began. *taken: whether such a step was taken, or the iteration
    returned to that iterate.
@@ -358,7 +323,6 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
   PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &ip->dir.norm));
   least               = SearchSmallestStep(ip, slope);
   ip->search->ntrials = ip->search->ndefined = 0;
-  ip->search->blocked                        = PETSC_FALSE;
   *ok                                        = PETSC_FALSE;
   PetscCall(SearchWatched(tao, alpha, slope, dual, ok));
   if (*ok) PetscFunctionReturn(0);
@@ -373,7 +337,6 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
     if (*ok) PetscCall(SearchAccept(tao, alpha, dual, objective, PETSC_FALSE));
     else if (finite && ip->search->ntrials == 1) PetscCall(SearchCorrect(tao, alpha, slope, theta, tau, ok));
   }
-  if (*ok) PetscCall(SearchUnblock(ip));
   if (*ok) PetscCall(SearchKeepSlow(tao));
   ip->search->ncut  = *ok && ip->search->alpha < small ? ip->search->ncut + 1 : 0;
   ip->watch->nshort = *ok && ip->search->alpha < longest ? ip->watch->nshort + 1 : 0;

@@ -14,7 +14,7 @@
 #include "tao_ipfilter/solver/search.h"
 #include "tao_ipfilter/solver/sizes.h"
 
-#define IP_RELAX_FIRST 1e-2 /* first relaxation, as a fraction of the tolerance */
+#define IP_RELAX_PART  1e-2 /* relaxation, as a fraction of the tolerance */
 #define IP_RELAX_LARGE 1e4  /* a multiplier is large if it exceeds the one that balances the gradient by this factor */
 
 /*
@@ -94,7 +94,7 @@ static PetscErrorCode RelaxVanished(Tao tao, PetscBool *vanished)
    but their terms may vanish at the solution. It is at least their first size, limited by the terms of the largest
    unknown, since rows that never act may be huge.
 */
-static PetscErrorCode RelaxChoose(Tao tao, PetscReal fraction)
+static PetscErrorCode RelaxChoose(Tao tao)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
   const PetscReal terms = 10.0;
@@ -102,14 +102,14 @@ static PetscErrorCode RelaxChoose(Tao tao, PetscReal fraction)
   Vec             r;
 
   PetscFunctionBegin;
-  if (ip->mi && !ip->relax->times) {
+  if (ip->mi) {
     PetscCall(IPOwnActiveSize(tao, &ip->relax->size));
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
     size            = terms * ip->first->jacobian * PetscMax(size, ip->first->x);
     ip->relax->size = PetscMax(ip->relax->size, PetscMin(ip->first->length, size));
     if (!(ip->relax->size > 0.0)) ip->relax->size = PetscMax(ip->first->length, ip->scale->length);
   }
-  ip->relax->by = ip->relax->told = fraction * ip->tol * ip->relax->size;
+  ip->relax->by = ip->relax->told = IP_RELAX_PART * ip->tol * ip->relax->size;
   if (ip->mi) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &r));
     PetscCall(VecSet(r, ip->relax->by));
@@ -118,7 +118,7 @@ static PetscErrorCode RelaxChoose(Tao tao, PetscReal fraction)
   }
   if (ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n)) {
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-    ip->relax->unknowns = fraction * ip->tol * size;
+    ip->relax->unknowns = IP_RELAX_PART * ip->tol * size;
     ip->relax->told     = PetscMax(ip->relax->told, ip->relax->unknowns);
   }
   ip->relax->times++;
@@ -129,15 +129,14 @@ static PetscErrorCode RelaxChoose(Tao tao, PetscReal fraction)
    Relaxes constraints and bounds by `fraction` of the tolerance times their size. Reduces mu such that large
    multipliers of the relaxed constraints are still possible.
 */
-static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
+static PetscErrorCode RelaxConstraints(Tao tao)
 {
-  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal before = ip->relax->by;
-  PetscReal       limit  = PETSC_INFINITY, gradient;
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  PetscReal     limit = PETSC_INFINITY, gradient;
 
   PetscFunctionBegin;
   PetscCall(IPWatchdogEnd(ip->watch));
-  PetscCall(RelaxChoose(tao, fraction));
+  PetscCall(RelaxChoose(tao));
   PetscCall(PetscInfo(tao, "No interior: constraints relaxed by %g\n", (double)ip->relax->told));
   if (ip->mi) limit = ip->relax->by * ip->scale->balance;
   if (ip->relax->unknowns > 0.0) {
@@ -145,17 +144,17 @@ static PetscErrorCode RelaxConstraints(Tao tao, PetscReal fraction)
     limit = PetscMin(limit, ip->relax->unknowns * gradient);
   }
   ip->mu = PetscMax(IPErrorBoundLeastMu(ip), PetscMin(ip->mu, IP_RELAX_LARGE * limit));
-  PetscCall(RelaxCenter(tao, ip->relax->by - before));
+  PetscCall(RelaxCenter(tao, ip->relax->by));
   PetscCall(IPFilterSetReset(ip->filter));
   ip->rec->best_error = ip->rec->best_violation = PETSC_INFINITY;
   PetscCall(IPComputeKKT(tao));
   PetscFunctionReturn(0);
 }
 
-/* Returns whether the problem has constraints that may lack an interior */
-static PetscBool RelaxApplies(const TAO_IPFILTER *ip)
+/* Returns whether the problem has constraints that may lack an interior and have not been relaxed */
+PetscBool IPRelaxApplies(const TAO_IPFILTER *ip)
 {
-  return (PetscBool)(ip->mi || (ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n)));
+  return (PetscBool)(!ip->relax->times && (ip->mi || (ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n))));
 }
 
 /* Relaxes the constraints if RelaxVanished() has been true for several consecutive iterates */
@@ -166,24 +165,9 @@ PetscErrorCode IPRelax(Tao tao)
   PetscBool      vanished;
 
   PetscFunctionBegin;
-  if (!RelaxApplies(ip) || ip->relax->times || ip->bar->free) PetscFunctionReturn(0);
+  if (!IPRelaxApplies(ip) || ip->bar->free) PetscFunctionReturn(0);
   PetscCall(RelaxVanished(tao, &vanished));
   ip->relax->nvanished = vanished ? ip->relax->nvanished + 1 : 0;
-  if (ip->relax->nvanished >= patience) PetscCall(RelaxConstraints(tao, IP_RELAX_FIRST));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Relaxes the constraints if no next step was found and a slack has vanished. The second relaxation is by the full
-   tolerance. *relaxed: whether this was done.
-*/
-PetscErrorCode IPRelaxInstead(Tao tao, PetscBool *relaxed)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-
-  PetscFunctionBegin;
-  *relaxed = PETSC_FALSE;
-  if (RelaxApplies(ip) && ip->relax->times < 2) PetscCall(RelaxVanished(tao, relaxed));
-  if (*relaxed) PetscCall(RelaxConstraints(tao, ip->relax->times ? 1.0 : IP_RELAX_FIRST));
+  if (ip->relax->nvanished >= patience) PetscCall(RelaxConstraints(tao));
   PetscFunctionReturn(0);
 }

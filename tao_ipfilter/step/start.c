@@ -124,14 +124,11 @@ static PetscErrorCode GradientStiffness(Tao tao, PetscReal *length)
 
 /*
    Computes the mean product t z of a pair of bounds, if z balances the gradient: the work of the gradient on the way to
-   the bounds, divided by the number of bounds. Only unknowns count for which the objective is almost linear, so that
-   only the bounds stop them.
+   the bounds, divided by the number of bounds. The way ends at the Newton step of the unknown alone if that is shorter.
 */
-static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *bound)
+static PetscErrorCode BoundsWork(Tao tao, PetscReal *mean)
 {
   TAO_IPFILTER      *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal    linear = 100.0; /* an objective is almost linear if its Newton step is more than this many times
-                                        the distance to the bound */
   PetscReal          sum[2] = {0.0, 0.0};
   const PetscScalar *g, *h, *t;
   PetscInt           n;
@@ -148,7 +145,7 @@ static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *bound)
       const PetscReal way   = PetscMin(PetscRealPart(t[j]), IPReachOfUnknowns(ip));
 
       if (PetscRealPart(t[j]) >= PETSC_INFINITY) continue;
-      if (force > linear * PetscRealPart(h[j]) * way) sum[0] += force * way;
+      sum[0] += force * (force < PetscRealPart(h[j]) * way ? force / PetscRealPart(h[j]) : way);
       sum[1] += 1.0;
     }
     PetscCall(VecRestoreArrayRead(ip->pair[b].t, &t));
@@ -156,7 +153,7 @@ static PetscErrorCode BoundsErrorBound(Tao tao, PetscReal *bound)
   PetscCall(VecRestoreArrayRead(ip->stiff->hdiag, &h));
   PetscCall(VecRestoreArrayRead(tao->gradient, &g));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)tao)));
-  *bound = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
+  *mean = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
   PetscFunctionReturn(0);
 }
 
@@ -208,7 +205,7 @@ static PetscErrorCode StartPredicted(Tao tao)
   ip->mu = moved ? IP_PREDICT_MU * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * PetscMax(mean, length * pressure);
   PetscCall(IPErrorBoundTerms(tao, &terms));
   ip->mu = PetscMax(ip->mu, IP_LEAST_START * terms / ip->pair[IP_SLACK].weight);
-  PetscCall(BoundsErrorBound(tao, &bound));
+  PetscCall(BoundsWork(tao, &bound));
   if (ip->mu < IP_PREDICT_MU * bound) {
     ip->mu = IP_PREDICT_MU * bound;
     PetscCall(StiffenForBarrier(tao, length));
@@ -320,8 +317,7 @@ static PetscErrorCode StartWarmBounds(Tao tao)
 
 /*
    Sets the multipliers of the bounds to mu / t if the caller gave none. Without inequality constraints mu is chosen as
-   well: from the energy of the unknowns, or, if the objective is linear, from the work of its gradient on the way to
-   the bounds.
+   well, from the work of the gradient on the way to the bounds.
 */
 static PetscErrorCode StartBounds(Tao tao)
 {
@@ -335,8 +331,7 @@ static PetscErrorCode StartBounds(Tao tao)
   if (moved) ip->mu = IP_PREDICT_MU * mean;
   else if (!ip->mi && ip->opt->scaling == IP_SCALING_PROBLEM && ip->opt->start != IP_START_COLD) {
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
-    if (ip->stiff->flat) PetscCall(BoundsErrorBound(tao, &mean));
-    else PetscCall(IPStiffnessMeanEnergy(tao, &mean));
+    PetscCall(BoundsWork(tao, &mean));
     ip->mu = IP_PREDICT_MU * (mean > 0.0 ? mean : ip->stiff->hscale * (x > 0.0 ? x * x : 1.0));
   }
   PetscCall(IPBoundsCenter(tao));

@@ -72,8 +72,8 @@ PETSC_INTERN PetscErrorCode IPFreeStep(Tao, PetscBool *, PetscReal *);
 PETSC_INTERN PetscErrorCode IPStartPoint(Tao);
 
 /* relax.c */
+PETSC_INTERN PetscBool      IPRelaxApplies(const TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode IPRelax(Tao);
-PETSC_INTERN PetscErrorCode IPRelaxInstead(Tao, PetscBool *);
 
 /* restore.c */
 PETSC_INTERN PetscErrorCode IPRestore(Tao, PetscBool *, PetscBool *);

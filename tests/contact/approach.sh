@@ -76,7 +76,7 @@ displacements:
   - press: {body: lid, value: [0, 0, -2]}
 contact:
   - touch: {mortar: lid.zmin, nonmortar: cube.zmax}
-load: {factors: [0.25, 0.5, 1]}
+load: {factors: [0.2, 0.5, 1]}
 SCENE
 "$AMGF_DIR/bin/contact" over.yaml -quiet -load_max_cuts 0 > over.log 2>&1
 echo "exit code $?, $(grep -c 'open at the end of every load step' over.log) warnings of no contact"

@@ -47,7 +47,8 @@ echo "links that touch: exit code $?"
 # The middle link is loose: rounding errors decide whether it penetrates another one without force or slips away. The
 # run names either.
 "$contact" chain.yaml -quiet 2>&1 |
-  grep -c 'pair "link2_link1" carries no force, although a point\|body "link1" slips away'
+  grep -q 'pair "link[12]_link[01]" carries no force, although a point\|body "link1" slips away' &&
+  echo 'loose link: named'
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'CHECK'
 from summaries import load, say, within
 

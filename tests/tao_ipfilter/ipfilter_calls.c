@@ -739,26 +739,76 @@ static PetscErrorCode TestOwnHessian(void)
   PetscFunctionReturn(0);
 }
 
-/* Options that need a positive value */
-static PetscErrorCode TestPositiveOptions(void)
+/* Options with values that they cannot have */
+static PetscErrorCode TestOptionRanges(void)
 {
-  const char *const names[] = {"-tao_ipfilter_slack_init", "-tao_ipfilter_proximal"}, *const values[] = {"0", "-1"};
+  static const struct {
+    const char *name, *value;
+  } wrong[] = {
+    {"-tao_ipfilter_slack_init", "0"},
+    {"-tao_ipfilter_slack_init", "-1"},
+    {"-tao_ipfilter_proximal", "0"},
+    {"-tao_ipfilter_proximal", "-1"},
+    {"-tao_ipfilter_mu_init", "nan"},
+    {"-tao_ipfilter_dual_init", "0"},
+    {"-tao_ipfilter_gamma_phi", "-1"},
+    {"-tao_ipfilter_eta_phi", "2"},
+    {"-tao_ipfilter_delta_max", "0"},
+    {"-tao_ipfilter_filter_switch", "-1"},
+    {"-tao_ipfilter_dual_inf_tol", "nan"},
+    {"-tao_ipfilter_direct_memory", "-1"},
+    {"-tao_ipfilter_max_soc", "-3"},
+    {"-tao_ipfilter_mu_reductions_first", "-1"},
+  };
 
   PetscFunctionBeginUser;
-  for (PetscInt k = 0; k < 4; k++) {
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(wrong); k++) {
     Tao            tao;
     PetscErrorCode ierr;
 
-    PetscCall(PetscOptionsSetValue(NULL, names[k / 2], values[k % 2]));
+    PetscCall(PetscOptionsSetValue(NULL, wrong[k].name, wrong[k].value));
     PetscCall(TaoCreate(PETSC_COMM_WORLD, &tao));
     PetscCall(TaoSetType(tao, TAOIPFILTER));
     PetscCall(AttemptBegin());
     ierr = TaoSetFromOptions(tao);
     PetscCall(AttemptEnd());
-    PetscCall(AttemptCompareRanks(names[k / 2], ierr));
+    PetscCall(AttemptCompareRanks(wrong[k].name, ierr));
     PetscCall(AttemptPrint(ierr));
     PetscCall(TaoDestroy(&tao));
-    PetscCall(PetscOptionsClearValue(NULL, names[k / 2]));
+    PetscCall(PetscOptionsClearValue(NULL, wrong[k].name));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* A tolerance that is not a number, and constraints by a function that the solver does not use: no solve begins */
+static PetscErrorCode TestRefusedProblems(void)
+{
+  const char *const tolerances[] = {"-tao_gatol", "-tao_catol"};
+
+  PetscFunctionBeginUser;
+  for (PetscInt k = 0; k < 3; k++) {
+    Chain          chain;
+    Tao            tao;
+    Vec            x;
+    PetscErrorCode ierr;
+
+    PetscCall(CreateChain(8, &chain));
+    PetscCall(VecDuplicate(chain.q.b, &x));
+    PetscCall(CreateChainSolver(&chain, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE, x, &tao));
+    if (k == 2) PetscCall(TaoSetConstraintsRoutine(tao, x, TotalConstraint, NULL));
+    else {
+      PetscCall(PetscOptionsSetValue(NULL, tolerances[k], "nan"));
+      PetscCall(TaoSetFromOptions(tao));
+      PetscCall(PetscOptionsClearValue(NULL, tolerances[k]));
+    }
+    PetscCall(AttemptBegin());
+    ierr = TaoSolve(tao);
+    PetscCall(AttemptEnd());
+    PetscCall(AttemptCompareRanks("refused problems", ierr));
+    PetscCall(AttemptPrint(ierr));
+    PetscCall(VecDestroy(&x));
+    PetscCall(TaoDestroy(&tao));
+    PetscCall(DestroyChain(&chain));
   }
   PetscFunctionReturn(0);
 }
@@ -900,14 +950,15 @@ static PetscErrorCode TestTinyTolerance(PetscReal gatol)
 
 int main(int argc, char **argv)
 {
-  PetscBool positive;
+  PetscBool refused;
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscAMGFInitializePackage());
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-positive", &positive));
-  if (positive) {
-    PetscCall(TestPositiveOptions());
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-refused", &refused));
+  if (refused) {
+    PetscCall(TestOptionRanges());
+    PetscCall(TestRefusedProblems());
     PetscCall(PetscFinalize());
     return 0;
   }
@@ -945,8 +996,8 @@ int main(int argc, char **argv)
 
    # what an error leaves allocated is no leak
    test:
-      suffix: positive
+      suffix: refused
       nsize: {{1 3}}
-      args: -positive -malloc_dump 0
+      args: -refused -malloc_dump 0
 
 TEST*/

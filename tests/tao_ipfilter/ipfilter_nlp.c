@@ -348,7 +348,7 @@ int main(int argc, char **argv)
    # the last line search
    test:
       suffix: no_direction
-      args: -problems circles,HS31 -tao_ipfilter_delta_max 1e-10
+      args: -problems circles,HS17 -tao_ipfilter_delta_max 1e-10
 
    # constraints without an interior are relaxed by less than the tolerance, and the solver says so
    test:

@@ -297,6 +297,22 @@ static const NLP problems[] = {
   {"ray", "-x1-x2", "x1-x2^2+4", "", "", "1 1", 0.0, NLP_UNBOUNDED, NULL},
   /* steps along the parabola become too short long before the objective has fallen far */
   {"parabola", "-x1-x2", "x2^2-x1", "", "", "0 1", 0.0, NLP_UNBOUNDED, NULL},
+  /* CUTEst: the unknowns start at a bound, where the objective has hardly any curvature */
+  {"EXPLIN",
+    "exp(0.1*x1*x2)+exp(0.1*x2*x3)+exp(0.1*x3*x4)+exp(0.1*x4*x5)+exp(0.1*x5*x6)-10*x1-20*x2-30*x3-40*x4-50*x5-60*x6-70*"
+    "x7-80*x8-90*x9-100*x10",
+    "", "", "0:10 0:10 0:10 0:10 0:10 0:10 0:10 0:10 0:10 0:10", "0 0 0 0 0 0 0 0 0 0", -4775.211148206, NLP_SOLVED,
+    NULL},
+  /* CUTEst: the unknowns grow a thousandfold, to their bounds, where the Hessian needs a shift */
+  {"QRTQUAD", "0.01*(x1*x2)^4+0.02*(x2*x3)^4+0.03*(x3*x4)^4+0.04*(x4*x5)^4-10*x1-20*x2-30*x3-40*x4-50*x5", "", "",
+    "0:10 0:10 0:10 0:10 0:10", "0 0 0 0 0", -911.1108296716, NLP_SOLVED, NULL},
+  /* EIGMINA of CUTEst: at each eigenvector a bound touches the sphere. Each eigenvalue is a local minimum. */
+  {"eigenvalue", "x6", "", "x1^2+x2^2+x3^2+x4^2+x5^2-1; x1*x6-1*x1; x2*x6-2*x2; x3*x6-3*x3; x4*x6-4*x4; x5*x6-5*x5",
+    "-1:1 -1:1 -1:1 -1:1 -1:1 :", "1 1 1 1 1 2", 1.0, NLP_SOLVED, "2 3 4 5"},
+  /* Newton's method passes a point whose violation is negligible beside that at the start only */
+  {"square root from afar", "0", "", "1000*(x1^2-2)", "", "5791.816135971869", 0.0, NLP_SOLVED, NULL},
+  /* the objective is small at the start alone */
+  {"long lever", "-x1*x2", "", "x1-1e3*x3; x2-1e3*x3; x3^2+x4^2-1", "", "1e-5 1e-5 0 0.5", -1e6, NLP_SOLVED, NULL},
 };
 
 #endif

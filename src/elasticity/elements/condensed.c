@@ -18,6 +18,8 @@ typedef struct {
                                                       K_aa */
 } Condensed;
 
+static const PetscReal singular = 1e-10; /* multiple of the diagonal of K_aa that is added to it */
+
 static void CondensedSetPoints(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES],
   Condensed *c)
 {
@@ -51,40 +53,49 @@ static PetscReal CondensedSum(const BodyMaterial *m, const Condensed *c)
   return sum;
 }
 
-/*
-   Computes the energy, the forces on the modes, and the factor of their stiffness K_aa. A small multiple of its
-   diagonal is added, since without hardening K_aa may be singular.
-*/
-static void CondensedEvaluate(const BodyMaterial *m, Condensed *c)
+/* Computes the forces on the modes */
+static void CondensedForces(const BodyMaterial *m, Condensed *c)
 {
-  const PetscReal small = 1e-10;
+  for (int k = 0; k < MODES; ++k) c->force[k] = 0;
+  for (PetscInt q = 0; q < c->npoints; ++q) {
+    PetscReal      P[9];
+    MaterialModuli own;
 
+    (void)m->law->stress(CellModuli(&m->moduli, q, &own), c->H[q], P);
+    for (int k = 0; k < MODES; ++k) {
+      for (int i = 0; i < 9; ++i) c->force[k] += c->w[q] * P[i] * c->M[q][k][i];
+    }
+  }
+}
+
+/*
+   Computes the energy and the factor of the stiffness K_aa of the modes. A small multiple of its diagonal is added,
+   since without hardening K_aa may be singular.
+*/
+static void CondensedFactor(const BodyMaterial *m, Condensed *c)
+{
   c->energy = CondensedSum(m, c);
   for (int k = 0; k < MODES; ++k) {
-    c->force[k] = 0;
     for (int l = 0; l <= k; ++l) c->L[k][l] = 0;
   }
   for (PetscInt q = 0; q < c->npoints; ++q) {
-    PetscReal             P[9], A[81];
-    MaterialModuli        own;
-    const MaterialModuli *moduli = CellModuli(&m->moduli, q, &own);
+    PetscReal      A[81];
+    MaterialModuli own;
 
-    (void)m->law->stress(moduli, c->H[q], P);
-    (void)m->law->tangent(moduli, c->H[q], A);
+    (void)m->law->tangent(CellModuli(&m->moduli, q, &own), c->H[q], A);
     for (int k = 0; k < MODES; ++k) {
       PetscReal AM[9];
 
       for (int i = 0; i < 9; ++i) {
         AM[i] = 0;
         for (int j = 0; j < 9; ++j) AM[i] += A[9 * i + j] * c->M[q][k][j];
-        c->force[k] += c->w[q] * P[i] * c->M[q][k][i];
       }
       for (int l = 0; l <= k; ++l) {
         for (int i = 0; i < 9; ++i) c->L[k][l] += c->w[q] * AM[i] * c->M[q][l][i];
       }
     }
   }
-  for (int k = 0; k < MODES; ++k) c->L[k][k] *= 1 + small;
+  for (int k = 0; k < MODES; ++k) c->L[k][k] *= 1 + singular;
   IncompatibleFactor(c->L);
 }
 
@@ -105,45 +116,93 @@ static void CondensedBackward(const Condensed *c, PetscReal x[MODES])
   }
 }
 
+/* Computes Newton's step from the forces on the modes. Returns the square of its norm in the stiffness K_aa, which is
+   minus the slope of the energy along it. */
+static PetscReal CondensedStep(const BodyMaterial *m, Condensed *c, PetscReal step[MODES])
+{
+  PetscReal square = 0;
+
+  CondensedFactor(m, c);
+  for (int k = 0; k < MODES; ++k) step[k] = -c->force[k];
+  CondensedForward(c, step);
+  for (int k = 0; k < MODES; ++k) square += step[k] * step[k];
+  CondensedBackward(c, step);
+  return square;
+}
+
+static void CondensedMoveBy(Condensed *c, const PetscReal before[MODES], PetscReal t, const PetscReal step[MODES])
+{
+  for (int k = 0; k < MODES; ++k) c->a[k] = before[k] + t * step[k];
+  CondensedMove(c);
+}
+
 /*
-   Finds a by Newton's method with a line search on the energy. It ends with a step that is predicted to reduce the
-   energy by less than rounding errors, or by about as little as the step before: metal that flows may have large
-   rounding errors. This step is taken, too: without it small changes of U would leave `a` as it is, and the forces of
-   the cell would change as if it had no modes.
+   Sets `a` to the solution without further yielding. If U is that of the last state, this is the `a` of the last state.
+*/
+static void CondensedStart(const BodyMaterial *m, Condensed *c)
+{
+  const MaterialHardening never       = {.yield = PetscSqrtReal(PETSC_MAX_REAL)};
+  const PetscReal         none[MODES] = {0};
+  BodyMaterial            elastic     = *m;
+  PetscReal               step[MODES];
+
+  elastic.moduli.hardening = &never;
+  CondensedMoveBy(c, none, 0, none);
+  CondensedForces(&elastic, c);
+  (void)CondensedStep(&elastic, c, step);
+  CondensedMoveBy(c, none, 1, step);
+}
+
+/*
+   Moves the modes along Newton's step to where the slope of the convex energy is at most half as steep, and computes
+   the forces there. Unlike differences of energies, slopes have no cancellation. square: minus the slope at the start
+*/
+static void CondensedSearch(const BodyMaterial *m, const PetscReal step[MODES], PetscReal square, Condensed *c)
+{
+  const PetscReal flatter = 0.5, least = 0.1;
+  PetscReal       before[MODES], low = 0, high = 1, t = 1, slopes[2] = {-square, 0};
+
+  for (int k = 0; k < MODES; ++k) before[k] = c->a[k];
+  for (int it = 0; it < 50; ++it) {
+    PetscReal slope = 0;
+
+    CondensedMoveBy(c, before, t, step);
+    CondensedForces(m, c);
+    for (int k = 0; k < MODES; ++k) slope += c->force[k] * step[k];
+    if (PetscAbsReal(slope) <= flatter * square || (slope < 0 && t == 1)) break;
+    if (slope < 0) low = t;
+    else high = t;
+    slopes[slope > 0] = slope;
+    t                 = low + (high - low) * PetscMin(PetscMax(slopes[0] / (slopes[0] - slopes[1]), least), 1 - least);
+  }
+}
+
+/*
+   Finds a by Newton's method. It ends with a step whose square is `negligible` or, below the rounding errors of the
+   forces in K_aa, no longer falls: metal that flows without hardening has a K_aa that is almost singular. This step is
+   taken, too: without it small changes of U would leave `a` as it is, and the forces of the cell would change as if it
+   had no modes.
 */
 static void CondensedSolve(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], Condensed *c)
 {
-  const PetscReal negligible = 1e-26, little = PETSC_SQRT_MACHINE_EPSILON, progress = 0.25, fraction = 1e-4;
-  PetscReal       predicted = PETSC_INFINITY;
-  BodyMaterial    exact     = *m;
-  PetscBool       last      = PETSC_FALSE;
+  const PetscReal negligible = 1e-26, progress = 0.25;
+  const PetscReal rounding = PETSC_MACHINE_EPSILON * PETSC_MACHINE_EPSILON / singular;
+  PetscReal       step[MODES], square, predicted = PETSC_INFINITY;
+  BodyMaterial    exact = *m;
 
   exact.moduli.secant = 0;
   CondensedSetPoints(basis, X, U, c);
-  for (int k = 0; k < MODES; ++k) c->a[k] = 0;
-  CondensedMove(c);
-  for (int it = 0; it < 50 && !last; ++it) {
-    PetscReal step[MODES], promised = 0, t = 1, before[MODES];
-
-    CondensedEvaluate(&exact, c);
-    for (int k = 0; k < MODES; ++k) {
-      step[k]   = -c->force[k];
-      before[k] = c->a[k];
-    }
-    CondensedForward(c, step);
-    for (int k = 0; k < MODES; ++k) promised += step[k] * step[k];
-    CondensedBackward(c, step);
-    last      = (PetscBool)(!(promised > negligible * c->energy) ||
-                       (promised < little * c->energy && promised > progress * predicted));
-    predicted = promised;
-    for (;; t *= 0.5) {
-      for (int k = 0; k < MODES; ++k) c->a[k] = before[k] + t * step[k];
-      CondensedMove(c);
-      if (last || promised < little * c->energy || t < 1e-6) break;
-      if (CondensedSum(m, c) <= c->energy - fraction * t * promised) break;
-    }
+  CondensedStart(&exact, c);
+  CondensedForces(&exact, c);
+  for (int it = 0; it < 50; ++it) {
+    square = CondensedStep(&exact, c, step);
+    if (!(square > negligible * c->energy)) break;
+    if (square < rounding * c->energy && square > progress * predicted) break;
+    predicted = square;
+    CondensedSearch(&exact, step, square, c);
   }
+  CondensedMoveBy(c, c->a, 1, step);
 }
 
 PetscReal CondensedEnergy(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],

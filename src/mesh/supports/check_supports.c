@@ -60,40 +60,40 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const void *o
   PetscFunctionReturn(0);
 }
 
-/* Collective. Creates the links of everything in the scene that holds bodies. Free with SupportDestroy(). centres:
-   whether frictionless pairs have rows at the centres of the facets. */
-static PetscErrorCode SupportCreate(DM dm, Scene scene, PetscBool centres, Support *support)
+/* Collective. Creates the links of everything in the scene that holds bodies. Free with SupportDestroy(). */
+static PetscErrorCode SupportCreate(DM dm, Scene scene, Support *support)
 {
   const PetscInt nlinks =
     scene->ndisplacements + scene->nsprings + scene->nconnectors + scene->npairs + scene->nties + scene->ncyclic;
 
   PetscFunctionBegin;
-  *support = (Support){.dm = dm, .nbodies = scene->nbodies, .n = 6 * scene->nbodies, .centres = centres};
-  PetscCall(PetscCalloc6(scene->nbodies, &support->center, scene->nbodies, &support->size, nlinks, &support->links,
-    nlinks, &support->gram, nlinks, &support->motion, support->n, &support->outside));
+  *support = (Support){.dm = dm, .nbodies = scene->nbodies};
+  PetscCall(PetscCalloc5(scene->nbodies, &support->center, scene->nbodies, &support->size, nlinks, &support->links,
+    nlinks, &support->gram, scene->nbodies, &support->contact));
   PetscCall(SupportMeasureBodies(support));
   PetscCall(SupportAddScene(support, scene));
-  PetscCall(SupportSum(support));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode SupportDestroy(Support *support)
 {
   PetscFunctionBegin;
-  PetscCall(
-    PetscFree6(support->center, support->size, support->links, support->gram, support->motion, support->outside));
+  PetscCall(PetscFree5(support->center, support->size, support->links, support->gram, support->contact));
   PetscFunctionReturn(0);
 }
 
 /* Collective. Reports the first body with a free mode as an error */
 static PetscErrorCode SupportCheckBodies(DM dm, Scene scene)
 {
-  Support support;
+  Support    support;
+  PetscReal *outside;
 
   PetscFunctionBegin;
-  PetscCall(SupportCreate(dm, scene, PETSC_FALSE, &support));
-  PetscCall(SupportGetFree(&support, support.outside));
-  PetscCall(SupportRaise(&support, scene, support.outside));
+  PetscCall(PetscMalloc1(6 * scene->nbodies, &outside));
+  PetscCall(SupportCreate(dm, scene, &support));
+  PetscCall(SupportGetFree(&support, outside));
+  PetscCall(SupportRaise(&support, scene, outside));
+  PetscCall(PetscFree(outside));
   PetscCall(SupportDestroy(&support));
   PetscFunctionReturn(0);
 }
@@ -120,19 +120,22 @@ static PetscErrorCode SupportCheckBodies(DM dm, Scene scene)
 @*/
 PetscErrorCode MeshGetUnsupported(DM dm, Scene scene, PetscBool unsupported[], MeshRotation rotations[])
 {
-  Support support;
+  Support    support;
+  PetscReal *outside;
 
   PetscFunctionBegin;
-  PetscCall(SupportCreate(dm, scene, PETSC_TRUE, &support));
+  PetscCall(PetscMalloc1(6 * scene->nbodies, &outside));
+  PetscCall(SupportCreate(dm, scene, &support));
   PetscCall(SupportFindGliding(&support, unsupported, rotations));
-  if (scene->weak_springs) PetscCall(SupportGetFree(&support, support.outside));
+  if (scene->weak_springs) PetscCall(SupportGetFree(&support, outside));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     if (!scene->weak_springs)
       unsupported[b] = (PetscBool)(rotations[b].free && scene->bodies[b].material.type != MATERIAL_RIGID);
     for (PetscInt k = 6 * b; k < 6 * b + 6 && scene->weak_springs; ++k)
-      unsupported[b] = (PetscBool)(unsupported[b] || support.outside[k] > 2e-6);
+      unsupported[b] = (PetscBool)(unsupported[b] || outside[k] > 2e-6);
   }
   PetscCall(SupportDestroy(&support));
+  PetscCall(PetscFree(outside));
   PetscFunctionReturn(0);
 }
 

@@ -10,8 +10,8 @@ PetscErrorCode SupportMeasureBodies(Support *support)
   PetscReal *bounds; /* for each body, the smallest x, y, z, -x, -y, -z [length] */
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(support->n, &bounds));
-  for (PetscInt i = 0; i < support->n; ++i) bounds[i] = PETSC_MAX_REAL;
+  PetscCall(PetscMalloc1(6 * support->nbodies, &bounds));
+  for (PetscInt i = 0; i < 6 * support->nbodies; ++i) bounds[i] = PETSC_MAX_REAL;
   PetscCall(DMPlexGetHeightStratum(support->dm, 0, &cstart, &cend));
   for (PetscInt c = cstart; c < cend; ++c) {
     PetscInt  b, n, vertices[8];
@@ -25,7 +25,7 @@ PetscErrorCode SupportMeasureBodies(Support *support)
       bounds[6 * b + 3 + i % 3] = PetscMin(bounds[6 * b + 3 + i % 3], -x[i / 3][i % 3]);
     }
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, (PetscMPIInt)support->n, MPIU_REAL, MPIU_MIN, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, (PetscMPIInt)(6 * support->nbodies), MPIU_REAL, MPIU_MIN, comm));
   for (PetscInt b = 0; b < support->nbodies; ++b) {
     support->size[b] = 0;
     for (PetscInt d = 0; d < 3; ++d) {
@@ -37,11 +37,12 @@ PetscErrorCode SupportMeasureBodies(Support *support)
   PetscFunctionReturn(0);
 }
 
-/* Adds to the row: sign times the component along `direction` of the rigid motion t + r x (x - center)/size of body b
-   at the point x, as coefficients of t and r */
-void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3], const PetscReal x[3], PetscReal sign)
+/* Adds to a row of the coefficients of t and r: sign times the component along `direction` of the rigid motion t + r x
+   (x - center)/size of body b at the point x */
+void SupportSetRow(const Support *support, PetscInt b, const PetscReal direction[3], const PetscReal x[3],
+  PetscReal sign, PetscReal row[6])
 {
-  PetscReal arm[3], moment[3], *row = support->row + (b == support->links[support->nlinks - 1].body[0] ? 0 : 6);
+  PetscReal arm[3], moment[3];
 
   for (PetscInt d = 0; d < 3; ++d) arm[d] = (x[d] - support->center[b][d]) / support->size[b];
   VectorCross(arm, direction, moment);
@@ -51,18 +52,11 @@ void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3]
   }
 }
 
-/* Adds the velocity of the modes of the last link's first body b at the point x to `motion` of this link */
-void SupportMeasureMotion(Support *support, PetscInt b, const PetscReal x[3], PetscReal weight)
+/* Adds a motion of body b to the row of the last link */
+void SupportAddMotion(Support *support, PetscInt b, const PetscReal direction[3], const PetscReal x[3], PetscReal sign)
 {
-  PetscReal *motion = support->motion[support->nlinks - 1], *row = support->row;
-
-  for (PetscInt d = 0; d < 3; ++d) {
-    const PetscReal axis[3] = {d == 0, d == 1, d == 2};
-
-    SupportAddMotion(support, b, axis, x, 1);
-    for (PetscInt k = 0; k < 36; ++k) motion[k] += weight * row[k / 6] * row[k % 6];
-    for (PetscInt k = 0; k < 6; ++k) row[k] = 0;
-  }
+  SupportSetRow(support, b, direction, x, sign,
+    support->row + (b == support->links[support->nlinks - 1].body[0] ? 0 : 6));
 }
 
 /* Adds the outer product of the row, multiplied by a weight, to the link's matrix, and sets the row to zero */
@@ -82,5 +76,5 @@ PetscErrorCode SupportAddRow(Support *support, PetscReal weight)
 /* Begins a link between bodies a and b. If b is negative or equal to a, the link is between body a and the ground. */
 void SupportBeginLink(Support *support, PetscInt a, PetscInt b)
 {
-  support->links[support->nlinks++] = (SupportLink){{a, b == a ? PETSC_DECIDE : b}};
+  support->links[support->nlinks++] = (SupportLink){.body = {a, b == a ? PETSC_DECIDE : b}};
 }

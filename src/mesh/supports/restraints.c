@@ -70,8 +70,8 @@ static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDispla
   PetscCall(SupportAddRigid(support, displacement, face.body, &released));
   if (displacement->inclined) VectorScaleToUnit(normal);
   if (!released)
-    PetscCall(SupportAddFacets(support, &face, PETSC_DECIDE, displacement->inclined ? NULL : displacement->fixed,
-      normal, PETSC_FALSE));
+    PetscCall(
+      SupportAddFacets(support, &face, PETSC_DECIDE, displacement->inclined ? NULL : displacement->fixed, normal));
   PetscCall(SupportDestroyFace(&face));
   PetscFunctionReturn(0);
 }
@@ -98,7 +98,7 @@ static PetscErrorCode SupportFindPlane(Support *support, const SceneBody *body, 
 }
 
 /* Adds the restraint of a contact pair without friction: the relative motion along the normals of its nonmortar facets,
-   or along that of a plane mortar face. Rows at centres let a round body rotate about its axis. */
+   or along that of a plane mortar face */
 static PetscErrorCode SupportAddPair(Support *support, Scene scene, const SceneContactPair *pair)
 {
   SupportFace mortar, nonmortar;
@@ -110,10 +110,10 @@ static PetscErrorCode SupportAddPair(Support *support, Scene scene, const SceneC
   PetscCall(SupportGetFace(support, pair->nonmortar, &nonmortar));
   PetscCall(SupportFindPlane(support, &scene->bodies[mortar.body], mortar.facets, flat, &plane));
   SupportBeginLink(support, nonmortar.body, mortar.body);
-  support->pair = PETSC_TRUE;
-  PetscCall(SupportAddFacets(support, &nonmortar, mortar.body, NULL, plane ? flat : NULL,
-    (PetscBool)(support->centres && !plane)));
-  support->pair = PETSC_FALSE;
+  support->links[support->nlinks - 1].pair = PETSC_TRUE;
+  PetscCall(SupportAddFacets(support, &nonmortar, mortar.body, NULL, plane ? flat : NULL));
+  PetscCall(SupportMeasureFace(support, &mortar));
+  PetscCall(SupportMeasureFace(support, &nonmortar));
   PetscCall(SupportDestroyFace(&mortar));
   PetscCall(SupportDestroyFace(&nonmortar));
   PetscFunctionReturn(0);
@@ -130,7 +130,7 @@ static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[]
   PetscCall(SupportGetFace(support, mortar_face, &mortar));
   PetscCall(SupportGetFace(support, nonmortar_face, &nonmortar));
   SupportBeginLink(support, nonmortar.body, mortar.body);
-  PetscCall(SupportAddFacets(support, &nonmortar, mortar.body, along, NULL, PETSC_FALSE));
+  PetscCall(SupportAddFacets(support, &nonmortar, mortar.body, along, NULL));
   PetscCall(SupportDestroyFace(&mortar));
   PetscCall(SupportDestroyFace(&nonmortar));
   PetscFunctionReturn(0);
@@ -199,7 +199,7 @@ static PetscErrorCode SupportAddSpring(Support *support, const SceneSpring *spri
   }
   PetscCall(SupportGetFace(support, spring->face, &face));
   SupportBeginLink(support, face.body, PETSC_DECIDE);
-  PetscCall(SupportAddFacets(support, &face, PETSC_DECIDE, along, NULL, PETSC_FALSE));
+  PetscCall(SupportAddFacets(support, &face, PETSC_DECIDE, along, NULL));
   PetscCall(SupportDestroyFace(&face));
   PetscFunctionReturn(0);
 }
@@ -207,6 +207,7 @@ static PetscErrorCode SupportAddSpring(Support *support, const SceneSpring *spri
 PetscErrorCode SupportAddScene(Support *support, Scene scene)
 {
   static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
+  const MPI_Comm         comm   = PetscObjectComm((PetscObject)support->dm);
 
   PetscFunctionBegin;
   for (PetscInt d = 0; d < scene->ndisplacements; ++d)
@@ -223,5 +224,9 @@ PetscErrorCode SupportAddScene(Support *support, Scene scene)
   for (PetscInt t = 0; t < scene->nties; ++t)
     PetscCall(SupportAddJoint(support, scene->ties[t].mortar, scene->ties[t].nonmortar, all));
   for (PetscInt k = 0; k < scene->ncyclic; ++k) PetscCall(SupportAddCyclic(support, &scene->cyclic[k]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, support->gram,
+    (PetscMPIInt)(support->nlinks * SUPPORT_BLOCK * SUPPORT_BLOCK), MPIU_REAL, MPIU_SUM, comm));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, support->contact, (PetscMPIInt)(support->nbodies * 72), MPIU_REAL, MPIU_SUM, comm));
   PetscFunctionReturn(0);
 }

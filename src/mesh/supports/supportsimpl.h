@@ -12,30 +12,34 @@
 
 /* A link: the restraints, as rows of a matrix, of one displacement, spring, connector, contact pair or tie */
 typedef struct {
-  PetscInt body[2]; /* The second body is -1 if the link is between the first body and the ground. */
+  PetscInt  body[2]; /* The second body is -1 if the link is between the first body and the ground. */
+  PetscBool pair;    /* whether it is a contact pair without friction */
 } SupportLink;
+
+/* The faces of a body in frictionless contact pairs: matrices whose quadratic forms are the mean square velocities of
+   the body's modes on these faces, along their normals and in all directions */
+typedef struct {
+  PetscReal normal[36], motion[36];
+} SupportContact;
 
 typedef struct {
   DM       dm;
-  PetscInt nbodies, n;           /* number of bodies; number of modes, 6 per body */
+  PetscInt nbodies;              /* number of bodies, each with 6 modes */
   PetscReal (*center)[3], *size; /* centre, and half of the largest side, of each body's bounding box [length] */
   PetscInt     nlinks;
   SupportLink *links;
   PetscReal (*gram)[SUPPORT_BLOCK * SUPPORT_BLOCK]; /* for each link, the sum of the outer products of its rows */
-  PetscReal (*motion)[36]; /* for each frictionless contact pair: the matrix whose quadratic form is the mean square
-                              velocity of the first body's modes on the nonmortar face; 0 for other links */
-  PetscBool  centres;      /* whether curved contact pairs have rows at centres of facets */
-  PetscBool  pair;         /* whether the last link is a frictionless contact pair */
-  PetscReal *outside;      /* [n] for SupportGetFree() */
-  PetscReal  row[SUPPORT_BLOCK]; /* row of the last link that is being computed */
+  SupportContact *contact;                          /* [nbodies] */
+  PetscReal       row[SUPPORT_BLOCK];               /* row of the last link that is being computed */
 } Support;
 
 /* links.c: sizes of the bodies (collective), and rows of the last link */
 PETSC_INTERN PetscErrorCode SupportMeasureBodies(Support *);
 PETSC_INTERN void           SupportBeginLink(Support *, PetscInt a, PetscInt b);
-PETSC_INTERN void           SupportAddMotion(Support *, PetscInt b, const PetscReal direction[3], const PetscReal x[3],
-            PetscReal sign);
-PETSC_INTERN void           SupportMeasureMotion(Support *, PetscInt b, const PetscReal x[3], PetscReal weight);
+PETSC_INTERN void SupportSetRow(const Support *, PetscInt b, const PetscReal direction[3], const PetscReal x[3],
+  PetscReal sign, PetscReal row[6]);
+PETSC_INTERN void SupportAddMotion(Support *, PetscInt b, const PetscReal direction[3], const PetscReal x[3],
+  PetscReal sign);
 PETSC_INTERN PetscErrorCode SupportAddRow(Support *, PetscReal weight);
 
 /* A face: its facets on this rank, its body, and the number of its facets on all ranks. The weights of its rows are
@@ -49,23 +53,22 @@ typedef struct {
    facets.c: rows at the facets of a face. SupportGetFace() is collective; SupportDestroyFace() frees the face.
    SupportAddFacets() restrains the motion of the face's body relative to the body `other`, or to the ground if `other`
    is negative. along: the axes of the restrained components; NULL: the component along `normal`, or along the normal of
-   each facet if `normal` is NULL. centres: at the centres of the facets instead of their vertices, as
-   round bodies need it: the normals at the centres meet the axis.
+   each facet if `normal` is NULL. SupportMeasureFace() adds a face of a frictionless pair to `contact` of its body.
 */
 PETSC_INTERN PetscErrorCode SupportGetFace(Support *, const char face[], SupportFace *);
 PETSC_INTERN PetscErrorCode SupportDestroyFace(SupportFace *);
 PETSC_INTERN PetscErrorCode SupportAddFacets(Support *, const SupportFace *, PetscInt other, const PetscBool along[3],
-  const PetscReal normal[3], PetscBool centres);
+  const PetscReal normal[3]);
+PETSC_INTERN PetscErrorCode SupportMeasureFace(Support *, const SupportFace *);
+
+/* restraints.c: the links of everything in the scene that holds bodies, summed over the ranks. Collective. */
+PETSC_INTERN PetscErrorCode SupportAddScene(Support *, Scene);
+
+/* free_modes.c */
+PETSC_INTERN PetscErrorCode SupportFindNull(PetscInt n, PetscReal matrix[], PetscInt *nfree);
+PETSC_INTERN PetscErrorCode SupportGetFree(const Support *, PetscReal outside[]);
 
 /* gliding.c: bodies that glide along their contact faces if all others are held */
 PETSC_INTERN PetscErrorCode SupportFindGliding(const Support *, PetscBool glides[], MeshRotation rotations[]);
-
-/* restraints.c: the links of everything in the scene that holds bodies. Collective. */
-PETSC_INTERN PetscErrorCode SupportAddScene(Support *, Scene);
-
-/* free_modes.c: SupportSum() sums the links over the ranks; collective. SupportGetFree() computes outside[6 b + k], the
-   free part of mode k of body b. */
-PETSC_INTERN PetscErrorCode SupportSum(Support *);
-PETSC_INTERN PetscErrorCode SupportGetFree(const Support *, PetscReal outside[]);
 
 #endif

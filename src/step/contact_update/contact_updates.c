@@ -136,7 +136,6 @@ static PetscErrorCode ContactUpdatesOnce(StepProblem *p, PetscBool resume, Vec u
   *end  = PETSC_TRUE;
   *slid = PETSC_FALSE;
   PetscCall(ContactUpdatesSolveLinearized(p, resume, u_linearized, u, report, sol));
-  if (report->contact_updates) PetscCall(WeakSpringsTestMotion(p, u_linearized, u, report));
   if (!report->converged) PetscFunctionReturn(0);
   ++report->contact_updates;
   if (report->contact_updates == 1 && (p->friction.T || sim->scene->contact_updates == 1))

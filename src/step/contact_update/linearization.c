@@ -158,12 +158,6 @@ PetscErrorCode ContactUpdateNext(StepProblem *p, Anderson *secants, const Contac
   PetscCall(ProximalMeasure(p, u, &proximal)); /* this force decreases as bodies on weak springs come to rest, whereas
                                                   the change of the gap need not decrease */
   PetscCall(AndersonAdvance(secants, p->holds_weak ? proximal : report->update_error, u, u_linearized, &damped));
-  if (damped && ProximalMayHoldWeak(p)) {
-    PetscCall(VecDestroy(&next));
-    PetscCall(
-      ReportReason(report, PETSC_FALSE, "bodies that weak springs hold do not come to rest in contact updates"));
-    PetscFunctionReturn(0);
-  }
   if (damped) PetscCall(ContactUpdateWarnDamped(sim, report));
   if (damped) PetscCall(FrictionReleaseOpen(p));
   report->gap_damped += damped;

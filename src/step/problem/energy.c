@@ -48,15 +48,12 @@ static PetscErrorCode EnergyGetState(StepProblem *p, Vec iterate, Vec *u)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode EnergyObjective(Tao tao, Vec iterate, PetscReal *f, void *ctx)
+/* Computes the energy *f of the bodies and the loads at the displacement u; infinite if an element is inverted */
+static PetscErrorCode EnergyGet(StepProblem *p, Vec u, PetscReal *f)
 {
-  StepProblem *p    = (StepProblem *)ctx;
-  PetscScalar  work = 0.0;
-  Vec          u;
+  PetscScalar work = 0.0;
 
   PetscFunctionBegin;
-  (void)tao;
-  PetscCall(EnergyGetState(p, iterate, &u));
   PetscCall(PetscLogEventBegin(SIM_Energy, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityEnergy(p->sim->elasticity, u, f));
   PetscCall(PetscLogEventEnd(SIM_Energy, NULL, NULL, NULL, NULL));
@@ -68,19 +65,12 @@ PetscErrorCode EnergyObjective(Tao tao, Vec iterate, PetscReal *f, void *ctx)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Vec G, void *ctx)
+/* Computes the gradient G of the energy at the displacement u, which is 0 in prescribed and tied rows */
+PetscErrorCode EnergyGetGradient(StepProblem *p, Vec u, Vec G)
 {
-  StepProblem *p      = (StepProblem *)ctx;
-  PetscReal    energy = 0.0; /* not used, since EnergyObjective() has added this energy */
-  Vec          u;
+  PetscReal energy = 0.0; /* not used */
 
   PetscFunctionBegin;
-  PetscCall(EnergyObjective(tao, iterate, f, ctx));
-  PetscCall(EnergyGetState(p, iterate, &u));
-  if (PetscIsInfOrNanReal(*f)) {
-    PetscCall(VecZeroEntries(G));
-    PetscFunctionReturn(0);
-  }
   PetscCall(PetscLogEventBegin(SIM_Energy, NULL, NULL, NULL, NULL));
   PetscCall(ElasticityForce(p->sim->elasticity, u, G));
   PetscCall(PetscLogEventEnd(SIM_Energy, NULL, NULL, NULL, NULL));
@@ -93,29 +83,64 @@ PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Ve
   PetscFunctionReturn(0);
 }
 
+/* Assembles the tangent H at the displacement u */
+PetscErrorCode EnergyGetTangent(StepProblem *p, Vec u, Mat H)
+{
+  const Constraints constraints = SimulationConstraints(p->sim);
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SIM_Energy, NULL, NULL, NULL, NULL));
+  PetscCall(TiesTangent(&constraints, u, H));
+  PetscCall(ProximalAddStiffness(p, H));
+  PetscCall(PetscLogEventEnd(SIM_Energy, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode EnergyObjective(Tao tao, Vec iterate, PetscReal *f, void *ctx)
+{
+  StepProblem *p = (StepProblem *)ctx;
+  Vec          u;
+
+  PetscFunctionBegin;
+  (void)tao;
+  PetscCall(EnergyGetState(p, iterate, &u));
+  PetscCall(EnergyGet(p, u, f));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Vec G, void *ctx)
+{
+  StepProblem *p = (StepProblem *)ctx;
+  Vec          u;
+
+  PetscFunctionBegin;
+  (void)tao;
+  PetscCall(EnergyGetState(p, iterate, &u));
+  PetscCall(EnergyGet(p, u, f));
+  if (EnergyIsFinite(*f)) PetscCall(EnergyGetGradient(p, u, G));
+  else PetscCall(VecZeroEntries(G));
+  PetscFunctionReturn(0);
+}
+
 /*
    Computes the tangent at the iterate. If metal yields, the iterate is far from the solution and the line search
    shortened the last step, the tangent contains a fraction of the secant stiffness.
 */
 PetscErrorCode EnergyHessian(Tao tao, Vec iterate, Mat H, Mat Hpre, void *ctx)
 {
-  StepProblem      *p           = (StepProblem *)ctx;
-  const Constraints constraints = SimulationConstraints(p->sim);
-  const PetscReal   most = 0.95, far = 0.03, secant = 0.4;
-  PetscReal         error, length;
-  PetscInt          its;
-  Vec               u;
+  StepProblem    *p    = (StepProblem *)ctx;
+  const PetscReal most = 0.95, far = 0.03, secant = 0.4;
+  PetscReal       error, length;
+  PetscInt        its;
+  Vec             u;
 
   PetscFunctionBegin;
   (void)Hpre;
   PetscCall(TaoGetSolutionStatus(tao, &its, NULL, &error, NULL, &length, NULL));
-  ElasticitySetSecant(p->sim->elasticity, its && length < most && error > far ? secant : 0.0);
   PetscCall(EnergyGetState(p, iterate, &u));
-  PetscCall(PetscLogEventBegin(SIM_Energy, NULL, NULL, NULL, NULL));
-  PetscCall(TiesTangent(&constraints, u, H));
+  ElasticitySetSecant(p->sim->elasticity, its && length < most && error > far ? secant : 0.0);
+  PetscCall(EnergyGetTangent(p, u, H));
   ElasticitySetSecant(p->sim->elasticity, 0.0);
-  PetscCall(ProximalAddStiffness(p, H));
-  PetscCall(PetscLogEventEnd(SIM_Energy, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
 

@@ -91,6 +91,23 @@ PetscErrorCode FrictionSetUp(StepProblem *p, ContactLinearization lin, Vec u_lin
   PetscFunctionReturn(0);
 }
 
+/* Copies what the optimizer changes; the matrix is shared */
+PetscErrorCode FrictionCopy(const StepFriction *f, StepFriction *copy)
+{
+  const Vec  from[] = {f->t, f->t_given, f->limit, f->coefficient};
+  Vec *const to[]   = {&copy->t, &copy->t_given, &copy->limit, &copy->coefficient};
+
+  PetscFunctionBegin;
+  copy->T = f->T;
+  if (!f->T) PetscFunctionReturn(0);
+  PetscCall(PetscObjectReference((PetscObject)f->T));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(to); ++k) {
+    PetscCall(VecDuplicate(from[k], to[k]));
+    PetscCall(VecCopy(from[k], *to[k]));
+  }
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode FrictionDestroy(StepFriction *f)
 {
   PetscFunctionBegin;

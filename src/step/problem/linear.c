@@ -4,9 +4,8 @@
 #include "src/state/control.h"
 #include "src/state/path.h"
 
-/* Creates the solver for the stiffness A of the bodies: CG preconditioned by AMG, or by a factorization. *ksp: with the
-   options of the user, and with their tolerance instead of rtol */
-PetscErrorCode LinearCreateKSP(Simulation sim, Mat A, PetscReal rtol, KSP *ksp)
+/* Creates the solver of load steps without contact: CG preconditioned by AMG, or by a factorization */
+static PetscErrorCode LinearCreateKSP(Simulation sim, KSP *ksp)
 {
   PC pc;
 
@@ -14,14 +13,14 @@ PetscErrorCode LinearCreateKSP(Simulation sim, Mat A, PetscReal rtol, KSP *ksp)
   PetscCall(KSPCreate(sim->comm, ksp));
   PetscCall(KSPSetOptionsPrefix(*ksp, "elasticity_"));
   PetscCall(KSPSetType(*ksp, KSPCG));
-  PetscCall(KSPSetTolerances(*ksp, rtol, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(KSPSetTolerances(*ksp, sim->control->tolerances.linear, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(KSPGetPC(*ksp, &pc));
   PetscCall(PCSetType(pc, PCAMGF));
   PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
   PetscCall(PCAMGFSetFactor(pc, PC_AMGF_FACTOR_AUTO));
   PetscCall(KSPSetFromOptions(*ksp));
-  PetscCall(StiffnessSetModes(sim, *ksp, A));
-  PetscCall(KSPSetOperators(*ksp, A, A));
+  PetscCall(StiffnessSetModes(sim, *ksp, sim->K));
+  PetscCall(KSPSetOperators(*ksp, sim->K, sim->K));
   PetscFunctionReturn(0);
 }
 
@@ -30,7 +29,7 @@ static PetscErrorCode LinearGetKSP(Simulation sim, KSP *ksp)
 {
   PetscFunctionBegin;
   if (!sim->control->ksp) {
-    PetscCall(LinearCreateKSP(sim, sim->K, sim->control->tolerances.linear, &sim->control->ksp));
+    PetscCall(LinearCreateKSP(sim, &sim->control->ksp));
     PetscCall(KSPGetTolerances(sim->control->ksp, &sim->control->tolerances.linear, NULL, NULL, NULL));
     if (sim->control->observer.linear)
       PetscCall(KSPMonitorSet(sim->control->ksp, sim->control->observer.linear, sim, NULL));

@@ -77,8 +77,9 @@ PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(p, sizeof(*p)));
-  p->sim  = sim;
-  p->time = time;
+  p->sim       = sim;
+  p->time      = time;
+  p->quadratic = sim->quadratic;
   PetscCall(PetscObjectReference((PetscObject)sim->K));
   p->K = sim->K;
   PetscCall(VecDuplicate(sim->path->u, &p->base));
@@ -182,6 +183,19 @@ PetscErrorCode StepProblemSetBounds(StepProblem *p, PetscReal increment)
   PetscCall(PrescribedSet(&p->sim->prescribed, PETSC_INFINITY, p->upper));
   PetscCall(TiesSet(&p->sim->ties, PETSC_NINFINITY, p->lower));
   PetscCall(TiesSet(&p->sim->ties, PETSC_INFINITY, p->upper));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Finds, once for each problem, whether contact forces can balance the loads, and reports the bodies that they cannot
+   hold. Nothing is tested in a dynamic analysis, where inertia balances any load.
+*/
+PetscErrorCode StepProblemForesee(StepProblem *p, StepReport *report)
+{
+  PetscFunctionBegin;
+  if (p->foreseen || p->lower || SimulationIsDynamic(p->sim)) PetscFunctionReturn(0);
+  p->foreseen = PETSC_TRUE;
+  PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unsupported));
   PetscFunctionReturn(0);
 }
 

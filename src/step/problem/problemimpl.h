@@ -12,9 +12,7 @@
 PETSC_INTERN PetscErrorCode StiffnessSetType(Simulation);
 PETSC_INTERN PetscErrorCode StiffnessGetWhole(Simulation, MatType, Mat *);
 PETSC_INTERN PetscErrorCode StiffnessSetModes(Simulation, KSP, Mat);
-
-/* weak_modes.c: rigid body modes of bodies on weak springs for the search space of the optimizer */
-PETSC_INTERN PetscErrorCode WeakModesGive(Simulation, Tao);
+PETSC_INTERN PetscErrorCode StiffnessGiveMotions(Simulation, Tao);
 
 /*
    anderson.c: Anderson acceleration of the contact updates, of the follower loads or of the mean internal
@@ -52,6 +50,7 @@ typedef struct {
 typedef struct {
   Simulation sim;
   PetscReal  time;
+  PetscBool  quadratic; /* true if the objective is the quadratic model */
   Mat        K;
   Vec        base;
   Vec        load;   /* dead loads plus follower loads at p->followed [force]; NULL: no loads */
@@ -70,10 +69,12 @@ typedef struct {
                                         proximal term; NULL: no such term */
   PetscBool  unsupported;      /* true if it is proven that contact cannot hold the loads with the bodies in
                                         the positions of the last state */
+  PetscBool  foreseen;         /* true if this was tested */
   PetscBool  moves_on;         /* true if a body that only friction holds did not come to rest in any solve */
   char      *failed;           /* reason for which the solve before the proximal term was added failed; NULL:
                                         no such failure */
   PetscBool  holds_weak;       /* true if the proximal term holds bodies on weak springs */
+  PetscReal *weak_density;     /* stiffness of this term per volume of each body [force/length^4]; NULL: no such term */
   PetscBool  glides;           /* true if this term holds a body in a motion that no contact resists */
   PetscReal  carried;          /* force of the proximal term after the last solve [force] */
   PetscReal  tolerance;        /* relative KKT error to which the present linearization is solved; 0: that of
@@ -108,6 +109,7 @@ PETSC_INTERN PetscErrorCode StepProblemTurn(StepProblem *, Vec u);
 PETSC_INTERN PetscErrorCode StepProblemSetContact(StepProblem *, ContactLinearization, Vec u_linearized);
 PETSC_INTERN PetscErrorCode StepProblemSetBounds(StepProblem *, PetscReal increment);
 PETSC_INTERN PetscErrorCode StepProblemAdvanceBolts(StepProblem *, Vec u, StepReport *, PetscBool *again);
+PETSC_INTERN PetscErrorCode StepProblemForesee(StepProblem *, StepReport *);
 PETSC_INTERN PetscErrorCode StepProblemDestroy(StepProblem *);
 /* callbacks of TAO; more of them are in energy.c; their context is a StepProblem */
 PETSC_INTERN PetscErrorCode StepProblemConstraint(Tao, Vec, Vec, void *);
@@ -129,8 +131,6 @@ PETSC_INTERN PetscErrorCode FollowersAdvance(StepProblem *, Vec u, PetscInt nsol
 PETSC_INTERN PetscErrorCode ProximalBegin(StepProblem *);
 PETSC_INTERN PetscErrorCode ProximalTurn(StepProblem *, Vec u);
 PETSC_INTERN PetscErrorCode ProximalRescue(StepProblem *, Vec u, StepReport *, PetscBool *again);
-PETSC_INTERN PetscBool      ProximalMayHoldWeak(const StepProblem *);
-PETSC_INTERN PetscErrorCode ProximalHoldWeak(StepProblem *, Vec u);
 PETSC_INTERN PetscErrorCode ProximalLinearize(StepProblem *, Vec u_linearized);
 PETSC_INTERN PetscErrorCode ProximalMeasure(StepProblem *, Vec u, PetscReal *fraction);
 PETSC_INTERN PetscErrorCode ProximalAddStiffness(const StepProblem *, Mat);
@@ -146,11 +146,14 @@ PETSC_INTERN PetscErrorCode FrictionReleaseOpen(StepProblem *);
 PETSC_INTERN PetscErrorCode FrictionRestart(StepProblem *);
 PETSC_INTERN PetscErrorCode FrictionKeep(StepProblem *, Tao, Vec u, ContactSolution *);
 PETSC_INTERN PetscErrorCode FrictionKeepNone(const StepProblem *, Vec u, ContactSolution *);
+PETSC_INTERN PetscErrorCode FrictionCopy(const StepFriction *, StepFriction *);
 PETSC_INTERN PetscErrorCode FrictionDestroy(StepFriction *);
 
 /* energy.c: objectives of the optimizer */
 PETSC_INTERN PetscErrorCode QuadraticEnergy(StepProblem *, Vec, PetscReal *);
 PETSC_INTERN PetscErrorCode QuadraticObjectiveAndGradient(Tao, Vec, PetscReal *, Vec, void *);
+PETSC_INTERN PetscErrorCode EnergyGetGradient(StepProblem *, Vec u, Vec G);
+PETSC_INTERN PetscErrorCode EnergyGetTangent(StepProblem *, Vec u, Mat H);
 PETSC_INTERN PetscErrorCode EnergyObjective(Tao, Vec, PetscReal *, void *);
 PETSC_INTERN PetscErrorCode EnergyObjectiveAndGradient(Tao, Vec, PetscReal *, Vec, void *);
 PETSC_INTERN PetscErrorCode EnergyHessian(Tao, Vec, Mat, Mat, void *);
@@ -171,7 +174,9 @@ PETSC_INTERN PetscErrorCode InterferenceAdd(Simulation, PetscReal time, PetscRea
 /* check_weak_springs.c: rejects solutions in which weak springs carry the loads */
 PETSC_INTERN PetscErrorCode WeakSpringsTest(const StepProblem *, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode WeakSpringsReportMotion(const StepProblem *, Vec u_linearized, Vec u, StepReport *);
-PETSC_INTERN PetscErrorCode WeakSpringsTestMotion(const StepProblem *, Vec u_linearized, Vec u, StepReport *);
+
+/* create_optimizer.c */
+PETSC_INTERN PetscErrorCode OptimizerCreate(StepProblem *, Tao *, PetscBool *ours);
 
 /*
    linear.c, optimizer.c, penalty.c: the three solvers. resume: true if the solve starts from u and from the pressures
@@ -188,7 +193,6 @@ PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u,
 PETSC_INTERN PetscErrorCode StepProblemStart(StepProblem *, PetscBool resume, Tao, Vec u, PetscBool *valid);
 
 /* linear.c: the solver for the bodies without contact; solves the systems of contact updates */
-PETSC_INTERN PetscErrorCode LinearCreateKSP(Simulation, Mat, PetscReal rtol, KSP *);
 PETSC_INTERN PetscErrorCode MatrixFreeSolve(Vec b, Vec x, void *context, PetscErrorCode (*multiply)(Mat, Vec, Vec),
   PetscReal rtol, PetscInt most, PetscBool *found);
 

@@ -6,10 +6,10 @@
 
      All bodies get this term if only friction holds an elastic body and the first solve failed.
 
-     Bodies on weak springs get a stiffer term if contact updates moved them far. A linearized gap does not resist
-     rotations that the true gap resists, such as that of a pin in a hole. At finite strain and between curved faces
-     these bodies get the term from the start, and in a quadratic problem if a body can turn about its axis. The centre
-     is the displacement at which the gap is linearized, so that the term vanishes as the contact updates converge.
+     Bodies on weak springs get this term in frictionless contact that is updated. A linearized gap does not resist
+     motions that the true gap resists with the contact force divided by a radius, such as the rotation of a pin in a
+     hole. The stiffness is therefore the force on the body divided by its size. The centre is the displacement at which
+     the gap is linearized, so that the term vanishes as the contact updates converge.
 */
 #include "problemimpl.h"
 #include <vector3.h>
@@ -23,14 +23,12 @@
 static const PetscInt  max_centres = 50, patience = 5;
 static const PetscReal stuck = 0.9;
 
-/*
-   Stiffness of the term, divided by that of the bodies: friction_stiffness after a failed solve with friction,
-   weak_stiffness for bodies on weak springs. The latter must exceed the rotational stiffness of the contact forces,
-   which a linearized gap omits and which is of the size of the strains. It grows by the factor weak_stiffness_growth in
-   each further attempt while it is below weak_stiffness_most.
-*/
-static const PetscReal friction_stiffness = 1e-4, weak_stiffness = 1e-2, weak_stiffness_most = 1.0,
-                       weak_stiffness_growth = 10.0;
+/* stiffness of the term after a failed solve with friction, divided by that of the bodies */
+static const PetscReal friction_stiffness = 1e-4;
+
+/* growth of the forces on the bodies that gives the term a new stiffness; the number of contact updates is the same for
+   stiffnesses that differ by this factor */
+static const PetscReal growth = 10.0;
 
 /*
    Adds the energy of the proximal term at x to *energy, and its force, proximal (x - centre), to `force`. force: may be
@@ -91,46 +89,51 @@ PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
 }
 
 /*
-   Computes the stiffness of the proximal term. proximal: `fraction` times the stiffness of the bodies; 0 in prescribed
-   and tied rows. weak: stiffness of the weak springs, so that only rows with such springs have a term; NULL: all bodies
-   have the term.
+   Computes the stiffness per volume of the proximal term of each body on weak springs at the displacement u. The
+   stiffness is the sum of the magnitudes of the nodal forces on the body, divided by its size, the cube root of its
+   volume. Before the first solve contact forces are not known, and the largest sum of all bodies is taken. density[b]:
+   0 for bodies without weak springs [force/length^4]
 */
-static PetscErrorCode ProximalGetStiffness(const StepProblem *p, PetscReal fraction, Vec weak, Vec proximal)
+static PetscErrorCode ProximalGetWeakDensity(const StepProblem *p, Vec u, PetscReal density[])
 {
-  const Bodies       bodies = SimulationBodies(p->sim);
-  const PetscScalar *springs;
-  PetscScalar       *k;
-  PetscInt           n;
+  const Simulation sim     = p->sim;
+  const Bodies     bodies  = SimulationBodies(sim);
+  const PetscInt   nbodies = sim->scene->nbodies;
+  PetscReal       *sums, *volume, largest = 0.0;
+  Vec              force;
 
   PetscFunctionBegin;
-  PetscCall(SpringsOfSize(&bodies, fraction, proximal));
-  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, proximal));
-  PetscCall(TiesSet(&p->sim->ties, 0.0, proximal));
-  if (!weak) PetscFunctionReturn(0);
-  PetscCall(VecGetLocalSize(proximal, &n));
-  PetscCall(VecGetArrayRead(weak, &springs));
-  PetscCall(VecGetArray(proximal, &k));
-  for (PetscInt i = 0; i < n; ++i) {
-    if (springs[i] == 0.0) k[i] = 0.0;
+  PetscCall(PetscMalloc2(4 * nbodies, &sums, nbodies, &volume));
+  PetscCall(VecDuplicate(u, &force));
+  PetscCall(ElasticityForce(sim->elasticity, u, force));
+  if (p->load) PetscCall(VecAXPY(force, -1.0, p->load));
+  PetscCall(VertexPlacesSumForces(&sim->places, sim->springs.weak, force, nbodies, sums));
+  PetscCall(SpringsMeasureVolumes(&bodies, volume));
+  for (PetscInt b = 0; b < nbodies; ++b) largest = PetscMax(largest, sums[4 * b + 3]);
+  for (PetscInt b = 0; b < nbodies; ++b) {
+    const PetscReal sum = p->weak_density ? sums[4 * b + 3] : largest;
+
+    density[b] = VectorNorm(&sums[4 * b]) > 0.0 ? sum / (PetscCbrtReal(volume[b]) * volume[b]) : 0.0;
   }
-  PetscCall(VecRestoreArray(proximal, &k));
-  PetscCall(VecRestoreArrayRead(weak, &springs));
+  PetscCall(VecDestroy(&force));
+  PetscCall(PetscFree2(sums, volume));
   PetscFunctionReturn(0);
 }
 
-/*
-   Adds a proximal term with the centre at p->base. weak: true if only bodies on weak springs get the term, false if all
-   bodies get it.
-*/
-static PetscErrorCode ProximalCreate(StepProblem *p, PetscBool weak)
+/* Adds a proximal term with the centre at p->base. weak: its stiffness per volume for each body on weak
+   springs; NULL: all bodies get the term */
+static PetscErrorCode ProximalCreate(StepProblem *p, const PetscReal weak[])
 {
-  Mat K;
+  const Bodies bodies = SimulationBodies(p->sim);
+  Mat          K;
 
   PetscFunctionBegin;
-  p->holds_weak = weak;
+  p->holds_weak = (PetscBool)(weak != NULL);
   PetscCall(VecDuplicate(p->base, &p->proximal));
-  PetscCall(ProximalGetStiffness(p, weak ? p->sim->control->weak_stiffness : friction_stiffness,
-    weak ? p->sim->springs.weak : NULL, p->proximal));
+  if (weak) PetscCall(SpringsDistribute(&bodies, weak, p->proximal));
+  else PetscCall(SpringsOfSize(&bodies, friction_stiffness, p->proximal));
+  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, p->proximal));
+  PetscCall(TiesSet(&p->sim->ties, 0.0, p->proximal));
   if (p->sim->quadratic) {
     PetscCall(MatDuplicate(p->sim->K, MAT_COPY_VALUES, &K));
     PetscCall(ProximalAddStiffness(p, K));
@@ -142,46 +145,53 @@ static PetscErrorCode ProximalCreate(StepProblem *p, PetscBool weak)
   PetscFunctionReturn(0);
 }
 
-/* Returns whether another attempt is allowed in which bodies on weak springs get a proximal term, or a stiffer one. */
-PetscBool ProximalMayHoldWeak(const StepProblem *p)
+PetscErrorCode ProximalEnd(StepProblem *p)
 {
-  const Simulation sim = p->sim;
-
-  return (PetscBool)(sim->springs.weak && (!p->centre || p->holds_weak) && !p->lower && !p->unsupported &&
-                     !p->flowing && sim->scene->contact_updates > 1 &&
-                     sim->control->weak_stiffness < weak_stiffness_most && !sim->control->interrupted &&
-                     EnergyIsFinite(p->energy) && !SimulationIsDynamic(sim));
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&p->centre));
+  PetscCall(VecDestroy(&p->proximal));
+  PetscCall(PetscFree(p->failed));
+  PetscCall(PetscFree(p->weak_density));
+  PetscFunctionReturn(0);
 }
 
-/* Returns whether a body on weak springs can turn about its axis without resistance of contact. */
-static PetscBool ProximalBodyTurns(Simulation sim)
+/* Returns whether bodies on weak springs get the proximal term */
+static PetscBool ProximalHoldsWeak(const StepProblem *p)
 {
-  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
-    if (sim->springs.rotations[b].free) return PETSC_TRUE;
-  }
+  const Scene scene = p->sim->scene;
+
+  if (!p->sim->springs.weak || (p->centre && !p->holds_weak) || SimulationIsDynamic(p->sim) ||
+      scene->contact_updates == 1)
+    return PETSC_FALSE;
+  for (PetscInt k = 0; k < scene->npairs; ++k)
+    if (!SceneContactPairHasFriction(&scene->pairs[k])) return PETSC_TRUE;
   return PETSC_FALSE;
 }
 
-/*
-   Finds whether bodies on weak springs need the proximal term from the first contact update on. If a body can turn
-   about its axis, linearized facets let it turn far, since this opens a gap between them.
-*/
-static PetscErrorCode ProximalHoldsAtOnce(const StepProblem *p, PetscBool *holds)
+/* Gives bodies on weak springs a proximal term, or another one if the forces at u are much larger or smaller than those
+   before */
+static PetscErrorCode ProximalHoldWeak(StepProblem *p, Vec u)
 {
-  const Simulation sim = p->sim;
+  const PetscInt nbodies = p->sim->scene->nbodies;
+  PetscReal     *density;
+  PetscBool      same = (PetscBool)(p->weak_density != NULL);
 
   PetscFunctionBegin;
-  *holds = PETSC_FALSE;
-  if (!sim->contact || !sim->springs.weak || p->centre || SimulationIsDynamic(sim)) PetscFunctionReturn(0);
-  *holds = (PetscBool)(sim->control->weak_stiffness > 0.0);
-  if (*holds || (sim->quadratic && !ProximalBodyTurns(sim))) PetscFunctionReturn(0);
-  for (PetscInt k = 0; k < sim->scene->npairs; ++k) {
-    PetscBool curved;
+  if (!ProximalHoldsWeak(p)) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(nbodies, &density));
+  PetscCall(ProximalGetWeakDensity(p, u, density));
+  for (PetscInt b = 0; b < nbodies && p->weak_density; ++b) {
+    const PetscReal last = p->weak_density[b];
 
-    PetscCall(ContactIsCurved(sim->contact, k, &curved));
-    if (curved && !SceneContactPairHasFriction(&sim->scene->pairs[k])) sim->control->weak_stiffness = weak_stiffness;
+    if (density[b] == 0.0) density[b] = last; /* the body has no contact for now */
+    same = (PetscBool)(same && density[b] <= growth * last && last <= growth * density[b]);
   }
-  *holds = (PetscBool)(sim->control->weak_stiffness > 0.0);
+  if (!same) {
+    if (p->centre) PetscCall(ProximalCentre(p, p->base)); /* removes the old term from energy and force */
+    PetscCall(ProximalEnd(p));
+    PetscCall(ProximalCreate(p, density));
+    p->weak_density = density;
+  } else PetscCall(PetscFree(density));
   PetscFunctionReturn(0);
 }
 
@@ -191,8 +201,6 @@ static PetscErrorCode ProximalHoldsAtOnce(const StepProblem *p, PetscBool *holds
 */
 PetscErrorCode ProximalBegin(StepProblem *p)
 {
-  PetscBool holds;
-
   PetscFunctionBegin;
   if (p->sim->rigid.n && !SimulationIsDynamic(p->sim)) {
     PetscCall(PetscObjectReference((PetscObject)p->sim->rigid.restraint));
@@ -200,8 +208,7 @@ PetscErrorCode ProximalBegin(StepProblem *p)
     PetscCall(VecDuplicate(p->base, &p->centre));
     PetscCall(VecCopy(p->base, p->centre));
   }
-  PetscCall(ProximalHoldsAtOnce(p, &holds));
-  if (holds) PetscCall(ProximalCreate(p, PETSC_TRUE));
+  PetscCall(ProximalHoldWeak(p, p->base));
   PetscFunctionReturn(0);
 }
 
@@ -212,15 +219,6 @@ PetscErrorCode ProximalTurn(StepProblem *p, Vec u)
   if (!p->centre) PetscFunctionReturn(0);
   PetscCall(VecCopy(p->base, p->centre));
   PetscCall(ProximalCentre(p, u));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode ProximalEnd(StepProblem *p)
-{
-  PetscFunctionBegin;
-  PetscCall(VecDestroy(&p->centre));
-  PetscCall(VecDestroy(&p->proximal));
-  PetscCall(PetscFree(p->failed));
   PetscFunctionReturn(0);
 }
 
@@ -236,24 +234,7 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
                 !p->sim->control->interrupted && EnergyIsFinite(p->energy) && !SimulationIsDynamic(p->sim));
   if (!*again) PetscFunctionReturn(0);
   PetscCall(PetscStrallocpy(report->reason, &p->failed));
-  PetscCall(ProximalCreate(p, PETSC_FALSE));
-  PetscCall(VecCopy(p->base, u));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Prepares another attempt with a stiffer proximal term of bodies on weak springs. Later load steps use the term from
-   the start.
-*/
-PetscErrorCode ProximalHoldWeak(StepProblem *p, Vec u)
-{
-  PetscReal *fraction = &p->sim->control->weak_stiffness;
-
-  PetscFunctionBegin;
-  *fraction = *fraction > 0.0 ? *fraction * weak_stiffness_growth : weak_stiffness;
-  if (p->centre) PetscCall(ProximalCentre(p, p->base)); /* removes the old term from energy and force */
-  PetscCall(ProximalEnd(p));
-  PetscCall(ProximalCreate(p, PETSC_TRUE));
+  PetscCall(ProximalCreate(p, NULL));
   PetscCall(VecCopy(p->base, u));
   PetscFunctionReturn(0);
 }
@@ -359,6 +340,7 @@ PetscErrorCode ProximalLinearize(StepProblem *p, Vec u_linearized)
   Vec centre, elastic;
 
   PetscFunctionBegin;
+  PetscCall(ProximalHoldWeak(p, u_linearized));
   if (!p->holds_weak) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(u_linearized, &centre));
   PetscCall(VecDuplicate(u_linearized, &elastic));
@@ -476,7 +458,6 @@ static PetscErrorCode ProximalTestFlow(StepProblem *p, Vec u)
 static PetscErrorCode ProximalReportRigidBodies(StepProblem *p, Vec u, StepReport *report)
 {
   PetscFunctionBegin;
-  PetscCall(ReportReason(report, PETSC_FALSE, "a rigid body that is driven by forces is not held"));
   PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unsupported));
   if (!p->unsupported) PetscCall(ProximalTestFlow(p, u));
   if (p->flowing) PetscCall(ProximalReportFlow(p, report));

@@ -9,6 +9,12 @@ PetscErrorCode StepProblemSolve(StepProblem *p, PetscBool resume, Vec u, StepRep
   PetscBool         again, rescued;
 
   PetscFunctionBegin;
+  /*
+     A solve of a problem without a solution takes long. At finite strain without friction the bodies may find an
+     equilibrium far from the last state, so that nothing is tested before a solve has failed.
+  */
+  if (p->sim->quadratic || p->friction.T) PetscCall(StepProblemForesee(p, report));
+  if (p->unsupported) PetscFunctionReturn(0);
   p->sim->bolts.nsolves = 0;
   PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
   do {

@@ -1,7 +1,7 @@
 /*
    The starting point of a solve. If prescribed displacements do not continue the path, they are carried into the bodies
-   by a linear solve. Otherwise they would distort the elements at the prescribed faces, so that Newton's method would
-   need many iterations, or a thin element would be inverted.
+   by a step of Newton's method from the last state. Otherwise they would distort the elements at the prescribed faces,
+   so that Newton's method would need many iterations, or a thin element would be inverted.
 */
 #include "problemimpl.h"
 #include "src/state/contact_history.h"
@@ -28,104 +28,161 @@ static PetscErrorCode StartRecallContact(StepProblem *p, PetscReal scale, Tao ta
   PetscFunctionReturn(0);
 }
 
-/* Computes *df = K e for the tangent K at u, which here includes the columns of prescribed displacements */
-static PetscErrorCode StartMultiplyTangent(StepProblem *p, Tao tao, Vec u, Vec e, Vec *df)
+/*
+   Sets q to the quadratic model of p about the last state u0, in which the prescribed displacements change by e. Its
+   objective is force^T w + 1/2 w^T K w with w = u - u0 - e and force = E'(u0) + K e. K e is a difference of gradients,
+   since K has no columns of prescribed rows. The caller frees force, Kw, w and friction of q.
+*/
+static PetscErrorCode StartModel(StepProblem *p, Vec e, StepProblem *q)
 {
-  PetscReal size, extent, step, f;
-  Vec       moved, force;
+  PetscReal size, extent, step;
+  Vec       u0 = p->sim->path->u, moved;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(u, &moved));
-  PetscCall(VecDuplicate(u, &force));
-  PetscCall(VecDuplicate(u, df));
+  *q           = *p;
+  q->quadratic = PETSC_TRUE;
+  q->energy    = 0.0;
+  PetscCall(VecDuplicate(u0, &q->force));
+  PetscCall(VecDuplicate(u0, &q->Kw));
+  PetscCall(VecDuplicate(u0, &q->w));
+  PetscCall(VecDuplicate(u0, &moved));
   PetscCall(VecNorm(e, NORM_INFINITY, &size));
   PetscCall(VecNorm(p->sim->places.x, NORM_INFINITY, &extent));
   step = PETSC_SQRT_MACHINE_EPSILON * extent / size;
-  PetscCall(VecWAXPY(moved, step, e, u));
-  PetscCall(EnergyObjectiveAndGradient(tao, u, &f, force, p));
-  PetscCall(EnergyObjectiveAndGradient(tao, moved, &f, *df, p));
-  PetscCall(VecAXPY(*df, -1.0, force));
-  PetscCall(VecScale(*df, 1.0 / step));
-  PetscCall(VecDestroy(&force));
+  PetscCall(VecWAXPY(moved, step, e, u0));
+  PetscCall(EnergyGetGradient(p, moved, q->Kw));
+  PetscCall(EnergyGetGradient(p, u0, q->force));
+  PetscCall(VecAXPBY(q->force, 1.0 / step, 1.0 - 1.0 / step, q->Kw));
+  PetscCall(EnergyGetTangent(p, u0, p->K));
+  PetscCall(FrictionCopy(&p->friction, &q->friction));
   PetscCall(VecDestroy(&moved));
   PetscFunctionReturn(0);
 }
 
-/* Solves K w = -b for the tangent K in p->K, to a tolerance that suffices for a start */
-static PetscErrorCode StartSolve(StepProblem *p, Vec b, Vec w)
+/*
+   Computes the merit of u: its energy, plus the work of the contact forces on the gaps that u violates. forces:
+   multipliers of the contact rows; not used without contact
+*/
+static PetscErrorCode StartMerit(StepProblem *p, Vec u, Vec forces, PetscReal *merit)
 {
-  const PetscReal rtol = 1e-3;
-  const PetscInt  most = 100;
-  KSP             ksp;
+  PetscScalar work = 0.0;
+  Vec         gap, none;
 
   PetscFunctionBegin;
-  PetscCall(LinearCreateKSP(p->sim, p->K, rtol, &ksp));
-  PetscCall(KSPSetTolerances(ksp, rtol, PETSC_DEFAULT, PETSC_DEFAULT, most)); /* an option of the user does not count */
-  PetscCall(KSPSolve(ksp, b, w));
-  PetscCall(VecScale(w, -1.0));
-  PetscCall(KSPDestroy(&ksp));
+  PetscCall(EnergyObjective(NULL, u, merit, p));
+  if (!p->J || !EnergyIsFinite(*merit)) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(p->g, &gap));
+  PetscCall(VecDuplicate(p->g, &none));
+  PetscCall(VecSet(none, 0.0));
+  PetscCall(StepProblemConstraint(NULL, u, gap, p));
+  PetscCall(VecPointwiseMin(gap, gap, none));
+  PetscCall(VecDot(gap, forces, &work));
+  *merit -= PetscRealPart(work);
+  PetscCall(VecDestroy(&none));
+  PetscCall(VecDestroy(&gap));
+  PetscFunctionReturn(0);
+}
+
+/* Passes slacks, pressures and friction forces of the solved model to the optimizer as a start */
+static PetscErrorCode StartTake(const StepProblem *p, Tao model, Tao tao)
+{
+  Vec slack, pressure, force;
+
+  PetscFunctionBegin;
+  if (!p->J) PetscFunctionReturn(0);
+  PetscCall(TaoIPFilterGetSlack(model, &slack));
+  PetscCall(TaoIPFilterGetMultiplier(model, &pressure));
+  PetscCall(TaoIPFilterSetWarmStart(tao, slack, pressure));
+  if (!p->friction.T) PetscFunctionReturn(0);
+  PetscCall(TaoIPFilterGetNormTermForces(model, &force));
+  PetscCall(TaoIPFilterSetNormTermForces(tao, force));
   PetscFunctionReturn(0);
 }
 
 /*
-   Carries the increments e of the prescribed displacements into the bodies: u = u0 + e + w with the last state u0 and
-   K w = -K e in the rows that are not prescribed. The tangent K is that at u0, and contact is ignored. *f: energy at u
+   Replaces the starting point u by the solution of the quadratic model about the last state, if its merit is lower. The
+   model has the contact of the load step. It is therefore as definite as the load step itself, and its solution
+   violates no gap.
 */
-static PetscErrorCode StartCarry(StepProblem *p, Tao tao, Vec u, PetscReal *f)
+static PetscErrorCode StartCarry(StepProblem *p, Vec e, PetscReal scale, Tao tao, Vec u)
 {
-  Simulation sim = p->sim;
-  PetscReal  size;
-  Vec        e, w, df;
+  const PetscReal    rtol = 1e-3; /* suffices for a start */
+  StepProblem        q;
+  TaoConvergedReason reason;
+  PetscBool          ours;
+  PetscReal          merit, carried;
+  Vec                start, forces;
+  Tao                model;
 
   PetscFunctionBegin;
-  *f = PETSC_INFINITY;
-  PetscCall(VecDuplicate(u, &e));
-  PetscCall(VecWAXPY(e, -1.0, sim->path->u, p->base));
-  PetscCall(VecNorm(e, NORM_INFINITY, &size));
-  if (size > 0.0) {
-    PetscCall(VecDuplicate(u, &w));
-    PetscCall(StartMultiplyTangent(p, tao, sim->path->u, e, &df));
-    PetscCall(EnergyHessian(tao, sim->path->u, p->K, p->K, p));
-    PetscCall(StartSolve(p, df, w));
-    PetscCall(VecWAXPY(u, 1.0, w, p->base));
-    PetscCall(TiesFollow(&sim->ties, u));
-    PetscCall(EnergyObjective(tao, u, f, p));
-    PetscCall(VecDestroy(&df));
-    PetscCall(VecDestroy(&w));
+  PetscCall(StartModel(p, e, &q));
+  PetscCall(OptimizerCreate(&q, &model, &ours));
+  PetscCall(TaoSetTolerances(model, rtol, PETSC_DEFAULT, PETSC_DEFAULT));
+  if (p->J) PetscCall(FrictionGive(&q, model, scale));
+  PetscCall(VecDuplicate(u, &start));
+  PetscCall(VecCopy(p->base, start));
+  PetscCall(TaoSetSolution(model, start));
+  PetscCall(TaoSolve(model));
+  PetscCall(TaoGetConvergedReason(model, &reason));
+  if (reason > 0) {
+    PetscCall(TaoGetDualVariables(model, NULL, &forces));
+    PetscCall(TiesFollow(&p->sim->ties, start));
+    PetscCall(StartMerit(p, start, forces, &carried));
+    PetscCall(StartMerit(p, u, forces, &merit));
+    if (carried < merit) {
+      PetscCall(VecCopy(start, u));
+      PetscCall(StartTake(p, model, tao));
+    }
   }
-  PetscCall(VecDestroy(&e));
+  PetscCall(TaoDestroy(&model));
+  PetscCall(VecDestroy(&start));
+  PetscCall(VecDestroy(&q.force));
+  PetscCall(VecDestroy(&q.Kw));
+  PetscCall(VecDestroy(&q.w));
+  PetscCall(FrictionDestroy(&q.friction));
+  PetscFunctionReturn(0);
+}
+
+/* Finds whether prescribed displacements leave the path. *e: their increments, which the caller frees; NULL: no */
+static PetscErrorCode StartLeavesPath(StepProblem *p, Vec *e)
+{
+  PetscBool smooth = SimulationIsDynamic(p->sim); /* a time step always continues the path */
+  PetscReal size   = 0.0;
+
+  PetscFunctionBegin;
+  *e = NULL;
+  if (!smooth) PetscCall(PathIsSmooth(p->sim, p->time, &smooth));
+  if (smooth) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(p->base, e));
+  PetscCall(VecWAXPY(*e, -1.0, p->sim->path->u, p->base));
+  PetscCall(VecNorm(*e, NORM_INFINITY, &size));
+  if (size == 0.0) PetscCall(VecDestroy(e));
   PetscFunctionReturn(0);
 }
 
 /*
    Sets the starting point u of a nonlinear load step: the extrapolated path, if `moved`, or p->base. If prescribed
-   displacements do not continue the path, they are carried into the bodies if this lowers the energy. *valid: false if
-   an element is inverted at the starting point
+   displacements do not continue the path, they are carried into the bodies. *valid: false if an element is inverted at
+   the starting point
 */
-static PetscErrorCode StartNonlinear(StepProblem *p, PetscBool moved, Tao tao, Vec u, PetscBool *valid)
+static PetscErrorCode StartNonlinear(StepProblem *p, PetscBool moved, PetscReal scale, Tao tao, Vec u, PetscBool *valid)
 {
-  Simulation sim    = p->sim;
-  PetscReal  f      = PETSC_INFINITY, carried;
-  PetscBool  smooth = SimulationIsDynamic(sim); /* a time step always continues the path */
-  Vec        other;
+  PetscReal f = PETSC_INFINITY;
+  Vec       e;
 
   PetscFunctionBegin;
   if (moved) {
-    PetscCall(PathContinue(sim, p->time, u));
+    PetscCall(PathContinue(p->sim, p->time, u));
     PetscCall(EnergyObjective(tao, u, &f, p));
   }
-  if (!EnergyIsFinite(f)) {
-    PetscCall(VecCopy(p->base, u));
-    PetscCall(EnergyObjective(tao, u, &f, p));
+  if (!EnergyIsFinite(f)) PetscCall(VecCopy(p->base, u));
+  PetscCall(StartLeavesPath(p, &e));
+  if (e) {
+    PetscCall(StartCarry(p, e, scale, tao, u));
+    f = PETSC_INFINITY; /* the energy at the carried point is not known yet */
   }
-  if (!smooth) PetscCall(PathIsSmooth(sim, p->time, &smooth));
-  if (!smooth) {
-    PetscCall(VecDuplicate(u, &other));
-    PetscCall(StartCarry(p, tao, other, &carried));
-    if (carried < f) PetscCall(VecCopy(other, u));
-    f = PetscMin(f, carried);
-    PetscCall(VecDestroy(&other));
-  }
+  PetscCall(VecDestroy(&e));
+  if (!EnergyIsFinite(f)) PetscCall(EnergyObjective(tao, u, &f, p));
   *valid = EnergyIsFinite(f);
   PetscFunctionReturn(0);
 }
@@ -150,7 +207,7 @@ PetscErrorCode StepProblemStart(StepProblem *p, PetscBool resume, Tao tao, Vec u
   if (p->J) PetscCall(FrictionGive(p, tao, moved ? scale : 0.0));
   if (resume) PetscFunctionReturn(0);
   if (!p->J) moved = sim->control->warm;
-  if (!sim->quadratic) PetscCall(StartNonlinear(p, moved, tao, u, valid));
+  if (!sim->quadratic) PetscCall(StartNonlinear(p, moved, scale, tao, u, valid));
   else if (moved) PetscCall(PathContinue(sim, p->time, u));
   else PetscCall(VecCopy(p->base, u));
   PetscFunctionReturn(0);

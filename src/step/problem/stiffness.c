@@ -1,6 +1,6 @@
 /*
    Chooses the storage of the stiffness matrix: only the upper triangle, and no rigid body modes, if the solver does not
-   need more.
+   need more. Gives the optimizer motions that the stiffness hardly resists.
 */
 #include "problemimpl.h"
 
@@ -82,5 +82,27 @@ PetscErrorCode StiffnessSetModes(Simulation sim, KSP ksp, Mat A)
   if (!modes) PetscCall(ElasticitySetNearNullSpace(sim->elasticity, sim->K));
   PetscCall(MatGetNearNullSpace(sim->K, &modes));
   PetscCall(MatSetNearNullSpace(A, modes));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Passes the free motions to the optimizer's search space if bodies are on weak springs. */
+PetscErrorCode StiffnessGiveMotions(Simulation sim, Tao tao)
+{
+  FreeMotions motions;
+  Vec         moves;
+
+  PetscFunctionBegin;
+  if (!sim->springs.nweak || !sim->quadratic) PetscFunctionReturn(0);
+  if (!sim->springs.modes) {
+    PetscCall(FreeMotionsCreate(sim, &motions));
+    PetscCall(VecDuplicate(sim->places.x, &moves));
+    PetscCall(VecSet(moves, 1.0));
+    PetscCall(PrescribedSet(&sim->prescribed, 0.0, moves));
+    PetscCall(TiesSet(&sim->ties, 0.0, moves));
+    PetscCall(MatDiagonalScale(motions.Z, moves, NULL));
+    PetscCall(VecDestroy(&moves));
+    sim->springs.modes = motions.Z;
+  }
+  PetscCall(TaoIPFilterSetModes(tao, sim->springs.modes));
   PetscFunctionReturn(0);
 }

@@ -1,0 +1,114 @@
+/* Creates the optimizer of a problem, by which load steps and their starting points are solved. */
+#include "problemimpl.h"
+#include "src/state/contact_state.h"
+#include "src/state/control.h"
+#include "src/state/interrupt.h"
+#include "src/state/path.h"
+
+/*
+   Marks two options of share/options/pdipm.opts as used. PETSc releases differ in the name of one option. The file
+   therefore contains both names, and PETSc would report the name it does not know as unused.
+*/
+static PetscErrorCode OptimizerKnowBothNames(void)
+{
+  PetscBool given;
+
+  PetscFunctionBegin;
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-tao_pdipm_solve_symmetric_kkt", &given));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-tao_pdipm_symmetric_kkt", &given));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Applies p->tolerance, the tolerance of early contact updates, to the optimizer. This is done only for the filtered
+   subspace method, which continues from an inexact solution. An interior point method cannot reuse such a solution.
+   ours: true if the optimizer is TAOIPFILTER.
+*/
+static PetscErrorCode OptimizerSetTolerance(StepProblem *p, PetscBool ours, Tao tao)
+{
+  const char *const uses[] = {"false", "true", "auto"};
+  PetscInt          use;
+  PetscBool         given, interior;
+
+  PetscFunctionBegin;
+  PetscCall(
+    PetscOptionsGetEList(NULL, NULL, "-tao_ipfilter_subspace", uses, PETSC_STATIC_ARRAY_LENGTH(uses), &use, &given));
+  interior       = (PetscBool)(!ours || (given && !use && !p->friction.T));
+  p->ended_early = (PetscBool)(p->tolerance > p->sim->control->tolerances.optimizer && !p->centre && !interior);
+  if (p->ended_early) PetscCall(TaoSetTolerances(tao, p->tolerance, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Tells the optimizer how large the rounding errors of a gap are, which are those of coordinates. Elastic bodies of
+   small strain may move by less.
+*/
+static PetscErrorCode OptimizerSetRounding(Simulation sim, Tao tao)
+{
+  const PetscReal relative = 4.0 * PETSC_MACHINE_EPSILON;
+  PetscReal       place;
+  PetscBool       elastic = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < sim->scene->nbodies; ++b)
+    elastic = (PetscBool)(elastic || sim->scene->bodies[b].material.type != MATERIAL_RIGID);
+  if (sim->quadratic && elastic) PetscFunctionReturn(0);
+  PetscCall(VecNorm(sim->places.x, NORM_INFINITY, &place));
+  PetscCall(TaoIPFilterSetRounding(tao, relative * place));
+  PetscFunctionReturn(0);
+}
+
+/* Creates the optimizer of a problem. *ours: true for TAOIPFILTER; false if -tao_type chose another type. */
+PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
+{
+  Simulation sim = p->sim;
+  PetscInt   solves;
+  KSP        ksp;
+  Vec        c;
+
+  PetscFunctionBegin;
+  PetscCall(TaoCreate(sim->comm, tao));
+  PetscCall(TaoSetType(*tao, TAOIPFILTER));
+  if (p->quadratic) {
+    PetscCall(TaoSetObjectiveAndGradient(*tao, NULL, QuadraticObjectiveAndGradient, p));
+    PetscCall(TaoSetHessian(*tao, p->K, p->K, StepProblemConstant, p));
+  } else {
+    PetscCall(TaoSetObjective(*tao, EnergyObjective, p));
+    PetscCall(TaoSetObjectiveAndGradient(*tao, NULL, EnergyObjectiveAndGradient, p));
+    PetscCall(TaoSetHessian(*tao, p->K, p->K, EnergyHessian, p));
+    if (!SimulationIsDynamic(sim)) PetscCall(TaoMonitorSet(*tao, EnergyTestFlow, p, NULL));
+  }
+  if (p->J) {
+    PetscCall(VecDuplicate(p->g, &c));
+    PetscCall(TaoSetInequalityConstraintsRoutine(*tao, c, StepProblemConstraint, p));
+    PetscCall(TaoSetJacobianInequalityRoutine(*tao, p->J, p->J, StepProblemConstant, p));
+    PetscCall(VecDestroy(&c));
+    PetscCall(TaoIPFilterSetSlackMass(*tao, sim->solved->linearization->mass));
+  }
+  PetscCall(TaoIPFilterSetPrimalMass(*tao, sim->mass));
+  PetscCall(TaoSetTolerances(*tao, sim->control->tolerances.optimizer, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(TaoSetFromOptions(*tao));
+  PetscCall(OptimizerKnowBothNames());
+  PetscCall(TaoGetTolerances(*tao, &sim->control->tolerances.optimizer, NULL, NULL));
+  PetscCall(PetscObjectTypeCompare((PetscObject)*tao, TAOIPFILTER, ours));
+  PetscCall(OptimizerSetTolerance(p, *ours, *tao));
+  if (*ours && p->followed && !p->quadratic && !SimulationIsDynamic(sim))
+    PetscCall(TaoMonitorSet(*tao, FollowersTestLimit, p, NULL));
+  if (!*ours && !p->lower)
+    PetscCall(StepProblemSetBounds(p, PETSC_INFINITY)); /* TAOPDIPM of PETSc 3.18 reads the bounds even if there are
+                                                           none */
+  if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));
+  PetscCall(TaoGetKSP(*tao, &ksp));
+  PetscCall(StiffnessSetModes(sim, ksp, p->K));
+  PetscCall(StiffnessGiveMotions(sim, *tao));
+  if (*ours && sim->solved->subspace) PetscCall(TaoIPFilterSetSubspace(*tao, sim->solved->subspace));
+  PetscCheck(*ours || !p->friction.T, sim->comm, PETSC_ERR_SUP,
+    "friction needs -tao_type ipfilter; other optimizers do not support it");
+  PetscCall(PathSolvesToCome(sim, &solves));
+  PetscCall(TaoIPFilterSetSolvesToCome(*tao, solves));
+  PetscCall(OptimizerSetRounding(sim, *tao));
+  PetscCall(TaoMonitorSet(*tao, InterruptMonitor, sim, NULL));
+  PetscCall(TaoIPFilterSetInterrupt(*tao, InterruptCaught, NULL));
+  if (sim->control->observer.optimizer) PetscCall(TaoMonitorSet(*tao, sim->control->observer.optimizer, sim, NULL));
+  PetscFunctionReturn(0);
+}
