@@ -62,7 +62,6 @@ static PetscErrorCode OptimizerSetRounding(Simulation sim, Tao tao)
 PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
 {
   Simulation sim = p->sim;
-  PetscInt   solves;
   KSP        ksp;
   Vec        c;
 
@@ -104,8 +103,6 @@ PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   if (*ours && sim->solved->subspace) PetscCall(TaoIPFilterSetSubspace(*tao, sim->solved->subspace));
   PetscCheck(*ours || !p->friction.T, sim->comm, PETSC_ERR_SUP,
     "friction needs -tao_type ipfilter; other optimizers do not support it");
-  PetscCall(PathSolvesToCome(sim, &solves));
-  PetscCall(TaoIPFilterSetSolvesToCome(*tao, solves));
   PetscCall(OptimizerSetRounding(sim, *tao));
   PetscCall(TaoMonitorSet(*tao, InterruptMonitor, sim, NULL));
   PetscCall(TaoIPFilterSetInterrupt(*tao, InterruptCaught, NULL));
