@@ -95,6 +95,7 @@ PETSC_EXTERN PetscErrorCode PCAMGFGetFilterPivots(PC, PetscInt *);
 PETSC_EXTERN PetscErrorCode PCAMGFGetCounts(PC, PCAMGFCounts *);
 PETSC_EXTERN PetscErrorCode PCAMGFSetFactor(PC, PCAMGFFactorUse);
 PETSC_EXTERN PetscErrorCode PCAMGFGetFactored(PC, PetscBool *);
+PETSC_EXTERN PetscErrorCode PCAMGFReconsiderFactor(PC, PetscBool *);
 PETSC_EXTERN PetscErrorCode PCAMGFApplyProduct(PC, Vec r, Vec z, Vec product);
 
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetSlackMass(Tao, Vec);

@@ -113,7 +113,7 @@ static PetscErrorCode PCDestroy_AMGF(PC pc)
 .seealso: `PCAMGFSetCycle()`, `PCAMGFSetFilterIS()`, `PCAMGFSetFilterInterpolation()`, `PCAMGFSetAMGLag()`,
           `PCAMGFSetFilterActive()`, `PCAMGFSetFilterOptional()`, `PCAMGFGetFilterSize()`, `PCAMGFGetAMGPC()`,
           `PCAMGFGetFilterKSP()`, `PCAMGFGetFilterPivots()`, `PCAMGFGetCounts()`,
-          `PCAMGFSetFactor()`, `PCAMGFGetFactored()`, `PCAMGFGetAMGAge()`, `PCBLOCKAMG`,
+          `PCAMGFSetFactor()`, `PCAMGFGetFactored()`, `PCAMGFReconsiderFactor()`, `PCAMGFGetAMGAge()`, `PCBLOCKAMG`,
           `PCCOMPOSITE`, `PCDEFLATION`
 M*/
 PetscErrorCode PCCreate_AMGF(PC pc)

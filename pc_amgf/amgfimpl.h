@@ -49,8 +49,11 @@ typedef struct {
 /* A factorization of the operator, which is used instead of the AMG as the preconditioner B */
 typedef struct {
   PCAMGFFactorUse use;
-  PetscBool       on;     /* whether the last set-up used the factorization */
-  PetscBool       failed; /* the last factorization failed */
+  PetscBool       on;                /* whether the last set-up used the factorization */
+  PetscBool       failed;            /* the last factorization failed */
+  PetscBool       considered, small; /* whether PCAMGFReconsiderFactor() has analysed the operator, and found small
+                                        factors */
+  PetscInt        applies;           /* number of applications of the AMG before the last set-up */
   Mat             F;
   PetscInt        negative; /* number of negative pivots */
   AMGFStamp       analysed; /* stamp of the operator that was analysed */
@@ -149,6 +152,7 @@ PETSC_INTERN PetscErrorCode PCAMGFFactorIsUsed_Private(PC, PetscBool *);
 PETSC_INTERN PetscErrorCode PCAMGFFactorSetUp_Private(PC);
 PETSC_INTERN PetscErrorCode PCAMGFSetFactor_AMGF(PC, PCAMGFFactorUse);
 PETSC_INTERN PetscErrorCode PCAMGFGetFactored_AMGF(PC, PetscBool *);
+PETSC_INTERN PetscErrorCode PCAMGFReconsiderFactor_AMGF(PC, PetscBool *);
 /* set_up_amgf.c */
 PETSC_INTERN PetscErrorCode PCSetUp_AMGF(PC);
 /* filter_cycle.c */

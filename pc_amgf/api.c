@@ -131,6 +131,7 @@ static const AMGFFunction functions[] = {
   AMGF_FUNCTION(PCAMGFGetCounts, AMGF),
   AMGF_FUNCTION(PCAMGFSetFactor, AMGF),
   AMGF_FUNCTION(PCAMGFGetFactored, AMGF),
+  AMGF_FUNCTION(PCAMGFReconsiderFactor, AMGF),
   AMGF_FUNCTION(PCAMGFApplyProduct, AMGF),
 };
 

@@ -10,12 +10,20 @@ const char *const PCAMGFFactorUses[] = {"false", "true", "auto", "PCAMGFFactorUs
 */
 #define FACTOR_UNKNOWNS 15000
 
+/*
+   Later, when the AMG has been applied to the same operator so often that it is slow, `auto` factors a larger operator
+   whose factor is small. The entries of the factor are counted in those of the operator's upper triangle. The ratio is
+   7.3 for a cube of 13,000 unknowns, 15 for one of 94,000, and 6 for a plate of 86,000.
+*/
+#define FACTOR_APPLICATIONS 60
+#define FACTOR_FILL         8.0
+
 PetscErrorCode PCAMGFFactorReset_Private(AMGFFactor *f)
 {
   PetscFunctionBegin;
   PetscCall(MatDestroy(&f->F));
   f->analysed = (AMGFStamp){.id = 0};
-  f->on = f->failed = PETSC_FALSE;
+  f->on = f->failed = f->small = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -29,7 +37,7 @@ PetscErrorCode PCAMGFFactorIsUsed_Private(PC pc, PetscBool *used)
   *used = (PetscBool)(f->use == PC_AMGF_FACTOR_TRUE);
   if (f->use != PC_AMGF_FACTOR_AUTO || f->failed || !pc->pmat || PetscDefined(USE_COMPLEX)) PetscFunctionReturn(0);
   PetscCall(MatGetSize(pc->pmat, &n, NULL));
-  *used = (PetscBool)(n <= FACTOR_UNKNOWNS);
+  *used = (PetscBool)(f->small || n <= FACTOR_UNKNOWNS);
   PetscFunctionReturn(0);
 }
 
@@ -75,6 +83,29 @@ PetscErrorCode PCAMGFSetFactor_AMGF(PC pc, PCAMGFFactorUse use)
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode PCAMGFReconsiderFactor_AMGF(PC pc, PetscBool *changed)
+{
+  PC_AMGF    *amgf = (PC_AMGF *)pc->data;
+  AMGFFactor *f    = &amgf->factor;
+  PetscReal   fill;
+
+  PetscFunctionBegin;
+  *changed = PETSC_FALSE;
+  if (f->use != PC_AMGF_FACTOR_AUTO || f->on || f->failed || f->considered ||
+      amgf->counts.amg_applies < f->applies + FACTOR_APPLICATIONS)
+    PetscFunctionReturn(0);
+  f->considered = PETSC_TRUE;
+  PetscCall(MatDestroy(&f->F));
+  PetscCall(MatGetStamp_AMGF(pc->pmat, &f->analysed));
+  PetscCall(AMGFSymmetricFill(pc->pmat, NULL, &f->F, &fill));
+  *changed = f->small = (PetscBool)(fill <= FACTOR_FILL);
+  if (!*changed) PetscCall(MatDestroy(&f->F));
+  if (!*changed) PetscFunctionReturn(0);
+  amgf->lag.built = PETSC_FALSE;
+  pc->setupcalled = 0;
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PCAMGFGetFactored_AMGF(PC pc, PetscBool *factored)
 {
   PetscFunctionBegin;
@@ -112,6 +143,38 @@ PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
   PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscValidLogicalCollectiveEnum(pc, use, 2);
   PetscTryMethod(pc, "PCAMGFSetFactor_C", (PC, PCAMGFFactorUse), (pc, use));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  PCAMGFReconsiderFactor - Lets `PC_AMGF_FACTOR_AUTO` replace the AMG by a factorization, if it has been applied to the
+  present operator often, and the factors are small
+
+  Collective
+
+  Input Parameter:
+. pc - the preconditioner
+
+  Output Parameter:
+. changed - whether the next `PCSetUp()` computes a factorization
+
+  Level: advanced
+
+  Notes:
+  Call it between solves: a Krylov method needs the same preconditioner in all of its iterations. The AMG must have been
+  applied 60 times. The factors must have at most eight times as many entries as the upper triangle of the operator, so
+  that they need about the memory of the AMG. Thin and plane bodies have such factors, and the AMG is slow for thin
+  cells. On one rank only, if PETSc has CHOLMOD.
+
+.seealso: `PCAMGF`, `PCAMGFSetFactor()`, `PCAMGFGetFactored()`
+@*/
+PetscErrorCode PCAMGFReconsiderFactor(PC pc, PetscBool *changed)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
+  PetscAssertPointer(changed, 2);
+  *changed = PETSC_FALSE;
+  PetscTryMethod(pc, "PCAMGFReconsiderFactor_C", (PC, PetscBool *), (pc, changed));
   PetscFunctionReturn(0);
 }
 

@@ -157,7 +157,8 @@ static PetscErrorCode SetUpWhole(PC pc)
   PetscCall(PCAMGFLagDecide_Private(pc, &rebuild));
   if (rebuild) {
     PetscCall(PetscLogEventBegin(PC_AMGF_AMGSetUp, pc, 0, 0, 0));
-    factor->failed = PETSC_FALSE;
+    factor->failed  = PETSC_FALSE;
+    factor->applies = amgf->counts.amg_applies;
     PetscCall(PCAMGFFactorIsUsed_Private(pc, &factor->on));
     if (factor->on) PetscCall(PCAMGFFactorSetUp_Private(pc));
     PetscCall(PCAMGFFactorIsUsed_Private(pc, &factor->on));

@@ -155,30 +155,38 @@ static PetscErrorCode FactorsCopyUpper(Mat A, FactorsUpper *upper)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode FactorsDestroyUpper(FactorsUpper *upper)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&upper->U));
+  PetscCall(PetscFree3(upper->i, upper->j, upper->a));
+  PetscFunctionReturn(0);
+}
+
+/* Only a supernodal factorization of CHOLMOD stops at a pivot that is not positive. It prints a message about it. */
+static const AMGFSetting cholmod_settings[] = {{"mat_cholmod_factor", "supernodal"}, {"mat_cholmod_print", "0"},
+  {NULL, NULL}};
+
 /*
    Computes L L^T by CHOLMOD. *F: NULL, or factors for the same pattern. *definite: false if a pivot is not positive;
    the factors cannot solve then, but serve for another matrix.
 */
 static PetscErrorCode FactorsByCholmod(Mat A, const char prefix[], Mat *F, PetscBool *definite)
 {
-  /* Only a supernodal factorization stops at a pivot that is not positive. CHOLMOD prints a message about it. */
-  static const AMGFSetting settings[] = {{"mat_cholmod_factor", "supernodal"}, {"mat_cholmod_print", "0"},
-    {NULL, NULL}};
-  FactorsUpper             upper;
-  PetscErrorCode           code;
-  MatFactorInfo            info;
-  MatFactorError           error;
+  FactorsUpper   upper;
+  PetscErrorCode code;
+  MatFactorInfo  info;
+  MatFactorError error;
 
   PetscFunctionBegin;
   PetscCall(FactorsCopyUpper(A, &upper));
-  if (!*F) PetscCall(FactorsAnalyse(upper.U, MATSOLVERCHOLMOD, prefix, settings, 0, F, &error));
+  if (!*F) PetscCall(FactorsAnalyse(upper.U, MATSOLVERCHOLMOD, prefix, cholmod_settings, 0, F, &error));
   PetscCall(MatFactorInfoInitialize(&info));
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
   code = MatCholeskyFactorNumeric(*F, upper.U, &info);
   PetscCall(PetscPopErrorHandler());
   *definite = (PetscBool)!code;
-  PetscCall(MatDestroy(&upper.U));
-  PetscCall(PetscFree3(upper.i, upper.j, upper.a));
+  PetscCall(FactorsDestroyUpper(&upper));
   PetscFunctionReturn(0);
 }
 
@@ -195,6 +203,56 @@ static PetscErrorCode FactorsByMumps(Mat A, const char prefix[], Mat *F, PetscIn
   PetscCall(AMGFMumpsFactor(copy, prefix, settings, NULL, F, error));
   if (baij) PetscCall(MatDestroy(&copy));
   if (*F) PetscCall(AMGFMumpsGetInfog(*F, 12, negative));
+  PetscFunctionReturn(0);
+}
+
+/* Finds whether CHOLMOD and MUMPS can factor A */
+static PetscErrorCode FactorsFindSolvers(Mat A, PetscBool *cholmod, PetscBool *mumps)
+{
+  PetscBool seq, mpi;
+
+  PetscFunctionBegin;
+  *cholmod = *mumps = PETSC_FALSE;
+  if (PetscDefined(USE_COMPLEX)) PetscFunctionReturn(0);
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)A, &seq, MATSEQAIJ, MATSEQBAIJ, MATSEQSBAIJ, ""));
+  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)A, &mpi, MATMPIAIJ, MATMPIBAIJ, MATMPISBAIJ, ""));
+  if (seq) PetscCall(MatSolverTypeGet(MATSOLVERCHOLMOD, MATSEQSBAIJ, MAT_FACTOR_CHOLESKY, NULL, cholmod, NULL));
+  if (seq || mpi) PetscCall(AMGFMumpsFactors(seq ? MATSEQAIJ : MATMPIAIJ, MAT_FACTOR_CHOLESKY, mumps));
+  PetscFunctionReturn(0);
+}
+
+/*
+   AMGFSymmetricFill - analyses a symmetric matrix on one rank
+
+   Collective
+
+   Input Parameters:
+   + A      - matrix of type SEQAIJ, SEQBAIJ or SEQSBAIJ
+   - prefix - options prefix of the factors, or NULL
+
+   Output Parameters:
+   + F    - the analysis, for AMGFSymmetricFactor(); NULL without CHOLMOD
+   - fill - number of entries of the factor divided by that of A's upper triangle; infinite without CHOLMOD, and on
+            several ranks
+*/
+PetscErrorCode AMGFSymmetricFill(Mat A, const char prefix[], Mat *F, PetscReal *fill)
+{
+  PetscBool      cholmod, mumps;
+  FactorsUpper   upper;
+  MatFactorError error;
+  MatInfo        matrix, factor;
+
+  PetscFunctionBegin;
+  *F    = NULL;
+  *fill = PETSC_INFINITY;
+  PetscCall(FactorsFindSolvers(A, &cholmod, &mumps));
+  if (!cholmod) PetscFunctionReturn(0);
+  PetscCall(FactorsCopyUpper(A, &upper));
+  PetscCall(FactorsAnalyse(upper.U, MATSOLVERCHOLMOD, prefix, cholmod_settings, 0, F, &error));
+  PetscCall(MatGetInfo(upper.U, MAT_LOCAL, &matrix));
+  PetscCall(MatGetInfo(*F, MAT_LOCAL, &factor));
+  *fill = factor.nz_used / matrix.nz_used;
+  PetscCall(FactorsDestroyUpper(&upper));
   PetscFunctionReturn(0);
 }
 
@@ -219,21 +277,17 @@ static PetscErrorCode FactorsByMumps(Mat A, const char prefix[], Mat *F, PetscIn
 */
 PetscErrorCode AMGFSymmetricFactor(Mat A, const char prefix[], Mat *F, PetscInt *negative, MatFactorError *error)
 {
-  PetscBool     seq, mpi, cholmod = PETSC_FALSE, mumps, definite = PETSC_FALSE;
+  PetscBool     cholmod, mumps, definite = PETSC_FALSE;
   PetscInt      n;
   MatSolverType type;
 
   PetscFunctionBegin;
   *error = MAT_FACTOR_OTHER;
-  if (PetscDefined(USE_COMPLEX)) PetscFunctionReturn(0);
-  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)A, &seq, MATSEQAIJ, MATSEQBAIJ, MATSEQSBAIJ, ""));
-  PetscCall(PetscObjectBaseTypeCompareAny((PetscObject)A, &mpi, MATMPIAIJ, MATMPIBAIJ, MATMPISBAIJ, ""));
-  if (!seq && !mpi) PetscFunctionReturn(0);
-  PetscCall(AMGFMumpsFactors(seq ? MATSEQAIJ : MATMPIAIJ, MAT_FACTOR_CHOLESKY, &mumps));
+  PetscCall(FactorsFindSolvers(A, &cholmod, &mumps));
   if (*F) {
     PetscCall(MatFactorGetSolverType(*F, &type));
     PetscCall(PetscStrcmp(type, MATSOLVERCHOLMOD, &cholmod));
-  } else if (seq) PetscCall(MatSolverTypeGet(MATSOLVERCHOLMOD, MATSEQSBAIJ, MAT_FACTOR_CHOLESKY, NULL, &cholmod, NULL));
+  }
   if (cholmod) {
     PetscCall(FactorsByCholmod(A, prefix, F, &definite));
     *error = definite ? MAT_FACTOR_NOERROR : MAT_FACTOR_NUMERIC_ZEROPIVOT;

@@ -16,6 +16,7 @@ typedef struct {
   }
 
 PETSC_INTERN PetscErrorCode AMGFSymmetricFactor(Mat, const char prefix[], Mat *F, PetscInt *negative, MatFactorError *);
+PETSC_INTERN PetscErrorCode AMGFSymmetricFill(Mat, const char prefix[], Mat *F, PetscReal *fill);
 PETSC_INTERN PetscErrorCode AMGFMumpsFactor(Mat, const char prefix[], const AMGFSetting[], PetscReal *memory, Mat *F,
   MatFactorError *);
 

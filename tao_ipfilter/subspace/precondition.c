@@ -135,6 +135,9 @@ PetscErrorCode IPFilteredPrecondition(Tao tao, IPRecycle *recycle, Vec r, Vec d,
   Vec            q;
 
   PetscFunctionBegin;
+  PetscCall(IPRecycleReconsider(tao, recycle, &possible));
+  *definite = possible;
+  if (!possible) PetscFunctionReturn(0);
   PetscCall(PreconditionMayImprove(tao, recycle, &improve));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &q));
   PetscCall(PreconditionApply(tao, recycle, r, d, improve ? q : NULL, &product));

@@ -152,6 +152,20 @@ static PetscErrorCode RecycleSetUpFree(Tao tao, IPRecycle *recycle, Mat K, Petsc
   PetscFunctionReturn(0);
 }
 
+/* Replaces an AMG that is slow for K by a factorization, if that is small. The directions remain valid. */
+PetscErrorCode IPRecycleReconsider(Tao tao, IPRecycle *recycle, PetscBool *possible)
+{
+  const Mat K = ((TAO_IPFILTER *)tao->data)->hess->H;
+  PetscBool amgf, changed = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  *possible = PETSC_TRUE;
+  PetscCall(PetscObjectTypeCompare((PetscObject)recycle->pc, PCAMGF, &amgf));
+  if (amgf && !recycle->held) PetscCall(PCAMGFReconsiderFactor(recycle->pc, &changed));
+  if (changed) PetscCall(RecycleSetUpPC(tao, recycle, K, K, possible));
+  PetscFunctionReturn(0);
+}
+
 /*
    Computes the weights D_t of the norm terms' rows: rho, the stiffness that resists the term, if the term can carry a
    force; otherwise 0

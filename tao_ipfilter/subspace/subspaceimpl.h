@@ -221,6 +221,7 @@ PETSC_INTERN PetscErrorCode IPRecycleReset(IPRecycle *);
 PETSC_INTERN PetscErrorCode IPRecycleStiffnessOfTerms(Tao, Vec Dt);
 PETSC_INTERN PetscErrorCode IPRecycleCondense(Tao, Vec D, Vec Dt, Mat *A);
 PETSC_INTERN PetscErrorCode IPRecycleHold(Tao, IPRecycle *, PetscBool *possible);
+PETSC_INTERN PetscErrorCode IPRecycleReconsider(Tao, IPRecycle *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPRecycleUpdate(Tao, IPRecycle *, PetscBool *possible);
 
 /* precondition.c */

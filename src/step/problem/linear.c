@@ -24,9 +24,12 @@ static PetscErrorCode LinearCreateKSP(Simulation sim, KSP *ksp)
   PetscFunctionReturn(0);
 }
 
-/* Returns the solver of load steps without contact */
+/* Returns the solver of load steps without contact. If its AMG was slow for earlier ones, it may factor the matrix. */
 static PetscErrorCode LinearGetKSP(Simulation sim, KSP *ksp)
 {
+  PetscBool changed;
+  PC        pc;
+
   PetscFunctionBegin;
   if (!sim->control->ksp) {
     PetscCall(LinearCreateKSP(sim, &sim->control->ksp));
@@ -34,6 +37,8 @@ static PetscErrorCode LinearGetKSP(Simulation sim, KSP *ksp)
     if (sim->control->observer.linear)
       PetscCall(KSPMonitorSet(sim->control->ksp, sim->control->observer.linear, sim, NULL));
   }
+  PetscCall(KSPGetPC(sim->control->ksp, &pc));
+  PetscCall(PCAMGFReconsiderFactor(pc, &changed));
   *ksp = sim->control->ksp;
   PetscFunctionReturn(0);
 }
