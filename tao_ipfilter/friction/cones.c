@@ -350,6 +350,7 @@ PetscErrorCode ConesStart(Cones s, PetscBool *started)
   for (PetscInt i = 0; i < s->c->n; i++) {
     Cone *k = &s->cone[i];
 
+    for (PetscInt r = 0; r < 3; r++) k->y[r] = k->f[r] = k->z[r] = 0.0;
     if (k->n) k->y[0] = s->length;
     if (k->n) k->f[0] = s->force;
     if (k->limited) k->z[0] = s->length * PetscMax(1.0, s->force / k->limit);

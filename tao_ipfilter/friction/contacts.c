@@ -9,7 +9,7 @@ PetscErrorCode ContactsDestroy(Contacts *c)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree5(c->law, c->normal, c->closed, c->held, c->released));
-  PetscCall(PetscFree3(c->coefficient, c->limit, c->rigid));
+  PetscCall(PetscFree5(c->coefficient, c->limit, c->rigid, c->f_start, c->u_start));
   PetscCall(PetscFree7(c->compliance, c->f, c->u, c->shift, c->place, c->D, c->s));
   PetscCall(PetscMemzero(c, sizeof(*c)));
   PetscFunctionReturn(0);
@@ -22,7 +22,7 @@ PetscErrorCode ContactsCreate(MPI_Comm comm, PetscInt n, Contacts *c)
   c->comm = comm;
   c->n    = n;
   PetscCall(PetscCalloc5(n, &c->law, n, &c->normal, n, &c->closed, n, &c->held, n, &c->released));
-  PetscCall(PetscCalloc3(n, &c->coefficient, n, &c->limit, 2 * n, &c->rigid));
+  PetscCall(PetscCalloc5(n, &c->coefficient, n, &c->limit, 2 * n, &c->rigid, 3 * n, &c->f_start, 3 * n, &c->u_start));
   PetscCall(PetscCalloc7(2 * n, &c->compliance, 3 * n, &c->f, 3 * n, &c->u, 2 * n, &c->shift, 2 * n, &c->place, 9 * n,
     &c->D, 3 * n, &c->s));
   PetscFunctionReturn(0);

@@ -127,13 +127,17 @@ static PetscErrorCode LawsBegin(IPLaws laws, Vec g, Vec c, Vec values, Vec force
   contacts->least    = accuracy * IPErrorBoundForceUnit(ip);
   PetscCall(LawsCopy(laws, c, values, contacts->u, PETSC_FALSE));
   PetscCall(LawsCopy(laws, force, terms, contacts->f, PETSC_FALSE));
+  PetscCall(LawsCopy(laws, IPFilteredOf(laws->tao)->start_c, IPFilteredOf(laws->tao)->start_values, contacts->u_start,
+    PETSC_FALSE));
+  PetscCall(LawsCopy(laws, IPFilteredOf(laws->tao)->start_force, terms, contacts->f_start, PETSC_FALSE));
   for (PetscInt i = 0; i < contacts->n; i++) {
     ContactsRemoveRigid(contacts, i, &contacts->u[3 * i]);
     ContactsRemoveRigid(contacts, i, &contacts->f[3 * i]);
     if (!contacts->normal[i]) contacts->f[3 * i] = 0.0;
     if (contacts->law[i] == CONTACT_SMOOTH) contacts->f[3 * i + 1] = contacts->f[3 * i + 2] = 0.0;
   }
-  PetscCall(ContactIterationBegin(contacts, SubspaceBodiesInterface(laws->bodies), &laws->iteration));
+  PetscCall(ContactIterationBegin(contacts, SubspaceBodiesInterface(laws->bodies),
+    (PetscBool)!IPFilteredOf(laws->tao)->newton, &laws->iteration));
   PetscFunctionReturn(0);
 }
 

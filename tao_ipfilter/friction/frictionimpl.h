@@ -40,6 +40,7 @@ typedef struct {
   PetscReal
     *compliance;    /* two per contact: estimates for the normal and for the tangential components [length/force] */
   PetscReal *f, *u; /* three per contact: forces, and motions: the gap and the slip */
+  PetscReal *f_start, *u_start; /* the same at the begin of the solve */
   PetscReal *shift, *place; /* two per contact: by how much the place was moved from which the slip is measured; slip at
                                which the contact closed last */
   PetscReal *D, *s;         /* nine and three per contact: linearized laws df = s - D du */
@@ -120,10 +121,12 @@ typedef struct {
   PetscBool            predicted;    /* whether it is known where contacts would close in this part */
   PetscReal           *du, *df;      /* changes of motions and forces in a step */
   PetscReal           *first;        /* motions and forces at the begin */
+  PetscReal           *from;         /* motions at the begin of this part of the load */
+  PetscBool            divides;      /* whether the load may grow in parts: the bodies are linear */
 } ContactStick;
 
 PETSC_INTERN PetscErrorCode ContactsHaveHeld(const Contacts *, PetscBool *some, PetscBool *alone);
-PETSC_INTERN PetscErrorCode StickBegin(Contacts *, const ContactBodies *, ContactStick *);
+PETSC_INTERN PetscErrorCode StickBegin(Contacts *, const ContactBodies *, PetscBool linear, ContactStick *);
 PETSC_INTERN PetscErrorCode StickIterate(ContactStick *, PetscBool *settled, PetscBool *solved);
 PETSC_INTERN PetscErrorCode StickUpdate(Contacts *, PetscInt *released, PetscInt *held);
 PETSC_INTERN PetscErrorCode StickEnd(ContactStick *);
@@ -151,7 +154,7 @@ typedef struct {
   PetscReal    *kept;            /* state at the start of Newton's method */
 } ContactIteration;
 
-PETSC_INTERN PetscErrorCode ContactIterationBegin(Contacts *, ContactBodies, ContactIteration *);
+PETSC_INTERN PetscErrorCode ContactIterationBegin(Contacts *, ContactBodies, PetscBool linear, ContactIteration *);
 PETSC_INTERN PetscErrorCode ContactIterationEnd(ContactIteration *);
 PETSC_INTERN PetscErrorCode ContactIterate(ContactIteration *, PetscBool *done);
 

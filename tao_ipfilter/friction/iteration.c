@@ -157,8 +157,9 @@ static PetscErrorCode IterationEnterCones(ContactIteration *it, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* Begins the iteration at the present state of contacts and bodies. Without any force it is a cold start. */
-PetscErrorCode ContactIterationBegin(Contacts *c, ContactBodies bodies, ContactIteration *it)
+/* Begins the iteration at the present state of contacts and bodies. Without any force it is a cold start. linear:
+   whether the bodies are linear in the whole solve, and not in one model of Newton's method */
+PetscErrorCode ContactIterationBegin(Contacts *c, ContactBodies bodies, PetscBool linear, ContactIteration *it)
 {
   PetscReal largest = 0.0;
   PetscBool alone;
@@ -174,7 +175,7 @@ PetscErrorCode ContactIterationBegin(Contacts *c, ContactBodies bodies, ContactI
   it->cold = (PetscBool)(largest == 0.0);
   PetscCall(ContactsHaveHeld(c, &it->sticks, &alone));
   if (!it->sticks) PetscFunctionReturn(0);
-  PetscCall(StickBegin(c, &it->bodies, &it->stick));
+  PetscCall(StickBegin(c, &it->bodies, linear, &it->stick));
   if (alone) it->phase = CONTACT_HELD;
   PetscFunctionReturn(0);
 }

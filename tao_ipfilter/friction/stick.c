@@ -45,30 +45,35 @@ static void StickRefer(Contacts *c, PetscInt i, const PetscReal slip[2])
   }
 }
 
-/* Closes the contacts that have a force, or touch */
-static PetscErrorCode StickClose(Contacts *c)
+/* Closes the contacts with a force f or without a gap in the motions u */
+static PetscErrorCode StickClose(Contacts *c, const PetscReal f[], const PetscReal u[])
 {
   const PetscReal touch   = 1e-9; /* gap without meaning, relative to the largest one */
   PetscReal       largest = 0.0;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < c->n; i++) largest = PetscMax(largest, PetscAbsReal(c->u[3 * i]));
+  for (PetscInt i = 0; i < c->n; i++) largest = PetscMax(largest, PetscAbsReal(u[3 * i]));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, c->comm));
   for (PetscInt i = 0; i < c->n; i++)
-    c->closed[i] =
-      (PetscBool)(c->normal[i] && (c->f[3 * i] > 0.0 || c->u[3 * i] <= PetscMax(touch * largest, c->rounding)));
+    c->closed[i] = (PetscBool)(c->normal[i] && (f[3 * i] > 0.0 || u[3 * i] <= PetscMax(touch * largest, c->rounding)));
   PetscFunctionReturn(0);
 }
 
-/* Holds the contacts that are closed */
-static void StickHold(Contacts *c)
+/* Holds the contacts that are closed in the motions u, which a part of the load begins with */
+static PetscErrorCode StickHold(ContactStick *s, const PetscReal u[])
 {
+  Contacts *c = s->contacts;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(s->from, u, 3 * c->n));
+  s->predicted = PETSC_FALSE;
   for (PetscInt i = 0; i < c->n; i++) {
     if (!ContactSticks(c, i)) continue;
     c->held[i]     = c->closed[i];
     c->released[i] = PETSC_FALSE;
-    for (PetscInt a = 0; a < 2; a++) c->place[2 * i + a] = c->u[3 * i + 1 + a];
+    for (PetscInt a = 0; a < 2; a++) c->place[2 * i + a] = u[3 * i + 1 + a];
   }
+  PetscFunctionReturn(0);
 }
 
 /*
@@ -100,25 +105,26 @@ PetscErrorCode StickUpdate(Contacts *c, PetscInt *released, PetscInt *held)
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode StickBegin(Contacts *c, const ContactBodies *bodies, ContactStick *s)
+/* Begins at the present state. The contacts are held that were closed when the solve began. */
+PetscErrorCode StickBegin(Contacts *c, const ContactBodies *bodies, PetscBool linear, ContactStick *s)
 {
   const size_t n = 3 * (size_t)c->n;
 
   PetscFunctionBegin;
-  *s = (ContactStick){.contacts = c, .bodies = bodies, .nparts = 1};
-  PetscCall(PetscCalloc3(n, &s->du, n, &s->df, 2 * n, &s->first));
+  *s = (ContactStick){.contacts = c, .bodies = bodies, .nparts = 1, .divides = linear};
+  PetscCall(PetscCalloc4(n, &s->du, n, &s->df, 2 * n, &s->first, n, &s->from));
   PetscCall(PetscArraycpy(s->first, c->u, n));
   PetscCall(PetscArraycpy(s->first + n, c->f, n));
   PetscCall(bodies->keep(bodies->data, PETSC_FALSE));
-  PetscCall(StickClose(c));
-  StickHold(c);
+  PetscCall(StickClose(c, c->f_start, c->u_start));
+  PetscCall(StickHold(s, c->u_start));
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode StickEnd(ContactStick *s)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree3(s->du, s->df, s->first));
+  PetscCall(PetscFree4(s->du, s->df, s->first, s->from));
   PetscFunctionReturn(0);
 }
 
@@ -143,10 +149,10 @@ static PetscErrorCode StickPredict(ContactStick *s)
   PetscCall(s->bodies->prepare(s->bodies->data, c->D, &solved));
   if (solved) PetscCall(ContactsStep(c, s->bodies, accuracy, 0.0, s->du, s->df, &solved));
   for (PetscInt i = 0; i < c->n && solved; i++) {
-    const PetscReal *u = &c->u[3 * i], *du = &s->du[3 * i];
+    const PetscReal *u = &c->u[3 * i], *du = &s->du[3 * i], *from = &s->from[3 * i], closes = from[0] - u[0] - du[0];
 
-    for (PetscInt a = 0; a < 2 && !c->closed[i] && du[0] < 0.0; a++)
-      c->place[2 * i + a] = u[1 + a] + PetscMin(1.0, u[0] / -du[0]) * du[1 + a];
+    for (PetscInt a = 1; a < 3 && !c->closed[i] && closes > 0.0; a++)
+      c->place[2 * i + a - 1] = from[a] + PetscClipInterval(from[0] / closes, 0.0, 1.0) * (u[a] + du[a] - from[a]);
   }
   PetscFunctionReturn(0);
 }
@@ -197,7 +203,7 @@ static PetscErrorCode StickDivide(ContactStick *s)
   PetscCall(PetscArrayzero(c->shift, 2 * c->n));
   PetscCall(s->bodies->keep(s->bodies->data, PETSC_TRUE));
   PetscCall(s->bodies->residual(s->bodies->data, c->f, sizes));
-  PetscCall(StickClose(c));
+  PetscCall(StickClose(c, c->f, c->u));
   s->nparts = parts;
   PetscFunctionReturn(0);
 }
@@ -216,7 +222,7 @@ PetscErrorCode StickIterate(ContactStick *s, PetscBool *settled, PetscBool *solv
   PetscCall(StickSolve(s, solved));
   if (!*solved) PetscFunctionReturn(0);
   PetscCall(StickUpdate(s->contacts, &released, &held));
-  if (released && s->nparts == 1) PetscCall(StickDivide(s));
+  if (released && s->nparts == 1 && s->divides) PetscCall(StickDivide(s));
   else if (released || held) PetscFunctionReturn(0);
   else if (s->part + 1 >= s->nparts) {
     *settled = (PetscBool)(s->whole || s->tension == 0.0);
@@ -225,7 +231,6 @@ PetscErrorCode StickIterate(ContactStick *s, PetscBool *settled, PetscBool *solv
     PetscFunctionReturn(0);
   } else s->part++;
   PetscCall(s->bodies->load(s->bodies->data, (s->part + 1.0) / s->nparts));
-  StickHold(s->contacts);
-  s->predicted = PETSC_FALSE;
+  PetscCall(StickHold(s, s->contacts->u));
   PetscFunctionReturn(0);
 }

@@ -21,6 +21,10 @@ PetscErrorCode IPFilteredDestroy(IPFiltered *f)
   PetscCall(VecDestroy(&f->centre));
   PetscCall(VecDestroy(&f->gradient));
   PetscCall(VecDestroy(&f->c));
+  PetscCall(VecDestroy(&f->start_t));
+  PetscCall(VecDestroy(&f->start_c));
+  PetscCall(VecDestroy(&f->start_values));
+  PetscCall(VecDestroy(&f->start_force));
   PetscCall(PetscFree2(f->pg, f->y));
   PetscFunctionReturn(0);
 }
@@ -80,6 +84,25 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec centre, Vec g
   PetscFunctionReturn(0);
 }
 
+/*
+   Keeps the state of constraints and norm terms at the begin of a solve. Contacts that stick move the offsets of terms;
+   each model of Newton's method begins with those of the solve.
+*/
+static PetscErrorCode FilteredKeepStart(Tao tao, Vec values, Vec force)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f     = IPFilteredOf(tao);
+  const Vec     now[] = {ip->terms->t, ip->at.c, values, force};
+  Vec *const    kept[] = {&f->start_t, &f->start_c, &f->start_values, &f->start_force};
+
+  PetscFunctionBegin;
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(now); k++) {
+    PetscCall(VecDuplicate(now[k], kept[k]));
+    PetscCall(VecCopy(now[k], *kept[k]));
+  }
+  PetscFunctionReturn(0);
+}
+
 /* Begins the laws of norm terms at the present point */
 PetscErrorCode IPFilteredBeginLaws(Tao tao)
 {
@@ -92,10 +115,12 @@ PetscErrorCode IPFilteredBeginLaws(Tao tao)
   PetscCall(VecCopy(tao->gradient, f->gradient));
   PetscCall(VecCopy(ip->at.c, f->c));
   f->f = ip->at.f;
+  if (f->start_t) PetscCall(VecCopy(f->start_t, ip->terms->t));
   PetscCall(VecDuplicate(ip->terms->t, &values));
   PetscCall(IPTermsValue(tao, tao->solution, values));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
   PetscCall(VecPointwiseMult(force, ip->pair[IP_SLACK].z, ip->pair[IP_SLACK].w));
+  if (!f->start_t) PetscCall(FilteredKeepStart(tao, values, force));
   PetscCall(ip->laws->begin(f->laws, f->gradient, f->c, values, force, ip->terms->force));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(VecDestroy(&values));

@@ -131,6 +131,8 @@ typedef struct {
   const IPLawsOps *lawsops;
   IPLaws           laws;                /* with norm terms, in place of the reduced problem; NULL: not set up */
   PetscInt         nclosed;             /* with norm terms: number of closed contacts */
+  Vec start_t, start_c, start_values, start_force; /* with norm terms: offsets of the terms, values of constraints and
+                                                      terms, and forces of the constraints when the solve began */
   Vec              centre, gradient, c; /* the point to which the reduced problem is relative; grad f and c_I there */
   PetscReal        f;                   /* f at that point */
   PetscReal       *pg, *y;              /* P^T grad f at that point; coefficients of the directions */
