@@ -103,7 +103,7 @@ static PetscErrorCode IterationNewton(ContactIteration *it, PetscBool *done)
     if (it->sticks) PetscCall(IterationUpdateHeld(it));
     PetscFunctionReturn(0);
   }
-  it->nfutile = merit <= 0.5 * it->best ? 0 : it->nfutile + 1;
+  it->nfutile = merit <= 0.7 * it->best ? 0 : it->nfutile + 1;
   it->best    = PetscMin(it->best, merit);
   *done       = (PetscBool)(!PetscIsInfOrNanReal(merit) && it->nfutile < patience && ++it->nsteps < most);
   PetscFunctionReturn(0);

@@ -401,12 +401,12 @@ static PetscErrorCode FilteredStepTerms(Tao tao, PetscBool *done)
   Vec            v, force;
 
   PetscFunctionBegin;
-  tao->ksp_its         = 0;
-  ip->rec->nacceptable = ip->rec->ntiny = 0;
+  tao->ksp_its = 0;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPFilteredStepLaws(tao, enough, v, force, &violation, done));
-  if (violation < PETSC_INFINITY) {
+  if (violation == PETSC_INFINITY) ip->rec->nacceptable = ip->rec->ntiny = 0; /* the point did not move */
+  else {
     moved = IPFilteredProgresses(IPFilteredOf(tao), IPBothErrors(ip), patience);
     if (moved) PetscCall(FilteredMove(tao, v, force, &moved));
   }

@@ -2,9 +2,8 @@
 # a die that opens, and a ball; pressed again they carry the same force. A wedge
 # that friction holds stays pressed. friction_unload.py writes the scenes and checks.
 "$PYTHON" "$AMGF_DIR/tests/step/friction_unload.py" scenes
-for scene in block die ball; do
+for scene in block die ball key; do
   "$AMGF_DIR/bin/contact" $scene.yaml -quiet -error_estimate 0 -summary $scene.json 2> $scene.err
 done
-"$AMGF_DIR/bin/contact" key.yaml -load_steps 10 -quiet -error_estimate 0 -summary key.json 2> key.err
 mpiexec -n 2 "$AMGF_DIR/bin/contact" die.yaml -quiet -error_estimate 0 -summary die_2.json 2> die_2.err
 "$PYTHON" "$AMGF_DIR/tests/step/friction_unload.py" check
