@@ -237,8 +237,9 @@ typedef struct {
 typedef struct {
   char       *name;
   const char *place;
-  PetscInt    body;    /* rigid body on which the resultant acts; PETSC_DECIDE: the load acts on a face */
-  char       *face;    /* the face; for a resultant also "<body>" SCENE_WHOLE_BODY, a whole rigid body */
+  PetscInt    body;    /* body on which the resultant acts; PETSC_DECIDE: the load acts on a face */
+  char       *face;    /* the face; for a resultant also "<body>" SCENE_WHOLE_BODY, a whole rigid body, or a point of an
+                          elastic body */
   PetscBool resultant; /* `value` is a resultant force [force] and not a traction [force/length^2]; both at factor 1 */
   PetscReal value[3];
   PetscReal moment[3]; /* moment of the resultant about its point of action, at factor 1 [force length] */
@@ -442,6 +443,12 @@ typedef struct _n_Scene {
 static inline PetscBool SceneIsDynamic(Scene scene)
 {
   return (PetscBool)(scene->dynamics.time_step > 0.0);
+}
+
+/* Returns whether a force acts at a point of an elastic body */
+static inline PetscBool SceneForceIsAtPoint(Scene scene, const SceneTraction *t)
+{
+  return (PetscBool)(t->body >= 0 && scene->bodies[t->body].material.type != MATERIAL_RIGID);
 }
 
 /* Returns whether any motion of a rigid body is free */

@@ -63,7 +63,7 @@ static PetscErrorCode CyclicCheckPrescribed(const Constraints *c, Mat Y, const P
   const PetscScalar     *u, *v, *w;
   PetscScalar           *a;
   PetscInt               n;
-  static const PetscReal same      = 1e-4; /* rotations of nodes with coordinates of five digits agree to this fraction */
+  static const PetscReal same   = 1e-4; /* rotations of nodes with coordinates of five digits agree to this fraction */
   PetscReal              worst  = 0.0, largest;
   PetscBool              differ = PETSC_FALSE;
 
