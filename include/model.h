@@ -474,6 +474,12 @@ static inline PetscBool SceneBodyIsSurface(const SceneBody *body)
   return (PetscBool)(body->shape >= SHAPE_RIGID_PLANE && body->shape <= SHAPE_RIGID_STL);
 }
 
+/* Returns whether a body is a rigid surface with a profile */
+static inline PetscBool SceneSurfaceHasProfile(const SceneBody *body)
+{
+  return (PetscBool)(body->shape == SHAPE_RIGID_EXTRUDED || body->shape == SHAPE_RIGID_REVOLVED);
+}
+
 /* The cube of one cell that represents a rigid surface in the mesh: corner, unit vectors of its edges, length of the
    edges */
 typedef struct {
@@ -485,6 +491,14 @@ PETSC_EXTERN PetscErrorCode SceneStlCreate(MPI_Comm, const char place[], const c
 PETSC_EXTERN PetscErrorCode SceneStlDestroy(SceneStl *);
 /* Returns the distance of a point from an undeformed rigid surface, negative inside [length]; computes its gradient */
 PETSC_EXTERN PetscReal SceneSurfaceDistance(const SceneBody *, const PetscReal x[3], PetscReal gradient[3]);
+/* A convex corner of the profile of a rigid surface, opposite an edge of another body's face */
+typedef struct {
+  PetscReal share;     /* position of the opposite point on the edge, from 0 to 1 */
+  PetscReal normal[3]; /* unit normal of the face there */
+  PetscReal gap;       /* height of the corner above that point, along the normal [length] */
+} SceneSurfaceCorner;
+PETSC_EXTERN PetscInt SceneSurfaceFindCorners(const SceneBody *, const PetscReal ends[6], const PetscReal normals[6],
+  SceneSurfaceCorner deepest[2]);
 /* Returns the radius of a rigid sphere or cylinder, or of the section of a rigid torus [length]; of other bodies
    PETSC_INFINITY */
 PETSC_EXTERN PetscReal SceneSurfaceRadius(const SceneBody *);
