@@ -11,7 +11,7 @@ typedef struct {
     checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN], report[PETSC_MAX_PATH_LEN];
   PetscInt  checkpoint_every; /* number of load steps from one checkpoint to the next; 0: a checkpoint is written
                                  only if a signal ends the run */
-  PetscBool write, gauss, restarts, summarize, contact_free, effects, accuracy, check, quiet, page;
+  PetscBool write, gauss, restarts, summarize, contact_free, tables, check, quiet, page;
 } AppOptions;
 
 /* State of main() for the handling of errors */

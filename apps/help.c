@@ -22,10 +22,10 @@ Results\n\
   -checkpoint FILE     name of the checkpoint; default BASE_checkpoint.h5, or <problem>_checkpoint.h5 without -output\n\
   -restart FILE        continue from a checkpoint; ranks, -refine and the later load program may differ\n\
 What is printed\n\
-  -accuracy_view       the meshes that -accuracy chose and their errors, also with -quiet\n\
-  -effects_view        which effects the scene uses, why, and their share of the time\n\
+  -tables_view         also with -quiet: tables of load steps, solver, forces, energy, errors, meshes of -accuracy,\n\
+                       times, memory, and effects: which ones the scene uses, why, and their share of the time\n\
   -contact_free        a comparison with the first load step without contact\n\
-  -quiet               no line per iteration and no tables\n\
+  -quiet               no line per iteration and no largest values\n\
   -traceback           PETSc's traceback after an error\n\
 Without a run\n\
   -scene_check         check the scene, build its mesh, print what would be simulated\n\

@@ -382,6 +382,10 @@ typedef struct {
                       option */
 } SceneOption;
 
+/* units.c: kinds of units */
+typedef enum { UNIT_LENGTH, UNIT_FORCE, UNIT_STRESS, UNIT_TIME } UnitKind;
+PETSC_EXTERN const char *UnitsFind(const char text[], UnitKind, PetscReal *si);
+
 /* The keys of a scene file, and their places "FILE: line N: " */
 typedef struct {
   PetscInt n;

@@ -5,13 +5,13 @@
 
 /* All options of pc_amgf, tao_ipfilter, src and apps. tests/doc/options.py compares the list with the sources. */
 const char *const OptionsOurs[] = {"accuracy", "accuracy_adaptive", "accuracy_max_dofs", "accuracy_of",
-  "accuracy_order", "accuracy_share", "accuracy_view", "checkpoint", "checkpoint_every", "contact_free", "contact_gap",
+  "accuracy_order", "accuracy_share", "checkpoint", "checkpoint_every", "contact_free", "contact_gap",
   "contact_gap_tol", "contact_normals", "contact_penalty", "contact_quadrature", "contact_search_depth",
-  "contact_smooth", "contact_update_tol", "contact_updates", "displacement_bounds", "effects_view",
-  "elasticity_mat_type", "elasticity_quadrature", "error_estimate", "load_max_cuts", "load_steps", "load_warm_start",
-  "model", "output", "output_gauss", "pc_amgf_amg_lag", "pc_amgf_cycle", "pc_amgf_detect", "pc_amgf_factor",
-  "pc_amgf_factor_share", "pc_amgf_filter_file", "pc_amgf_filter_ranks", "progress_every", "quiet", "refine", "report",
-  "restart", "scene_check", "summary", "tao_ipfilter_barrier", "tao_ipfilter_compl_inf_tol",
+  "contact_smooth", "contact_update_tol", "contact_updates", "displacement_bounds", "elasticity_mat_type",
+  "elasticity_quadrature", "error_estimate", "load_max_cuts", "load_steps", "load_warm_start", "model", "output",
+  "output_gauss", "pc_amgf_amg_lag", "pc_amgf_cycle", "pc_amgf_detect", "pc_amgf_factor", "pc_amgf_factor_share",
+  "pc_amgf_filter_file", "pc_amgf_filter_ranks", "progress_every", "quiet", "refine", "report", "restart",
+  "scene_check", "summary", "tables_view", "tao_ipfilter_barrier", "tao_ipfilter_compl_inf_tol",
   "tao_ipfilter_constr_viol_tol", "tao_ipfilter_delta_max", "tao_ipfilter_direct", "tao_ipfilter_direct_memory",
   "tao_ipfilter_dual_inf_tol", "tao_ipfilter_dual_init", "tao_ipfilter_equality", "tao_ipfilter_eta_phi",
   "tao_ipfilter_filter_switch", "tao_ipfilter_forcing", "tao_ipfilter_gamma_phi", "tao_ipfilter_kkt",
@@ -23,8 +23,8 @@ const char *const OptionsOurs[] = {"accuracy", "accuracy_adaptive", "accuracy_ma
    Those of our options that are Boolean, and true without a value. Options in none of this and the next two lists need
    a number.
 */
-static const char *const OptionsSwitches[] = {"accuracy_adaptive", "accuracy_view", "contact_free", "contact_smooth",
-  "effects_view", "error_estimate", "load_warm_start", "output_gauss", "quiet", "scene_check", "tao_ipfilter_direct",
+static const char *const OptionsSwitches[] = {"accuracy_adaptive", "contact_free", "contact_smooth", "error_estimate",
+  "load_warm_start", "output_gauss", "quiet", "scene_check", "tables_view", "tao_ipfilter_direct",
   "tao_ipfilter_monitor", "traceback", NULL};
 
 /* Options that need an integer */
