@@ -36,8 +36,8 @@ PETSC_EXTERN PetscErrorCode ReportPageCheck(MPI_Comm, const char file[]);
 PETSC_EXTERN int            ReportPageMake(const ReportPage *, char sentence[], size_t length);
 PETSC_EXTERN PetscErrorCode ReportWriteJSON(MPI_Comm, const RunReport *, const char file[]);
 PETSC_EXTERN PetscErrorCode ReportView(const RunReport *, PetscViewer);
+PETSC_EXTERN PetscErrorCode ReportViewTables(const RunReport *, PetscViewer);
 PETSC_EXTERN PetscErrorCode ReportViewAccuracy(const RunReport *, PetscViewer);
 PETSC_EXTERN PetscErrorCode ReportViewNextMesh(const Accuracy *, PetscInt refine, PetscViewer);
-PETSC_EXTERN PetscErrorCode ReportViewEffects(const RunReport *, PetscViewer);
 
 #endif

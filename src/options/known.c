@@ -54,6 +54,7 @@ static const struct {
   {"restart", OPTION_WORD, {NULL}},
   {"scene_check", OPTION_SWITCH, {NULL}},
   {"summary", OPTION_WORD, {NULL}},
+  {"tables_view", OPTION_SWITCH, {NULL}},
   {"tao_ipfilter_barrier", OPTION_WORD, {"monotone", "mehrotra", NULL}},
   {"tao_ipfilter_compl_inf_tol", OPTION_NUMBER, {NULL}},
   {"tao_ipfilter_constr_viol_tol", OPTION_NUMBER, {NULL}},

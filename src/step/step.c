@@ -15,6 +15,7 @@ static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepR
   Scene scene = sim->scene;
 
   PetscFunctionBegin;
+  PetscCall(ResultsFree(sim->results)); /* they are those of the load step before */
   report->step    = step + 1;
   report->time    = (PetscReal)(step + 1) * SceneTimeStep(scene);
   report->gap_min = report->gap_true = report->error_estimate = report->imbalance = NAN;
@@ -42,12 +43,12 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
   PetscCall(PetscFree(sim->results->stress));
   PetscCall(ElasticityCellStress(sim->elasticity, sim->path->u, &sim->results->stress));
   PetscCall(ContactPointsMeasure(sim, report));
-  PetscCall(RigidPlacesMeasure(sim, report));
   if (sim->contact) PetscCall(PenetrationMeasure(sim, report));
   if (sim->contact && report->converged) PetscCall(PenetrationTest(sim, report));
   if (report->converged) PetscCall(StrainTest(sim, report));
   PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
-  PetscCall(ResultsMeasure(sim));
+  PetscCall(ResultsMeasure(sim, report));
+  PetscCall(RigidPlacesMeasure(sim, report));
   PetscCall(ProbesMeasure(sim, report));
   *state = (StepState){
     .report            = report,

@@ -54,3 +54,11 @@ sed 's/hexahedron.inp/word.inp/' hexahedron.yaml > word.yaml
 "$AMGF_DIR/bin/contact" word.yaml -quiet 2>&1 || echo "exit code $?"
 sed 's/scale: 1.0/scale: -2/' hexahedron.yaml > negative.yaml
 "$AMGF_DIR/bin/contact" negative.yaml -quiet 2>&1 || echo "exit code $?"
+
+# two cubes whose nodes coincide, in one element set: a volume for each part, in contact as bodies
+"$PYTHON" -B "$AMGF_DIR/tests/mesh/mesh_convert.py" touching
+mesh touching.inp -check
+for scene in touching whole; do
+  "$AMGF_DIR/bin/contact" $scene.yaml -quiet -summary $scene.json 2>&1 || echo "$scene: exit code $?"
+done
+"$PYTHON" -B "$AMGF_DIR/tests/mesh/mesh_convert.py" pressed

@@ -165,8 +165,10 @@ PetscErrorCode MeshCheckScene(DM dm, Scene scene)
   }
   for (PetscInt p = 0; p < scene->npressures; ++p)
     PetscCall(SupportCheckFacets(dm, "Pressure", &scene->pressures[p], scene->pressures[p].face));
-  for (PetscInt t = 0; t < scene->ntractions; ++t)
-    PetscCall(SupportCheckFacets(dm, "Load", &scene->tractions[t], scene->tractions[t].face));
+  for (PetscInt t = 0; t < scene->ntractions; ++t) {
+    if (!SceneForceIsAtPoint(scene, &scene->tractions[t]))
+      PetscCall(SupportCheckFacets(dm, "Load", &scene->tractions[t], scene->tractions[t].face));
+  }
   for (PetscInt s = 0; s < scene->nsprings; ++s) {
     PetscCall(SupportCheckFacets(dm, "Spring", &scene->springs[s], scene->springs[s].face));
     if (scene->springs[s].to) PetscCall(SupportCheckFacets(dm, "Spring", &scene->springs[s], scene->springs[s].to));
