@@ -15,6 +15,7 @@
 PetscErrorCode IPFilteredDestroy(IPFiltered *f)
 {
   PetscFunctionBegin;
+  if (f->contacts) PetscCall(f->contactops->destroy(&f->contacts));
   f->reduced = NULL;
   PetscCall(ISDestroy(&f->W));
   PetscCall(VecDestroy(&f->centre));
@@ -46,11 +47,29 @@ static PetscErrorCode FilteredStartPairs(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Chooses the initial active set: rows whose multiplier, divided by their stiffness, exceeds their slack */
+/*
+   Estimates the rounding error of c_I, whose terms may be much larger than their sum. The error matters if the start is
+   already the solution, since the values of all closed rows are then almost zero before and after a step.
+*/
+PetscErrorCode IPFilteredConstraintRounding(Tao tao, PetscReal *rounding)
+{
+  const PetscReal eps = 1e3 * PETSC_MACHINE_EPSILON;
+  PetscReal       row, size;
+
+  PetscFunctionBegin;
+  PetscCall(MatNorm(((TAO_IPFILTER *)tao->data)->jac->inequality, NORM_INFINITY, &row));
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  *rounding = eps * row * size;
+  PetscFunctionReturn(0);
+}
+
+/* Chooses the initial active set: rows whose multiplier, divided by their stiffness, exceeds their slack, and both
+   exceed rounding errors */
 static PetscErrorCode FilteredGuess(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPPair       *slack = &ip->pair[IP_SLACK];
+  PetscReal     rounding;
   Vec           closer, force;
 
   PetscFunctionBegin;
@@ -59,6 +78,8 @@ static PetscErrorCode FilteredGuess(Tao tao)
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &closer));
   PetscCall(VecPointwiseDivide(closer, slack->z, ip->stiff->rho));
   PetscCall(VecAXPY(closer, -1.0, slack->t));
+  PetscCall(IPFilteredConstraintRounding(tao, &rounding));
+  PetscCall(VecShift(closer, -rounding));
   PetscCall(IPReducedGuess(IPFilteredOf(tao)->reduced, closer, force, ip->terms));
   IPFilteredOf(tao)->reduced->system.guessed = (PetscBool)!ip->given->warm_s;
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
@@ -88,6 +109,43 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre
   PetscCall(IPReducedAppend(f->reduced, basis, f->pg));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscCall(VecDestroy(&value));
+  PetscFunctionReturn(0);
+}
+
+/* Begins the laws of many contacts at the present point */
+PetscErrorCode IPFilteredBeginContacts(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f  = IPFilteredOf(tao);
+  Vec           values, force;
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(tao->solution, f->centre));
+  PetscCall(VecCopy(tao->gradient, f->gradient));
+  PetscCall(VecCopy(ip->at.c, f->c));
+  f->f = ip->at.f;
+  PetscCall(VecDuplicate(ip->terms->t, &values));
+  PetscCall(IPTermsValue(tao, tao->solution, values));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(VecPointwiseMult(force, ip->pair[IP_SLACK].z, ip->pair[IP_SLACK].w));
+  PetscCall(ip->contacts->begin(f->contacts, f->gradient, f->c, values, force, ip->terms->force));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(VecDestroy(&values));
+  PetscFunctionReturn(0);
+}
+
+/* Takes a step of the laws of many contacts. enough: residual [2-norm] that any system may leave; x: the point relative
+   to the begin; force: forces of the constraints */
+PetscErrorCode IPFilteredStepContacts(Tao tao, PetscReal enough, Vec x, Vec force, PetscReal *violation,
+  PetscBool *done)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f  = IPFilteredOf(tao);
+
+  PetscFunctionBegin;
+  PetscCall(ip->contacts->step(f->contacts, enough, x, force, ip->terms->force, violation, &f->nclosed, done));
+  ip->rec->nreduced++;
+  ip->rec->npivots++;
   PetscFunctionReturn(0);
 }
 
@@ -161,23 +219,32 @@ PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
    Reduces the number of directions. The newest remain. The others are replaced by those combinations that are coupled
    to W most, since these are most useful for other constraints and gaps. They contain the given motions. The rounding
    errors of combinations exceed the stiffness of these motions, so that the products with K are then computed again.
-   The reduced problem must afterwards be centred at its solution to remain exact.
+   E: Q_W^T A^-1 Q_W for the matrix A on W, in columns of the basis's maximal length; overwritten
 */
-PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
+PetscErrorCode IPFilteredCompress(Tao tao, IPBasis *basis, PetscReal E[])
 {
-  IPFiltered *f = IPFilteredOf(tao);
-  PetscInt    nmodes, room;
-  PetscReal  *E;
+  PetscInt nmodes, room;
 
   PetscFunctionBegin;
   PetscCall(IPModesGetNumber(tao, &nmodes));
   room = basis->max - nmodes;
-  PetscCall(PetscMalloc1(basis->max * basis->max, &E));
-  PetscCall(IPReducedCoupling(f->reduced, basis, E));
   PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
   PetscCall(IPBasisCompress(basis, nmodes + room / 2, room / 8, E));
   if (basis->has_modes) PetscCall(IPBasisMultiply(basis, ((TAO_IPFILTER *)tao->data)->hess->H));
   PetscCall(PetscLogEventEnd(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* Reduces the number of directions. The reduced problem must afterwards be centred at its solution to remain exact. */
+PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
+{
+  IPFiltered *f = IPFilteredOf(tao);
+  PetscReal  *E;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(basis->max * basis->max, &E));
+  PetscCall(IPReducedCoupling(f->reduced, basis, E));
+  PetscCall(IPFilteredCompress(tao, basis, E));
   PetscCall(PetscFree(E));
   PetscCall(IPReducedForget(f->reduced, basis));
   PetscFunctionReturn(0);
@@ -316,6 +383,13 @@ PetscErrorCode IPFilteredSetUp(Tao tao, IPRecycle *recycle, PetscBool *possible)
   PetscFunctionBegin;
   held = (PetscBool)(f->newton && ip->terms->n);
   if (!f->centre) PetscCall(FilteredCreate(tao, &recycle->basis));
+  if (f->many) {
+    *possible     = PETSC_TRUE;
+    f->contactops = ip->contacts;
+    if (f->contacts) PetscCall(ip->contacts->destroy(&f->contacts));
+    PetscCall(ip->contacts->create(tao, recycle, f->W, &f->contacts));
+    PetscFunctionReturn(0);
+  }
   f->reduced = &recycle->reduced;
   *possible  = PETSC_FALSE;
   if (!held || !recycle->whole) PetscCall(FilteredSetUpReduced(tao, &recycle->basis, ip->hess->H, possible));
