@@ -17,7 +17,7 @@ struct _p_IPContacts {
   ContactIteration iteration;
 };
 
-static PetscErrorCode LawsDestroy(IPContacts *laws)
+static PetscErrorCode ContactLawsDestroy(IPContacts *laws)
 {
   PetscFunctionBegin;
   if (!*laws) PetscFunctionReturn(0);
@@ -71,7 +71,7 @@ static PetscErrorCode LawsSetTerms(IPContacts laws)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode LawsCreate(Tao tao, IPRecycle *recycle, IS W, IPContacts *laws)
+static PetscErrorCode ContactLawsCreate(Tao tao, IPRecycle *recycle, IS W, IPContacts *laws)
 {
   const TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscInt            n;
@@ -123,8 +123,8 @@ static PetscErrorCode LawsBegin(IPContacts laws, Vec g, Vec c, Vec values, Vec f
 
   PetscFunctionBegin;
   PetscCall(SubspaceBodiesCentre(laws->bodies, g));
-  contacts->rounding = ip->first->jacobian * ip->given->rounding;
-  contacts->least    = accuracy * IPErrorBoundForceUnit(ip);
+  PetscCall(IPFilteredConstraintRounding(laws->tao, &contacts->rounding));
+  contacts->least = accuracy * IPErrorBoundForceUnit(ip);
   PetscCall(LawsCopy(laws, c, values, contacts->u, PETSC_FALSE));
   PetscCall(LawsCopy(laws, force, terms, contacts->f, PETSC_FALSE));
   for (PetscInt i = 0; i < contacts->n; i++) {
@@ -160,8 +160,8 @@ static PetscErrorCode LawsStep(IPContacts laws, PetscReal enough, Vec x, Vec for
 }
 
 const IPContactOps IPContactsCones = {
-  .create  = LawsCreate,
+  .create  = ContactLawsCreate,
   .begin   = LawsBegin,
   .step    = LawsStep,
-  .destroy = LawsDestroy,
+  .destroy = ContactLawsDestroy,
 };

@@ -48,18 +48,19 @@ static PetscErrorCode FilteredStartPairs(Tao tao)
 }
 
 /*
-   Estimates the rounding error of c_I, whose terms may be much larger than their sum. The error matters if the start is
-   already the solution, since the values of all closed rows are then almost zero before and after a step.
+   Estimates the rounding error of c_I, whose terms may be much larger than their sum: that of the solution, and the one
+   that the caller has given. The error matters if the start is already the solution, since the values of all closed
+   rows are then almost zero before and after a step.
 */
 PetscErrorCode IPFilteredConstraintRounding(Tao tao, PetscReal *rounding)
 {
-  const PetscReal eps = 1e3 * PETSC_MACHINE_EPSILON;
-  PetscReal       row, size;
+  const TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  const PetscReal     eps = 1e3 * PETSC_MACHINE_EPSILON;
+  PetscReal           size;
 
   PetscFunctionBegin;
-  PetscCall(MatNorm(((TAO_IPFILTER *)tao->data)->jac->inequality, NORM_INFINITY, &row));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  *rounding = eps * row * size;
+  *rounding = ip->first->jacobian * PetscMax(eps * size, ip->given->rounding);
   PetscFunctionReturn(0);
 }
 
@@ -67,9 +68,9 @@ PetscErrorCode IPFilteredConstraintRounding(Tao tao, PetscReal *rounding)
    exceed rounding errors */
 static PetscErrorCode FilteredGuess(Tao tao)
 {
-  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  IPPair       *slack = &ip->pair[IP_SLACK];
-  PetscReal     rounding;
+  TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
+  IPPair       *slack    = &ip->pair[IP_SLACK];
+  PetscReal     rounding = 0.0;
   Vec           closer, force;
 
   PetscFunctionBegin;
@@ -175,7 +176,7 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   PetscFunctionBegin;
   PetscCall(VecSet(v, 0.0));
   PetscCall(FilteredCanWiden(tao, &f->reduced->simply));
-  f->reduced->system.rounding      = ip->first->jacobian * ip->given->rounding;
+  PetscCall(IPFilteredConstraintRounding(tao, &f->reduced->system.rounding));
   f->reduced->system.soft          = basis->has_modes;
   f->reduced->system.interrupt     = ip->given->interrupt;
   f->reduced->system.interrupt_ctx = ip->given->interrupt_ctx;
@@ -191,15 +192,37 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   PetscFunctionReturn(0);
 }
 
-/* Sets the multipliers to `force` / M, and the slacks to the constraint values */
+/* Estimates the rounding errors of forces, which are differences of terms as large as H_ii x_i */
+static PetscErrorCode FilteredForceRounding(Tao tao, PetscReal *rounding)
+{
+  const PetscReal eps = 10.0 * PETSC_MACHINE_EPSILON;
+  PetscReal       size;
+  Vec             terms;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &terms));
+  PetscCall(VecPointwiseMult(terms, ((TAO_IPFILTER *)tao->data)->stiff->hdiag, tao->solution));
+  PetscCall(VecNorm(terms, NORM_INFINITY, &size));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &terms));
+  *rounding = eps * size;
+  PetscFunctionReturn(0);
+}
+
+/*
+   Sets the multipliers to `force` / M, and the slacks to the constraint values. Forces within rounding errors count as
+   zero: later solves would take them for those of closed contacts.
+*/
 PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
 {
-  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  IPPair       *slack = &ip->pair[IP_SLACK];
+  TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
+  IPPair       *slack    = &ip->pair[IP_SLACK];
+  PetscReal     rounding = 0.0;
   PetscScalar  *s, *z;
   PetscInt      n;
 
   PetscFunctionBegin;
+  PetscCall(FilteredForceRounding(tao, &rounding));
+  PetscCall(VecChop(force, rounding));
   PetscCall(VecPointwiseDivide(slack->z, force, slack->w));
   PetscCall(VecCopy(slack->z, ip->at.lambda));
   PetscCall(VecCopy(ip->at.c, slack->t));
