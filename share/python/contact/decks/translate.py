@@ -6,6 +6,7 @@ import numpy as np
 from ..meshes import abaqus, gmsh
 from ..meshes.model import KINDS, MeshError
 from . import geometry, loads, materials, scene
+from .adjust import adjust
 from .notes import Notes
 from .steps import STICKS, Amplitude, Histories, Ramps, Step
 
@@ -26,6 +27,23 @@ PROCEDURES = {
     "STATIC", "DYNAMIC", "FREQUENCY", "BUCKLE", "HEAT TRANSFER", "COUPLED TEMPERATURE-DISPLACEMENT",
     "UNCOUPLED TEMPERATURE-DISPLACEMENT", "MODAL DYNAMIC", "STEADY STATE DYNAMICS", "COMPLEX FREQUENCY", "SENSITIVITY",
     "GREEN", "VISCO", "ELECTROMAGNETICS", "CFD", "FEASIBLE DIRECTION", "CRACK PROPAGATION"
+}
+
+# Parameters that are read, or that leave the answer as it is. Others are refused
+LOADS = {"OP", "AMPLITUDE"}
+PARAMETERS = {
+    "STEP": {"NLGEOM", "INC", "NAME"}, "STATIC": {"DIRECT", "SOLVER", "TIME RESET"},
+    "DYNAMIC": {"DIRECT", "EXPLICIT", "SOLVER", "ALPHA", "RELATIVE TO ABSOLUTE"
+                }, "BOUNDARY": LOADS, "CLOAD": LOADS, "DLOAD": LOADS, "DSLOAD": LOADS, "TEMPERATURE": {"OP"},
+    "MATERIAL": {"NAME"}, "ELASTIC": {"TYPE"}, "PLASTIC": {"HARDENING"}, "HYPERELASTIC": {"NEO HOOKE", "MOONEY-RIVLIN"},
+    "EXPANSION": {"TYPE", "ZERO"}, "DENSITY": set(), "SOLID SECTION": {"ELSET", "MATERIAL",
+                                                                       "ORIENTATION"}, "SURFACE INTERACTION": {"NAME"},
+    "SURFACE BEHAVIOR": {"PRESSURE-OVERCLOSURE", "PENALTY", "AUGMENTED LAGRANGE", "DIRECT"}, "FRICTION": {"ROUGH"},
+    "CONTACT PAIR": {"INTERACTION", "TYPE", "ADJUST",
+                     "SMALL SLIDING"}, "TIE": {"NAME", "POSITION TOLERANCE", "CYCLIC SYMMETRY",
+                                               "ADJUST"}, "CYCLIC SYMMETRY MODEL": {"N", "NGRAPH", "TIE", "ELSET"},
+    "AMPLITUDE": {"NAME", "TIME", "DEFINITION"}, "ORIENTATION": {"NAME", "SYSTEM"}, "INITIAL CONDITIONS": {"TYPE"},
+    "MODEL CHANGE": {"TYPE", "ADD", "REMOVE"}, "CHANGE FRICTION": {"INTERACTION"}
 }
 
 
@@ -52,11 +70,11 @@ class Translator:
     def __init__(self, path, ignored=()):
         self.path, self.notes = path, Notes(ignored)
         self.geometry = geometry.Geometry(abaqus.Deck(path))
-        self.materials, self.orientations, self.sections, self.amplitudes = {}, {}, [], {}
+        self.materials, self.orientations, self.amplitudes = {}, {}, {}
         self.interactions, self.pairs, self.ties, self.cyclic = {}, [], {}, []
         self.initial, self.velocities, self.transformed, self.temperature_steps = [], [], {}, []
         self.displacements, self.forces, self.pressures, self.bodies_loads = (Histories() for _ in range(4))
-        self.active, self.steps = {}, []
+        self.active, self.steps, self.prints, self.printed = {}, [], {}, {}
         self.material = self.interaction = None
         self.part, self.starting = "", []
         model, steps = self.split()
@@ -89,6 +107,7 @@ class Translator:
     # model
 
     def read_model(self, where, keyword, parameters, data):
+        self.check_parameters(where, keyword, parameters)
         name = "read_" + keyword.lower().replace(" ", "_").replace("-", "_")
         if keyword in MATERIAL:
             if self.material is None:
@@ -106,6 +125,11 @@ class Translator:
             self.notes.translate(keyword, where)
         elif keyword not in MESH | HARMLESS:
             self.notes.refuse(keyword, where, "this keyword is not supported")
+
+    def check_parameters(self, where, keyword, parameters):
+        for word in parameters:
+            if word and word not in PARAMETERS.get(keyword, parameters):
+                self.notes.refuse(keyword, where, f"the parameter {word} is not supported")
 
     def read_element(self, where, parameters):
         word = parameters.get("TYPE", "").upper()
@@ -162,11 +186,26 @@ class Translator:
                     "CONTACT PAIR", where, "self contact of one surface is not translated: list the pair "
                     "in the scene as {self: FACE}")
                 continue
-            self.pairs.append((where, words[0], words[1], parameters.get("INTERACTION", "").upper(), kind))
-        if "ADJUST" in parameters:
-            self.notes.refuse("CONTACT PAIR", where, "the parameter ADJUST is not supported")
+            adjusted = "ADJUST" in parameters
+            self.pairs.append((where, words[0], words[1], parameters.get("INTERACTION", "").upper(), kind, adjusted))
+            if adjusted:
+                self.adjust(where, parameters["ADJUST"], words[0], words[1])
         if "SMALL SLIDING" in parameters:
             self.notes.approximate("CONTACT PAIR", where, "sliding is not small but of any size")
+
+    def adjust(self, where, value, slave, master):
+        """Moves nodes of the slave surface onto the master surface"""
+        try:
+            distance, only = float(value), None
+        except ValueError:
+            distance, only = np.inf, set(self.geometry.nodes_of(where, value))
+        sides = self.geometry.surfaces.get(slave.upper())
+        nodes = self.geometry.nodes_of(where, slave) if sides is None else [
+            node for cell, side in sides for node in self.geometry.side_nodes(cell, side)
+        ]
+        moved, largest = adjust(self.geometry, [node for node in nodes if only is None or node in only],
+                                self.surface(where, master), distance)
+        self.notes.approximate("CONTACT PAIR", where, f"ADJUST moved {moved} nodes, by at most {largest:.3g}")
 
     def read_tie(self, where, parameters, data):
         words = [word.strip() for word in (data[0].split(",") if data else [])]
@@ -222,9 +261,13 @@ class Translator:
             step = self.read_procedure(where, parameters, blocks)
             if step is None:
                 continue
-            given = {"BOUNDARY": given, "CLOAD": set(), "DLOAD": set(), "GRAV": set()}
+            initial, self.renewed = given, None
+            given = {"BOUNDARY": set(), "CLOAD": set(), "DLOAD": set(), "GRAV": set()}
             for block in blocks:
                 self.read_in_step(step, given, *block)
+            if self.renewed and set(self.displacements.rule) - given["BOUNDARY"]:
+                self.notes.refuse("BOUNDARY", self.renewed, "OP=NEW releases displacements, which is not supported")
+            given["BOUNDARY"] |= initial
             for histories, keyword in ((self.displacements, "BOUNDARY"), (self.forces, "CLOAD"),
                                        (self.pressures, "DLOAD"), (self.bodies_loads, "GRAV")):
                 histories.advance(step, begin, start, given[keyword])
@@ -234,6 +277,7 @@ class Translator:
                 table[1] += [table[0]] * step.n
             start, begin, given = start + step.period, begin + step.n, set()
             self.steps.append(step)
+            self.prints[step] = list(self.printed.items())
         if len({step.kind
                 for step in self.steps}) > 1 or (self.steps and self.steps[0].kind == "dynamic"
                                                  and len(self.steps) > 1):
@@ -247,6 +291,9 @@ class Translator:
             if keyword not in PROCEDURES:
                 continue
             rows = numbers(place, data[:1])
+            if keyword in PARAMETERS:
+                self.check_parameters(where, "STEP", parameters)
+                self.check_parameters(place, keyword, keys)
             if keyword == "STATIC":
                 step.set_static(rows[0] if rows else [], "DIRECT" in keys)
                 if self.path_depends():
@@ -268,8 +315,11 @@ class Translator:
                                                                                 for i in self.interactions.values())
 
     def read_in_step(self, step, given, where, keyword, parameters, data):
+        if keyword == "NODE PRINT":
+            self.request(where, parameters, data)
         if keyword in PROCEDURES | HARMLESS | MESH:
             return
+        self.check_parameters(where, keyword, parameters)
         if keyword == "BOUNDARY":
             given["BOUNDARY"] |= self.prescribe(where, parameters, data)
         elif keyword == "CLOAD":
@@ -291,6 +341,12 @@ class Translator:
             return
         self.notes.translate(keyword, where)
 
+    def request(self, where, parameters, data):
+        """Sets of nodes whose displacements the file .dat has, until a later step asks for others"""
+        words = [word.strip().upper() for text in data for word in text.split(",")]
+        if "NSET" in parameters and "U" in words:
+            self.printed[parameters["NSET"]] = self.geometry.nodes_of(where, parameters["NSET"])
+
     def amplitude(self, where, parameters):
         if "AMPLITUDE" not in parameters:
             return None
@@ -308,7 +364,8 @@ class Translator:
     def prescribe(self, where, parameters, data):
         """*BOUNDARY: {(node, component)} that it gives"""
         amplitude, given = self.amplitude(where, parameters), set()
-        before = set(self.displacements.rule) if parameters.get("OP", "MOD").upper() == "NEW" else set()
+        if parameters.get("OP", "MOD").upper() == "NEW":
+            self.renewed = where
         for text in data:
             words = [word.strip() for word in text.split(",")]
             nodes = self.geometry.nodes_of(where, words[0])
@@ -334,8 +391,6 @@ class Translator:
                         break
                     self.displacements.give((node, dof - 1), value, amplitude, where)
                     given.add((node, dof - 1))
-        if before - given:
-            self.notes.refuse("BOUNDARY", where, "OP=NEW releases displacements, which is not supported")
         return given
 
     def load_nodes(self, where, parameters, data, given):
