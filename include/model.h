@@ -141,6 +141,7 @@ typedef struct {
   PetscInt     cells[3];           /* number of cells. box: along each axis; tube_arc: radially, around and along the
                                      axis; other shapes: see above */
   Material     material;
+  char        *material_name; /* NULL: the scene names the law, and no material */
   ElementType  element;
   PetscInt     order; /* polynomial order of the displacements in a cell, 1 or 2; 0: the default, 1 for hexahedra and 2
                       for tetrahedra */
@@ -490,6 +491,7 @@ typedef struct {
   PetscReal corner[3], edge[3][3], size;
 } SceneSurfaceCube;
 PETSC_EXTERN void           SceneSurfaceGetCube(const SceneBody *, SceneSurfaceCube *);
+PETSC_EXTERN PetscErrorCode SceneSurfaceWrite(const SceneBody *, const char shape[], char text[], size_t length);
 PETSC_EXTERN PetscErrorCode SceneStlCreate(MPI_Comm, const char place[], const char file[], PetscReal scale, SceneStl *,
   PetscReal centre[3], PetscReal *edge);
 PETSC_EXTERN PetscErrorCode SceneStlDestroy(SceneStl *);
