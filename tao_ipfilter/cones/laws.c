@@ -123,8 +123,8 @@ static PetscErrorCode LawsBegin(IPContacts laws, Vec g, Vec c, Vec values, Vec f
 
   PetscFunctionBegin;
   PetscCall(SubspaceBodiesCentre(laws->bodies, g));
-  PetscCall(IPFilteredConstraintRounding(laws->tao, &contacts->rounding));
-  contacts->least = accuracy * IPErrorBoundForceUnit(ip);
+  contacts->rounding = ip->first->jacobian * ip->given->rounding;
+  contacts->least    = accuracy * IPErrorBoundForceUnit(ip);
   PetscCall(LawsCopy(laws, c, values, contacts->u, PETSC_FALSE));
   PetscCall(LawsCopy(laws, force, terms, contacts->f, PETSC_FALSE));
   for (PetscInt i = 0; i < contacts->n; i++) {

@@ -71,8 +71,8 @@ static PetscReal TermLawsLargest(PetscInt n, const PetscReal a[])
 */
 PetscErrorCode IPTermLawsMove(IPTermSet *set, const IPReducedSystem *s)
 {
-  const PetscReal one = 1.0, minus = -1.0, rounding = 1e-12; /* of a gap, relative to its terms */
-  PetscBLASInt    m, k, inc                         = 1;
+  const PetscReal one = 1.0, minus = -1.0;
+  PetscBLASInt    m, k, inc = 1;
 
   PetscFunctionBegin;
   PetscCall(PetscBLASIntCast(s->m, &m));
@@ -83,7 +83,7 @@ PetscErrorCode IPTermLawsMove(IPTermSet *set, const IPReducedSystem *s)
   for (PetscInt i = 0; i < s->m; i++) set->system.v[i] = -s->h[i];
   if (k && m)
     PetscCallBLAS("BLASgemv", BLASgemv_("N", &m, &k, &minus, s->JZ, &m, s->y, &inc, &one, set->system.v, &inc));
-  set->length = PetscMax(PetscMax(s->length, s->rounding / rounding), TermLawsLargest(s->m, set->system.v));
+  set->length = PetscMax(s->length, TermLawsLargest(s->m, set->system.v));
   for (PetscInt i = 0; i < s->m; i++) s->gap[i] += set->system.v[i];
   for (PetscInt i = 0; i < s->m && s->spring; i++) s->lambda[i] -= s->spring[i] * s->gap[i];
   PetscFunctionReturn(0);

@@ -16,8 +16,8 @@ typedef struct {
 } TermSetCount;
 
 /*
-   Opens closed constraints under tension and closes open ones with penetration, both beyond rounding errors: all of
-   them if `all`, otherwise only the last one. Returns the number of wrong constraints.
+   Opens closed constraints under tension and closes open ones with penetration: all of them if `all`, otherwise only
+   the last one. Returns the number of wrong constraints.
 */
 static PetscInt TermSetClose(IPTermSet *set, const IPReducedSystem *s, PetscBool all)
 {
@@ -25,9 +25,7 @@ static PetscInt TermSetClose(IPTermSet *set, const IPReducedSystem *s, PetscBool
   PetscInt        wrong    = 0;
 
   for (PetscInt i = set->m - 1; i >= 0; i--) {
-    const PetscReal least = PetscMax(rounding * set->length, s->rounding);
-    const PetscBool closed =
-      (PetscBool)(set->closed[i] ? s->lambda[i] * set->system.compliance[i] >= -s->rounding : s->gap[i] < -least);
+    const PetscBool closed = (PetscBool)(set->closed[i] ? s->lambda[i] >= 0.0 : s->gap[i] < -rounding * set->length);
 
     if (closed == set->closed[i]) continue;
     if (all || !wrong) set->closed[i] = closed;

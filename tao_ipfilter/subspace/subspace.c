@@ -176,7 +176,7 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   PetscFunctionBegin;
   PetscCall(VecSet(v, 0.0));
   PetscCall(FilteredCanWiden(tao, &f->reduced->simply));
-  PetscCall(IPFilteredConstraintRounding(tao, &f->reduced->system.rounding));
+  f->reduced->system.rounding      = ip->first->jacobian * ip->given->rounding;
   f->reduced->system.soft          = basis->has_modes;
   f->reduced->system.interrupt     = ip->given->interrupt;
   f->reduced->system.interrupt_ctx = ip->given->interrupt_ctx;
