@@ -47,30 +47,11 @@ static PetscErrorCode FilteredStartPairs(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/*
-   Estimates the rounding error of c_I, whose terms may be much larger than their sum: that of the solution, and the one
-   that the caller has given. The error matters if the start is already the solution, since the values of all closed
-   rows are then almost zero before and after a step.
-*/
-PetscErrorCode IPFilteredConstraintRounding(Tao tao, PetscReal *rounding)
-{
-  const TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
-  const PetscReal     eps = 1e3 * PETSC_MACHINE_EPSILON;
-  PetscReal           size;
-
-  PetscFunctionBegin;
-  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  *rounding = ip->first->jacobian * PetscMax(eps * size, ip->given->rounding);
-  PetscFunctionReturn(0);
-}
-
-/* Chooses the initial active set: rows whose multiplier, divided by their stiffness, exceeds their slack, and both
-   exceed rounding errors */
+/* Chooses the initial active set: rows whose multiplier, divided by their stiffness, exceeds their slack */
 static PetscErrorCode FilteredGuess(Tao tao)
 {
-  TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
-  IPPair       *slack    = &ip->pair[IP_SLACK];
-  PetscReal     rounding = 0.0;
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPPair       *slack = &ip->pair[IP_SLACK];
   Vec           closer, force;
 
   PetscFunctionBegin;
@@ -79,8 +60,6 @@ static PetscErrorCode FilteredGuess(Tao tao)
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &closer));
   PetscCall(VecPointwiseDivide(closer, slack->z, ip->stiff->rho));
   PetscCall(VecAXPY(closer, -1.0, slack->t));
-  PetscCall(IPFilteredConstraintRounding(tao, &rounding));
-  PetscCall(VecShift(closer, -rounding));
   PetscCall(IPReducedGuess(IPFilteredOf(tao)->reduced, closer, force, ip->terms));
   IPFilteredOf(tao)->reduced->system.guessed = (PetscBool)!ip->given->warm_s;
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
@@ -195,7 +174,7 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
 /* Estimates the rounding errors of forces, which are differences of terms as large as H_ii x_i */
 static PetscErrorCode FilteredForceRounding(Tao tao, PetscReal *rounding)
 {
-  const PetscReal eps = 10.0 * PETSC_MACHINE_EPSILON;
+  const PetscReal eps = 100.0 * PETSC_MACHINE_EPSILON;
   PetscReal       size;
   Vec             terms;
 

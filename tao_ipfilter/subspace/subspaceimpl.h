@@ -307,7 +307,6 @@ PETSC_INTERN PetscErrorCode IPFilteredWiden(Tao, IPRecycle *, PetscBool *possibl
 PETSC_INTERN PetscErrorCode IPFilteredSetUp(Tao, IPRecycle *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPFilteredDestroy(IPFiltered *);
 PETSC_INTERN PetscErrorCode IPFilteredCentre(Tao, const IPBasis *, Vec x, Vec centre, Vec gradient, Vec c);
-PETSC_INTERN PetscErrorCode IPFilteredConstraintRounding(Tao, PetscReal *rounding);
 PETSC_INTERN PetscErrorCode IPFilteredBeginContacts(Tao);
 PETSC_INTERN PetscErrorCode IPFilteredStepContacts(Tao, PetscReal enough, Vec x, Vec force, PetscReal *violation,
   PetscBool *done);
