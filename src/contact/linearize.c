@@ -256,6 +256,7 @@ PetscErrorCode ContactLinearizationDestroy(ContactLinearization *lin)
   PetscFunctionBegin;
   if (!*lin) PetscFunctionReturn(0);
   PetscCall(VecDestroy(&(*lin)->g));
+  PetscCall(VecDestroy(&(*lin)->doubt));
   PetscCall(VecDestroy(&(*lin)->mass));
   PetscCall(MatDestroy(&(*lin)->J));
   PetscCall(MatDestroy(&(*lin)->derivative));

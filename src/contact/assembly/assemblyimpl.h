@@ -200,6 +200,7 @@ typedef struct _n_ContactAssembly {
   ContactParts parts;
   Vec          gap;   /* weighted gap of each row: int phi_A gap [length^3] */
   Vec          cover; /* int phi_A over the covered part, for smooth mortar pairs [length^2] */
+  Vec          doubt; /* int phi_A times the uncertainty of the smooth surfaces [length^3] */
   PetscInt     dim;   /* 1: a coupling is one value per vertex, which multiplies the row's normal; 3: a coupling is a
                          vector per vertex */
   /* [dim] couplings of rows with vertices: int phi_A (N2 - N1) [length^2]. Multiplied by the normal and divided by the
