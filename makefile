@@ -44,7 +44,7 @@ build/%.o: %.c makefile share/toolchain.mk $(configuration)
 # Products and sums of the V-cycle become one instruction where the processor has it. Vectors of 8 floats are never
 # arguments of functions that are not inlined.
 build/pc_amgf/blockamg/sweep.o: COMPILE_FLAGS += -ffp-contract=fast -Wno-psabi
-build/src/output/page.o build/src/mesh/gmsh/convert.o: COMPILE_FLAGS += -DCONTACT_PYTHON='"$(PYTHON)"'
+build/src/output/page.o build/src/mesh/gmsh/convert.o build/apps/deck.o: COMPILE_FLAGS += -DCONTACT_PYTHON='"$(PYTHON)"'
 
 $(source_list): FORCE
 	@mkdir -p $(@D)

@@ -44,6 +44,9 @@ PETSC_INTERN PetscErrorCode AppGetVersions(char text[], size_t length);
 PETSC_INTERN PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *);
 PETSC_INTERN PetscErrorCode AppCheckWords(int argc, char **argv);
 
+/* deck.c */
+PETSC_INTERN PetscErrorCode AppTranslateDeck(AppOptions *);
+
 /* files.c: checks the names of all files, and that they can be written, before the run begins */
 PETSC_INTERN PetscErrorCode AppGetCheckpointFile(const AppOptions *, Scene, char file[PETSC_MAX_PATH_LEN]);
 PETSC_INTERN PetscErrorCode AppCheckFiles(const AppOptions *, Scene);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 const char AppHelp[] = "Contact of deformable bodies: contact SCENE.yaml [options]. SCENE.yaml describes the model.\n\
+contact DECK.inp translates a deck of Abaqus or CalculiX into the scene DECK_deck.yaml and runs it.\n\
   -refine N            number of uniform refinements of the mesh\n\
   -load_steps N        number of load steps of equal size\n\
   -contact_updates N   largest number of contact updates per load step (20); with 1 the gap is not checked\n\

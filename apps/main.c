@@ -109,7 +109,10 @@ static PetscErrorCode AppRun(int argc, char **argv, AppError *error, ReportPage 
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-traceback", &error->traceback, NULL));
   PetscCall(AppGetOptions(argc, argv, &app));
   PetscCall(AppCheckWords(argc, argv));
-  if (app.scene[0]) PetscCall(AppRunScene(&app, end));
+  if (app.scene[0]) {
+    PetscCall(AppTranslateDeck(&app));
+    PetscCall(AppRunScene(&app, end));
+  }
   if (app.scene[0] && !app.check) PetscCall(AppDescribePage(&app, argc, argv, page));
   PetscFunctionReturn(0);
 }

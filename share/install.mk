@@ -25,7 +25,7 @@ contact_headers = $(filter-out include/petscamgf.h include/petsccompat.h,$(wildc
 
 # The program contact, and what belongs to it
 installed_contact = $(call put,644,$(LIBRARY),lib) $(call put,644,$(contact_headers),include/contact) \
-  $(foreach folder,plot report python python/contact python/contact/meshes, \
+  $(foreach folder,plot report python python/contact python/contact/meshes python/contact/decks, \
     $(call put,644,$(wildcard share/$(folder)/*.py),share/amgf/$(folder)))
 
 installed = $(call put,755,$(programs) $(if $(programs),bin/contact-mesh),bin) \

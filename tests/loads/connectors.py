@@ -50,8 +50,8 @@ displacements:
   - ground: {face: bar.xmin, value: [0, 0, 0]}
 forces:
 """
-CORNERS = "".join(
-    f"  - at{y}{z}: {{body: bar, point: [2, {y}, {z}], value: [2.5, 0, 0]}}\n" for y in (0, 1) for z in (0, 1))
+CORNERS = "".join(f"  - at{y}{z}: {{body: bar, point: [2, {y}, {z}], value: [2.5, 0, 0]}}\n" for y in (0, 1)
+                  for z in (0, 1))
 MIDDLE = "  - middle: {body: bar, point: [2, 0.5, 0.5], value: [10, 0, 0]}\n"
 
 

@@ -1,5 +1,6 @@
 """contact-mesh IN OUT converts a mesh, or results BASE.xmf to VTK files OUT.pvd. contact-mesh IN -check lists the
-volumes and faces of a mesh, and -picture FILE.png draws it."""
+volumes and faces of a mesh, and -picture FILE.png draws it. contact-mesh DECK.inp -scene SCENE.yaml translates a deck
+of Abaqus or CalculiX."""
 import argparse
 import os
 import sys
@@ -8,6 +9,7 @@ import numpy as np
 
 from contact import ContactError, load
 
+from ..decks.translate import translate
 from . import formats
 from .model import FACETS, KINDS, MeshError
 from .quality import cell_volumes, facet_areas, scaled_jacobian
@@ -70,6 +72,20 @@ def write_results(source, target):
         sys.exit(f"contact-mesh: error: {error}")
 
 
+def write_scene(given):
+    """Translates a deck"""
+    if not given.input.lower().endswith(".inp"):
+        sys.exit(f"contact-mesh: error: {given.input}: -scene translates decks, whose names end in .inp")
+    try:
+        translator, bodies = translate(given.input, given.scene, given.deck_ignore)
+    except (MeshError, OSError) as error:
+        text = str(error)
+        sys.exit("contact-mesh: error: " + (text if text.startswith(given.input) else f"{given.input}: {text}"))
+    if not given.quiet:
+        print(f"{given.scene}: {len(bodies.names)} bodies, {sum(step.n for step in translator.steps)} load steps")
+        print("\n".join(translator.notes.lines()))
+
+
 def main():
     parser = argparse.ArgumentParser(prog="contact-mesh", description=__doc__,
                                      epilog=f"Reads {formats.READ}. Writes .msh, .inp and .vtu.")
@@ -81,14 +97,21 @@ def main():
                         help="prints volumes, faces, sizes and the quality of the cells")
     parser.add_argument("-picture", "--picture", metavar="FILE.png",
                         help="draws the volumes with the edges of their cells; needs VTK")
+    parser.add_argument("-scene", "--scene", metavar="FILE.yaml",
+                        help="translates the whole deck (.inp) into a scene FILE.yaml and its mesh FILE.msh")
+    parser.add_argument("-deck_ignore", "--deck_ignore", action="append", default=[], metavar="KEYWORD",
+                        help="with -scene: keywords of the deck, separated by commas, that are left out")
     parser.add_argument("-quiet", "--quiet", action="store_true", help="prints errors only")
     given = parser.parse_args()
-    if given.output is None and not given.check and not given.picture:
-        parser.error("give an output file, -check or -picture")
+    if given.output is None and not given.check and not given.picture and not given.scene:
+        parser.error("give an output file, -scene, -check or -picture")
     if not np.isfinite(given.scale) or given.scale <= 0:
         sys.exit(f"contact-mesh: error: -scale {given.scale}: a factor above 0 is expected")
     if given.input.endswith(".xmf") and given.output:
         write_results(given.input, given.output)
+        return
+    if given.scene:
+        write_scene(given)
         return
     if given.output and os.path.splitext(given.output)[1].lower() not in formats.WRITTEN:
         sys.exit(f"contact-mesh: error: {given.output}: its ending is none of {', '.join(formats.WRITTEN)}")

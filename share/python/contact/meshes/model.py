@@ -161,10 +161,9 @@ class Mesh:
             parts = connected_parts([self.blocks[block][1][these] for block, these in rows.items()], len(self.points))
             nparts = 1 + max(int(part.max()) for part in parts)
             for number in range(nparts if nparts > 1 else 0):
-                self.add_volume(f"{name}.part_{number + 1}", {
-                    block: these[part == number]
-                    for (block, these), part in zip(rows.items(), parts)
-                })
+                self.add_volume(f"{name}.part_{number + 1}",
+                                {block: these[part == number]
+                                 for (block, these), part in zip(rows.items(), parts)})
 
     def kinds_of(self, name):
         return sorted({self.blocks[block][0] for block in self.volumes[name]})
