@@ -105,9 +105,9 @@ typedef struct {
   PetscReal   kinetic_energy;        /* [force length] */
   PetscReal   total_energy;          /* kinetic and elastic [force length] */
   PetscReal   damping_work;          /* energy that damping has dissipated [force length] */
-  PetscReal   numerical_dissipation; /* energy that the time integration has lost: work of the loads plus initial
-                                        kinetic energy, minus total energy, minus the energy taken up by contact and
-                                        damping [force length] */
+  PetscReal   numerical_dissipation; /* energy that the time integration has lost, also in the normal forces of contact:
+                                        work of the loads plus initial kinetic energy, minus total energy, minus the
+                                        energy taken up by friction, damping and plasticity [force length] */
   PetscInt    rejected_steps;        /* number of time steps that were repeated in this load step because their error
                                         was too large; only with controlled time steps */
   PetscReal   shortest_step;         /* length of the shortest time step in this load step [time] */

@@ -107,8 +107,9 @@ def pictures(base, run):
 
 def results(run):
     """The largest values of the run; each row has an id, QUANTITY.NAME"""
-    yield "<table><thead><tr>" + "".join(f"<th>{head}</th>" for head in (
-        "largest value of", "", "", "", "undeformed place, or components", "load step")) + "</tr></thead>\n"
+    yield "<table><thead><tr>" + "".join(f"<th>{head}</th>"
+                                         for head in ("largest value of", "", "", "", "undeformed place, or components",
+                                                      "load step")) + "</tr></thead>\n"
     for figure in run["figures"]:
         vectors = [figure[key] for key in ("place", "components") if figure[key][0] is not None]
         name = "-".join(figure["quantity"].replace(",", "").split()) + (f".{figure['name']}" if figure["name"] else "")

@@ -47,8 +47,7 @@ SCENES = {f"beam_{at}": BEAM.format(across=1, tool=TOOL.format(at=at, slant=0)) 
 SCENES |= {
     "oblique": BEAM.format(across=3, tool=TOOL.format(at=6.5, slant=0.3)),
     "rounded": BEAM.format(across=1, tool=ROUNDED.format(at=6.5, slant=0)),
-    "revolved": BEAM.format(
-        across=1, tool=REVOLVED.format(center=6.5 - FAR, radius=FAR, inn=FAR - 1, out=FAR + 6)),
+    "revolved": BEAM.format(across=1, tool=REVOLVED.format(center=6.5 - FAR, radius=FAR, inn=FAR - 1, out=FAR + 6)),
     "bump": BUMP,
 }
 
@@ -78,6 +77,5 @@ for name in ("rounded", "revolved"):
 one, three = forces("oblique")[0], forces("oblique_3")[0]
 say("oblique corner: the same on one and three ranks", max(abs(a - b) for a, b in zip(one, three)) < 1e-9, (one, three))
 bump = forces("bump")
-say("narrow bump: touches between the vertices, too",
-    min(f[2] for f in bump) > 0.6 * max(f[2] for f in bump), bump)
+say("narrow bump: touches between the vertices, too", min(f[2] for f in bump) > 0.6 * max(f[2] for f in bump), bump)
 say("and is not pushed aside", max(abs(f[0] / f[2]) for f in bump) < 0.01, bump)

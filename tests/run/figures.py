@@ -73,11 +73,11 @@ def cantilever(run):
     say("cantilever: largest stress", within(stress["value"], exact, 0.02) and stress["unit"] == "MPa", (stress, exact))
     say("cantilever: at the surface of the wall", stress["place"][0] == 0 and stress["place"][2] in (0, size), stress)
     safety = figure(run, "safety against yield", "beam")
-    say("cantilever: safety factor", within(safety["value"], 240 / stress["value"], 1e-12) and safety["step"] == 2,
-        safety)
+    say("cantilever: safety factor",
+        within(safety["value"], 240 / stress["value"], 1e-12) and safety["step"] == 2, safety)
     wall = figure(run, "reaction", "beam.xmin")
-    say("cantilever: reaction", within(wall["value"], force, 1e-9) and within(wall["components"][2], force, 1e-9)
-        and wall["unit"] == "N", wall)
+    say("cantilever: reaction",
+        within(wall["value"], force, 1e-9) and within(wall["components"][2], force, 1e-9) and wall["unit"] == "N", wall)
 
 
 def tube(run):
@@ -87,9 +87,11 @@ def tube(run):
     axial = poisson * (hoop - pressure)
     mises = math.sqrt(((hoop + pressure)**2 + (hoop - axial)**2 + (axial + pressure)**2) / 2)
     moved, stress = figure(run, "displacement", "tube"), figure(run, "von Mises stress", "tube")
-    say("tube: displacement of the bore", within(moved["value"], bore, 1e-3)
-        and within(math.hypot(*moved["place"][:2]), inner, 1e-9), (moved, bore))
-    say("tube: stress at the bore", within(stress["value"], mises, 0.02) and stress["unit"] == "N/m^2"
+    say("tube: displacement of the bore",
+        within(moved["value"], bore, 1e-3) and within(math.hypot(*moved["place"][:2]), inner, 1e-9), (moved, bore))
+    say(
+        "tube: stress at the bore",
+        within(stress["value"], mises, 0.02) and stress["unit"] == "N/m^2"
         and within(math.hypot(*stress["place"][:2]), inner, 1e-9), (stress, mises))
     say("tube: safety factor", within(figure(run, "safety against yield", "tube")["value"], 240 / mises, 0.02), mises)
 
@@ -106,22 +108,27 @@ def hertz(run):
         best = max(best, (math.sqrt(((x - y)**2 + (y - out)**2 + (out - x)**2) / 2), z))
     stress, pressure = figure(run, "von Mises stress", "cylinder"), figure(run, "contact pressure", "touch")
     say("Hertz: largest stress", within(stress["value"], best[0], 0.02), (stress, best))
-    say("Hertz: below the surface", near(stress["place"][:1], [0], 1e-9) and within(stress["place"][2], best[1], 0.1),
-        (stress, best))
-    say("Hertz: largest pressure in the middle", within(pressure["value"], peak, 0.01)
-        and near([pressure["place"][0], pressure["place"][2]], [0, 0], 1e-9), pressure)
+    say("Hertz: below the surface",
+        near(stress["place"][:1], [0], 1e-9) and within(stress["place"][2], best[1], 0.1), (stress, best))
+    say("Hertz: largest pressure in the middle",
+        within(pressure["value"], peak, 0.01) and near([pressure["place"][0], pressure["place"][2]], [0, 0], 1e-9),
+        pressure)
 
 
 def tool(run):
     force, pressed = figure(run, "contact force", "touch"), figure(run, "contact pressure", "touch")
-    say("tool: moves as the scene says", within(figure(run, "displacement", "tool")["value"], 0.01, 1e-12)
+    say(
+        "tool: moves as the scene says",
+        within(figure(run, "displacement", "tool")["value"], 0.01, 1e-12)
         and not [one for one in run["figures"] if one["name"] == "tool" and one["quantity"] != "displacement"],
         run["figures"])
-    say("tool: force, area and pressure", within(force["value"], 10, 1e-6) and force["step"] == 1
-        and within(force["components"][2], -10, 1e-6) and within(pressed["value"], 10, 1e-6)
-        and within(figure(run, "contact area", "touch")["value"], 1, 1e-6)
+    say(
+        "tool: force, area and pressure",
+        within(force["value"], 10, 1e-6) and force["step"] == 1 and within(force["components"][2], -10, 1e-6)
+        and within(pressed["value"], 10, 1e-6) and within(figure(run, "contact area", "touch")["value"], 1, 1e-6)
         and figure(run, "contact area", "touch")["unit"] == "mm^2", (force, pressed))
-    say("tool: uniform stress, at the corner that is first in order",
+    say(
+        "tool: uniform stress, at the corner that is first in order",
         within(figure(run, "von Mises stress", "block")["value"], 10, 1e-6)
         and near(figure(run, "von Mises stress", "block")["place"], [0, 0, 0], 1e-12), run["figures"])
 
@@ -129,33 +136,35 @@ def tool(run):
 def terminal(name, run):
     with open(name + ".txt", encoding="utf-8") as file:
         lines = [line.split() for line in file]
-    missing = [one for one in run["figures"] if not [
-        line for line in lines if line[:len(one["quantity"].split())] == one["quantity"].split()
-        and f"{one['value']:.5g}" in line and (not one["name"] or one["name"] in line)]]
+    missing = [
+        one for one in run["figures"] if not [
+            line for line in lines if line[:len(one["quantity"].split())] == one["quantity"].split()
+            and f"{one['value']:.5g}" in line and (not one["name"] or one["name"] in line)
+        ]
+    ]
     say(name + ": the terminal has the figures of the summary", not missing, missing)
 
 
 def history(name, run):
     with open(name + ".csv", newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    for quantity, column in (("displacement", "displacement"), ("von Mises stress", "von_mises"),
-                             ("contact pressure", "pressure")):
+    for quantity, column in (("displacement", "displacement"), ("von Mises stress", "von_mises"), ("contact pressure",
+                                                                                                   "pressure")):
         for one in run["figures"]:
             if one["quantity"] != quantity:
                 continue
             values = [float(row[f"{one['name']}.{column}"]) for row in rows]
             row = rows[one["step"] - 1]
             place = [float(row[f"{one['name']}.{column}_place_{axis}"]) for axis in "xyz"]
-            say(f"{name}: history of {quantity}, {one['name']}", within(max(values), one["value"], 1e-12)
-                and near(place, one["place"], 1e-12), (values, one))
+            say(f"{name}: history of {quantity}, {one['name']}",
+                within(max(values), one["value"], 1e-12) and near(place, one["place"], 1e-12), (values, one))
 
 
 def ranks(name, run):
     others = load(name + "_3")["figures"]
     same = len(others) == len(run["figures"]) and all(
-        one["name"] == other["name"] and abs(one["value"] - other["value"]) < 1e-5 * one["value"] + 1e-9
-        and one["step"] == other["step"]
-        and (one["place"][0] is None or near(one["place"], other["place"], 1e-9))
+        one["name"] == other["name"] and abs(one["value"] - other["value"]) < 1e-5 * one["value"] +
+        1e-9 and one["step"] == other["step"] and (one["place"][0] is None or near(one["place"], other["place"], 1e-9))
         for one, other in zip(run["figures"], others))
     say(name + ": the same on three ranks", same, (run["figures"], others))
 
@@ -172,11 +181,12 @@ def check():
     say("without the error estimate", load("plain")["figures"] == plain, load("plain")["figures"])
     run = load("yields")
     safety, strain = figure(run, "safety against yield", "tube"), figure(run, "eq. plastic strain", "tube")
-    say("a tube that yields", safety["value"] <= 1 and within(strain["value"], max(
-        step["plastic_strain"] for step in run["steps"]), 1e-12), (safety, strain))
+    say("a tube that yields", safety["value"] <= 1
+        and within(strain["value"], max(step["plastic_strain"] for step in run["steps"]), 1e-12), (safety, strain))
     burst = load("burst")
     say("a load step that fails gives no figures", [step["converged"] for step in burst["steps"]] == [True, False]
-        and {one["step"] for one in burst["figures"]} == {1}, burst["figures"])
+        and {one["step"]
+             for one in burst["figures"]} == {1}, burst["figures"])
 
 
 if sys.argv[1] == "write":
