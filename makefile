@@ -30,7 +30,7 @@ source_list := build/sources.list
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
-all: $(PLUGIN) $(if $(PETSC_COMPLEX),complex,$(LIBRARY)) $(programs) $(if $(programs),bin/contact-mesh)
+all: $(PLUGIN) $(if $(PETSC_COMPLEX),complex,$(LIBRARY)) $(programs) $(if $(programs),bin/contact-mesh bin/contact-ccx)
 
 complex: $(PLUGIN)
 	@echo 'The scalars of this PETSc are complex: the plugin is PCAMGF alone, for ipfilter and contact need real ones'
@@ -72,7 +72,7 @@ bin/contact: $(program_objects) $(LIBRARY) $(PLUGIN) $(configuration)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $(program_objects) $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' \
 	  $(PETSC_LIBS) $(CONTACT_LIBS) -o $@
 
-bin/contact-mesh: share/python/contact-mesh.sh
+bin/contact-mesh bin/contact-ccx: bin/%: share/python/%.sh
 	@mkdir -p $(@D)
 	$(Q)install -m 755 $< $@
 

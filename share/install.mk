@@ -28,7 +28,7 @@ installed_contact = $(call put,644,$(LIBRARY),lib) $(call put,644,$(contact_head
   $(foreach folder,plot report python python/contact python/contact/meshes python/contact/decks, \
     $(call put,644,$(wildcard share/$(folder)/*.py),share/amgf/$(folder)))
 
-installed = $(call put,755,$(programs) $(if $(programs),bin/contact-mesh),bin) \
+installed = $(call put,755,$(programs) $(if $(programs),bin/contact-mesh bin/contact-ccx),bin) \
   $(call put,755,$(PLUGIN).$(VERSION),lib) \
   'link $(notdir $(PLUGIN)).$(VERSION) $(PLUGIN).$(SOVERSION)' \
   'link $(notdir $(PLUGIN)).$(SOVERSION) $(PLUGIN)' \

@@ -12,7 +12,7 @@ class Geometry:
 
     def __init__(self, deck):
         self.points, self.elements = np.zeros((0, 3)), []
-        self.node_numbers = []
+        self.node_numbers, self.element_numbers = [], []
         self.nsets, self.elsets, self.surfaces, self.nodes_at, self.elements_at = {}, {}, {}, {}, {}
         alone = [(name, name, None) for name in deck.parts if name] if not deck.instances else deck.instances
         for label, name, move in [("", "", None), *alone]:
@@ -34,6 +34,7 @@ class Geometry:
         place = {}
         for number, (kind, nodes) in part.elements.items():
             place[number] = self.elements_at[prefix + str(number)] = len(self.elements)
+            self.element_numbers.append(number)
             try:
                 self.elements.append((kind, [at[int(node)] for node in nodes]))
             except KeyError as missing:

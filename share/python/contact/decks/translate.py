@@ -56,7 +56,7 @@ class Translator:
         self.interactions, self.pairs, self.ties, self.cyclic = {}, [], {}, []
         self.initial, self.velocities, self.transformed, self.temperature_steps = [], [], {}, []
         self.displacements, self.forces, self.pressures, self.bodies_loads = (Histories() for _ in range(4))
-        self.active, self.steps = {}, []
+        self.active, self.steps, self.prints, self.printed = {}, [], {}, {}
         self.material = self.interaction = None
         self.part, self.starting = "", []
         model, steps = self.split()
@@ -234,6 +234,7 @@ class Translator:
                 table[1] += [table[0]] * step.n
             start, begin, given = start + step.period, begin + step.n, set()
             self.steps.append(step)
+            self.prints[step] = list(self.printed.items())
         if len({step.kind
                 for step in self.steps}) > 1 or (self.steps and self.steps[0].kind == "dynamic"
                                                  and len(self.steps) > 1):
@@ -268,6 +269,8 @@ class Translator:
                                                                                 for i in self.interactions.values())
 
     def read_in_step(self, step, given, where, keyword, parameters, data):
+        if keyword == "NODE PRINT":
+            self.request(where, parameters, data)
         if keyword in PROCEDURES | HARMLESS | MESH:
             return
         if keyword == "BOUNDARY":
@@ -290,6 +293,12 @@ class Translator:
             self.notes.refuse(keyword, where, "this keyword is not supported in a step")
             return
         self.notes.translate(keyword, where)
+
+    def request(self, where, parameters, data):
+        """Sets of nodes whose displacements the file .dat has, until a later step asks for others"""
+        words = [word.strip().upper() for text in data for word in text.split(",")]
+        if "NSET" in parameters and "U" in words:
+            self.printed[parameters["NSET"]] = self.geometry.nodes_of(where, parameters["NSET"])
 
     def amplitude(self, where, parameters):
         if "AMPLITUDE" not in parameters:
