@@ -36,6 +36,12 @@ MESH = cubes() + """
 2, S1"""
 
 
+def shifted(z):
+    """The mesh with the lower face of the upper cube at z"""
+    lines = MESH.splitlines()
+    return "\n".join([*lines[:9], *(line.rsplit(",", 1)[0] + f", {z}" for line in lines[9:13]), *lines[13:]])
+
+
 def step(*cards, procedure="*STATIC", nlgeom=""):
     return "\n".join([f"*STEP{nlgeom}", procedure, *cards, "*NODE PRINT, NSET=Nall", "U", "*END STEP"])
 
@@ -120,6 +126,13 @@ DECKS = {
                      elastic=ELASTIC + "\n*DENSITY\n2."), {"reaction": 20}),
     "node_to_surface": (deck(step(PRESS), pair="*CONTACT PAIR, INTERACTION=SI, TYPE=NODE TO SURFACE\nslave, under",
                              mesh=MESH + "\n*SURFACE, NAME=slave, TYPE=NODE\n9\n10\n11\n12"), {"energy": 0.1}),
+    # the lower face of the upper cube is 0.005 away, or 0.005 too deep; adjusted, both cubes have the height 1
+    "adjust": (deck(push(-0.02), mesh=shifted(1.005), pair=PAIR.replace("\n", ", ADJUST=0.01\n")), {"reaction": 10}),
+    "adjust_inside": (deck(push(-0.02), mesh=shifted(0.995), pair=PAIR.replace("\n",
+                                                                               ", ADJUST=0.\n")), {"reaction": 10}),
+    # a gap of 0.005 is closed first; the cubes then have the heights 1 and 0.995
+    "too_far": (deck(push(-0.02), mesh=shifted(1.005),
+                     pair=PAIR.replace("\n", ", ADJUST=0.001\n")), {"reaction": 15 / 1.995}),
     # follows the faces of finite strain: the area stays 1 without lateral strain
     "finite": (deck(step(PRESS, nlgeom=", NLGEOM")), {"reaction": 10}),
     # shear force over normal force; the small compression leaves the faces level

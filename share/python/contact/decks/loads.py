@@ -229,7 +229,7 @@ def surface_faces(deck, bodies, where, name):
 
 def contact_entries(deck, bodies):
     pairs, ties = [], []
-    for where, slave, master, name, kind in deck.pairs:
+    for where, slave, master, name, kind, adjusted in deck.pairs:
         if name not in deck.interactions:
             raise MeshError(f"{where}: there is no surface interaction \"{name}\"")
         interaction = deck.interactions[name]
@@ -241,6 +241,8 @@ def contact_entries(deck, bodies):
                     continue
                 if kind == "NODE TO SURFACE":
                     keys["gap"] = "node"
+                if adjusted:  # the smooth surface through nodes that were moved would overlap the other one
+                    keys["smooth"] = False
                 keys.update(friction_keys(deck, interaction))
                 keys.update(activity_keys(deck, bodies, (slave.upper(), master.upper())))
                 pairs.append((f"pair_{len(pairs) + 1}", keys))

@@ -6,6 +6,7 @@ import numpy as np
 from ..meshes import abaqus, gmsh
 from ..meshes.model import KINDS, MeshError
 from . import geometry, loads, materials, scene
+from .adjust import adjust
 from .notes import Notes
 from .steps import STICKS, Amplitude, Histories, Ramps, Step
 
@@ -162,11 +163,26 @@ class Translator:
                     "CONTACT PAIR", where, "self contact of one surface is not translated: list the pair "
                     "in the scene as {self: FACE}")
                 continue
-            self.pairs.append((where, words[0], words[1], parameters.get("INTERACTION", "").upper(), kind))
-        if "ADJUST" in parameters:
-            self.notes.refuse("CONTACT PAIR", where, "the parameter ADJUST is not supported")
+            adjusted = "ADJUST" in parameters
+            self.pairs.append((where, words[0], words[1], parameters.get("INTERACTION", "").upper(), kind, adjusted))
+            if adjusted:
+                self.adjust(where, parameters["ADJUST"], words[0], words[1])
         if "SMALL SLIDING" in parameters:
             self.notes.approximate("CONTACT PAIR", where, "sliding is not small but of any size")
+
+    def adjust(self, where, value, slave, master):
+        """Moves nodes of the slave surface onto the master surface"""
+        try:
+            distance, only = float(value), None
+        except ValueError:
+            distance, only = np.inf, set(self.geometry.nodes_of(where, value))
+        sides = self.geometry.surfaces.get(slave.upper())
+        nodes = self.geometry.nodes_of(where, slave) if sides is None else [
+            node for cell, side in sides for node in self.geometry.side_nodes(cell, side)
+        ]
+        moved, largest = adjust(self.geometry, [node for node in nodes if only is None or node in only],
+                                self.surface(where, master), distance)
+        self.notes.approximate("CONTACT PAIR", where, f"ADJUST moved {moved} nodes, by at most {largest:.3g}")
 
     def read_tie(self, where, parameters, data):
         words = [word.strip() for word in (data[0].split(",") if data else [])]
