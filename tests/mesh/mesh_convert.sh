@@ -47,6 +47,8 @@ refused damaged.vtu "<VTKFile>"
 refused damaged.med "no HDF5"
 refused unknown.stl "solid"
 mesh nothing.inp -check
+sed 's/^107, .*/107, 0.5, 0.5, -3.0/' hexahedron.inp > inverted.inp
+mesh inverted.inp -check -quiet && echo "inverted: exit code 0"
 mesh hexahedron.inp out.xyz
 mesh hexahedron.inp out.msh -scale -1
 mesh hexahedron.inp

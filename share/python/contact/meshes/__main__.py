@@ -48,6 +48,17 @@ def check(mesh):
         raise MeshError("a coordinate is not a number")
 
 
+def inverted(mesh):
+    """The volumes with inverted or flat cells, how many they are, and the middle of the first"""
+    for name, rows in mesh.volumes.items():
+        for block, these in rows.items():
+            kind, cells = mesh.blocks[block][0], mesh.blocks[block][1][these]
+            bad = np.flatnonzero(scaled_jacobian(kind, cells, mesh.points) <= 0)
+            if len(bad):
+                middle = ", ".join(f"{x:.6g}" for x in mesh.points[cells[bad[0]]].mean(axis=0))
+                yield f"the volume \"{name}\" has {len(bad):,} inverted or flat cells, the first at ({middle})"
+
+
 def draw(mesh, path, picture):
     """A picture of the volumes, by the drawing of share/plot"""
     sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), *[os.pardir] * 3, "plot"))
@@ -129,7 +140,10 @@ def main():
     if given.picture:
         draw(mesh, given.input, given.picture)
     if not given.quiet:
-        print("\n".join(report(given.input, mesh, left)))
+        print("\n".join(report(given.input, mesh, left)), flush=True)
+    wrong = "; ".join(inverted(mesh)) if given.check else ""
+    if wrong:
+        sys.exit(f"contact-mesh: error: {given.input}: {wrong}")
 
 
 main()
