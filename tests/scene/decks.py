@@ -178,6 +178,8 @@ REFUSED = {
     "released": deck(step(PRESS), step("*BOUNDARY, OP=NEW\nfoot, 1, 3")),
     "edge": deck(step(PRESS), pair="*CONTACT PAIR, INTERACTION=SI\nslave, under",
                  mesh=MESH + "\n*SURFACE, NAME=slave, TYPE=NODE\n9\n10"),
+    "velocity": deck(step("*BOUNDARY, TYPE=VELOCITY\ntop, 3, 3, -0.02")),
+    "perturbation": deck(step(PRESS, nlgeom=", PERTURBATION")),
     "no_step": deck(),
     "no_set": deck(step("*CLOAD\nnowhere, 3, 1.")),
     "no_material": deck(step(PRESS)).replace("*MATERIAL, NAME=EL", "*MATERIAL, NAME=EM"),

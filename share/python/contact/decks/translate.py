@@ -29,6 +29,23 @@ PROCEDURES = {
     "GREEN", "VISCO", "ELECTROMAGNETICS", "CFD", "FEASIBLE DIRECTION", "CRACK PROPAGATION"
 }
 
+# Parameters that are read, or that leave the answer as it is. Others are refused
+LOADS = {"OP", "AMPLITUDE"}
+PARAMETERS = {
+    "STEP": {"NLGEOM", "INC", "NAME"}, "STATIC": {"DIRECT", "SOLVER", "TIME RESET"},
+    "DYNAMIC": {"DIRECT", "EXPLICIT", "SOLVER", "ALPHA", "RELATIVE TO ABSOLUTE"
+                }, "BOUNDARY": LOADS, "CLOAD": LOADS, "DLOAD": LOADS, "DSLOAD": LOADS, "TEMPERATURE": {"OP"},
+    "MATERIAL": {"NAME"}, "ELASTIC": {"TYPE"}, "PLASTIC": {"HARDENING"}, "HYPERELASTIC": {"NEO HOOKE", "MOONEY-RIVLIN"},
+    "EXPANSION": {"TYPE", "ZERO"}, "DENSITY": set(), "SOLID SECTION": {"ELSET", "MATERIAL",
+                                                                       "ORIENTATION"}, "SURFACE INTERACTION": {"NAME"},
+    "SURFACE BEHAVIOR": {"PRESSURE-OVERCLOSURE", "PENALTY", "AUGMENTED LAGRANGE", "DIRECT"}, "FRICTION": {"ROUGH"},
+    "CONTACT PAIR": {"INTERACTION", "TYPE", "ADJUST",
+                     "SMALL SLIDING"}, "TIE": {"NAME", "POSITION TOLERANCE", "CYCLIC SYMMETRY",
+                                               "ADJUST"}, "CYCLIC SYMMETRY MODEL": {"N", "NGRAPH", "TIE", "ELSET"},
+    "AMPLITUDE": {"NAME", "TIME", "DEFINITION"}, "ORIENTATION": {"NAME", "SYSTEM"}, "INITIAL CONDITIONS": {"TYPE"},
+    "MODEL CHANGE": {"TYPE", "ADD", "REMOVE"}, "CHANGE FRICTION": {"INTERACTION"}
+}
+
 
 def numbers(where, data):
     """Rows of numbers; None where a field is empty"""
@@ -53,7 +70,7 @@ class Translator:
     def __init__(self, path, ignored=()):
         self.path, self.notes = path, Notes(ignored)
         self.geometry = geometry.Geometry(abaqus.Deck(path))
-        self.materials, self.orientations, self.sections, self.amplitudes = {}, {}, [], {}
+        self.materials, self.orientations, self.amplitudes = {}, {}, {}
         self.interactions, self.pairs, self.ties, self.cyclic = {}, [], {}, []
         self.initial, self.velocities, self.transformed, self.temperature_steps = [], [], {}, []
         self.displacements, self.forces, self.pressures, self.bodies_loads = (Histories() for _ in range(4))
@@ -90,6 +107,7 @@ class Translator:
     # model
 
     def read_model(self, where, keyword, parameters, data):
+        self.check_parameters(where, keyword, parameters)
         name = "read_" + keyword.lower().replace(" ", "_").replace("-", "_")
         if keyword in MATERIAL:
             if self.material is None:
@@ -107,6 +125,11 @@ class Translator:
             self.notes.translate(keyword, where)
         elif keyword not in MESH | HARMLESS:
             self.notes.refuse(keyword, where, "this keyword is not supported")
+
+    def check_parameters(self, where, keyword, parameters):
+        for word in parameters:
+            if word and word not in PARAMETERS.get(keyword, parameters):
+                self.notes.refuse(keyword, where, f"the parameter {word} is not supported")
 
     def read_element(self, where, parameters):
         word = parameters.get("TYPE", "").upper()
@@ -264,6 +287,9 @@ class Translator:
             if keyword not in PROCEDURES:
                 continue
             rows = numbers(place, data[:1])
+            if keyword in PARAMETERS:
+                self.check_parameters(where, "STEP", parameters)
+                self.check_parameters(place, keyword, keys)
             if keyword == "STATIC":
                 step.set_static(rows[0] if rows else [], "DIRECT" in keys)
                 if self.path_depends():
@@ -289,6 +315,7 @@ class Translator:
             self.request(where, parameters, data)
         if keyword in PROCEDURES | HARMLESS | MESH:
             return
+        self.check_parameters(where, keyword, parameters)
         if keyword == "BOUNDARY":
             given["BOUNDARY"] |= self.prescribe(where, parameters, data)
         elif keyword == "CLOAD":
