@@ -122,6 +122,12 @@ DECKS = {
     "amplitude": (deck(step("*BOUNDARY, AMPLITUDE=A\ntop, 3, 3, -0.02", procedure="*STATIC, DIRECT\n0.5, 1."),
                        more=AMPLITUDE), {"reactions": [10, 2.5]}),
     "new": (deck(step(PRESS), step("*DLOAD, OP=NEW", "*CLOAD\ntop, 3, -1.")), {"reactions": [10, 4]}),
+    # as PrePoMax writes steps: everything anew, in cards without data before the cards
+    "prepomax": (deck(
+        *(step("*Boundary, op=New", "*Boundary\nfoot, 1, 3, 0", "*Boundary\ntop, 1, 2, 0", "*Cload, op=New",
+               "*Dload, op=New", f"*Dsload\nhead, P, {value}", "*Output, Frequency=1", "*Node file\nRF, U",
+               "*El file\nS, E", procedure="*Static, Solver=Pardiso") for value in (5, 10)), hold="",
+        mesh=MESH + "\n*Surface, Name=head, Type=Element\n2, S2"), {"reactions": [5, 10]}),
     "gravity": (deck(step("*DLOAD\nEall, GRAV, 5., 0., 0., -1."),
                      elastic=ELASTIC + "\n*DENSITY\n2."), {"reaction": 20}),
     "node_to_surface": (deck(step(PRESS), pair="*CONTACT PAIR, INTERACTION=SI, TYPE=NODE TO SURFACE\nslave, under",

@@ -261,9 +261,13 @@ class Translator:
             step = self.read_procedure(where, parameters, blocks)
             if step is None:
                 continue
-            given = {"BOUNDARY": given, "CLOAD": set(), "DLOAD": set(), "GRAV": set()}
+            initial, self.renewed = given, None
+            given = {"BOUNDARY": set(), "CLOAD": set(), "DLOAD": set(), "GRAV": set()}
             for block in blocks:
                 self.read_in_step(step, given, *block)
+            if self.renewed and set(self.displacements.rule) - given["BOUNDARY"]:
+                self.notes.refuse("BOUNDARY", self.renewed, "OP=NEW releases displacements, which is not supported")
+            given["BOUNDARY"] |= initial
             for histories, keyword in ((self.displacements, "BOUNDARY"), (self.forces, "CLOAD"),
                                        (self.pressures, "DLOAD"), (self.bodies_loads, "GRAV")):
                 histories.advance(step, begin, start, given[keyword])
@@ -360,7 +364,8 @@ class Translator:
     def prescribe(self, where, parameters, data):
         """*BOUNDARY: {(node, component)} that it gives"""
         amplitude, given = self.amplitude(where, parameters), set()
-        before = set(self.displacements.rule) if parameters.get("OP", "MOD").upper() == "NEW" else set()
+        if parameters.get("OP", "MOD").upper() == "NEW":
+            self.renewed = where
         for text in data:
             words = [word.strip() for word in text.split(",")]
             nodes = self.geometry.nodes_of(where, words[0])
@@ -386,8 +391,6 @@ class Translator:
                         break
                     self.displacements.give((node, dof - 1), value, amplitude, where)
                     given.add((node, dof - 1))
-        if before - given:
-            self.notes.refuse("BOUNDARY", where, "OP=NEW releases displacements, which is not supported")
         return given
 
     def load_nodes(self, where, parameters, data, given):
