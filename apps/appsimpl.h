@@ -22,7 +22,7 @@ typedef struct {
   PetscBool silent;    /* another rank prints the message */
   int       end;       /* exit code of the program */
   PetscBool alone;     /* the error occurred on this rank only, and no other rank knows of it */
-  char      sentence[512];
+  char      sentence[1536];
 } AppError;
 
 /*

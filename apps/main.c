@@ -24,16 +24,20 @@ static PetscErrorCode AppShowProgress(void)
   PetscFunctionReturn(0);
 }
 
+/* Refuses what a run refuses before its first load step, and prints what would be simulated */
 static PetscErrorCode AppCheckScene(Scene scene)
 {
-  DM dm;
+  Simulation sim;
+  DM         dm;
 
   PetscFunctionBeginUser;
-  PetscCall(MeshCreateScene(PETSC_COMM_WORLD, scene, NULL, &dm));
-  PetscCall(MeshCheckScene(dm, scene));
+  PetscCall(SimulationCreate(PETSC_COMM_WORLD, scene, &sim));
+  PetscCall(SimulationSetFromOptions(sim));
+  PetscCall(SimulationCheck(sim));
+  PetscCall(SimulationGetDM(sim, &dm));
   PetscCall(SceneDescribe(scene, dm, PETSC_VIEWER_STDOUT_WORLD));
   PetscCall(StepDescribeContact(scene, dm, PETSC_VIEWER_STDOUT_WORLD));
-  PetscCall(DMDestroy(&dm));
+  PetscCall(SimulationDestroy(&sim));
   PetscFunctionReturn(0);
 }
 

@@ -141,6 +141,7 @@ typedef struct {
   PetscInt     cells[3];           /* number of cells. box: along each axis; tube_arc: radially, around and along the
                                      axis; other shapes: see above */
   Material     material;
+  char        *material_name; /* NULL: the scene names the law, and no material */
   ElementType  element;
   PetscInt     order; /* polynomial order of the displacements in a cell, 1 or 2; 0: the default, 1 for hexahedra and 2
                       for tetrahedra */
