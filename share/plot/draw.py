@@ -87,8 +87,9 @@ def arguments(words=None):
     parser.add_argument("--step", type=int, help="load step; default: the last one")
     parser.add_argument("--field", default="von_mises",
                         help="field of the files, for example contact_pressure or displacement_z; default: von_mises")
-    parser.add_argument("--scale", default="1",
-                        help="factor of the displacements; auto: the largest one is a tenth of the model's size")
+    parser.add_argument(
+        "--scale", default="1",
+        help="factor of the displacements; auto: the largest one is at least a tenth of the model's size")
     view = ("ELEVATION", "AZIMUTH")
     parser.add_argument("--view", type=float, nargs=2, default=(20, -60), metavar=view,
                         help="direction of view [degrees]; default: 20 -60")
@@ -276,7 +277,7 @@ def displacement_scale(args, run, cells, displacement):
     nodes = np.unique(np.concatenate([run.cells[c] for c in cells]))
     if args.scale == "auto":
         largest = np.linalg.norm(displacement[nodes], axis=1).max()
-        return 0.1 * np.ptp(run.vertices[nodes], axis=0).max() / largest if largest > 0 else 1.0
+        return max(1.0, 0.1 * np.ptp(run.vertices[nodes], axis=0).max() / largest) if largest > 0 else 1.0
     try:
         return float(args.scale)
     except ValueError:

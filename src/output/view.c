@@ -275,6 +275,7 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
   PetscFunctionBegin;
   for (PetscInt s = 0; s < report->nsteps; ++s) n += report->steps[s].converged;
   PetscCall(PetscViewerASCIIPrintf(viewer, "\nProblem %s: %s\n", report->problem, report->reason));
+  if (report->units && report->units[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "Units: %s\n", report->units));
   if (n > 1) PetscCall(PetscViewerASCIIPrintf(viewer, "%-98s%s\n", "Largest values", "in load step"));
   for (PetscInt f = 0; f < report->nfigures; ++f) PetscCall(ViewFigure(&report->figures[f], n, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer,

@@ -22,6 +22,9 @@ PETSC_INTERN PetscErrorCode AdaptMarkContact(Simulation);
 PETSC_INTERN PetscErrorCode EffectsCreate(Simulation, RunReport *);
 PETSC_INTERN PetscErrorCode EffectsSetTimes(Simulation, RunReport *);
 
+/* plausible.c */
+PETSC_INTERN PetscErrorCode PlausibleTest(Simulation);
+
 /* figures.c */
 PETSC_INTERN PetscErrorCode FiguresCollect(RunReport *);
 

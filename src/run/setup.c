@@ -132,6 +132,7 @@ static PetscErrorCode SimulationSetUpMesh(Simulation sim)
 {
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Mesh, NULL, NULL, NULL, NULL));
+  PetscCall(PlausibleTest(sim));
   PetscCall(MeshCreateScene(sim->comm, sim->scene, sim->run->marks, &sim->dm));
   PetscCall(MeshCheckScene(sim->dm, sim->scene));
   PetscCall(ProbesCreate(sim->dm, sim->scene, &sim->results->probes));

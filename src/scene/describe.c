@@ -366,11 +366,11 @@ static PetscErrorCode DescribeSteps(Scene scene, PetscViewer viewer)
   PetscFunctionBegin;
   for (PetscInt i = 0; i < scene->nsteps; ++i) ncorners += DescribeIsCorner(scene, i);
   every = ncorners > DESCRIBE_ROWS ? (scene->nsteps + DESCRIBE_ROWS - 1) / DESCRIBE_ROWS : 0;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%" PetscInt_FMT " load step%s, and the factors at their ends%s\n  step",
-    scene->nsteps, scene->nsteps == 1 ? "" : "s",
-    every                      ? "; some of them"
-    : ncorners < scene->nsteps ? "; linear between the rows"
-                               : ""));
+  PetscCall(
+    PetscViewerASCIIPrintf(viewer, "Load steps: %" PetscInt_FMT "; factors at their ends%s\n  step", scene->nsteps,
+      every                      ? "; some of them"
+      : ncorners < scene->nsteps ? "; linear between the rows"
+                                 : ""));
   for (PetscInt r = 0; r < scene->nramps; ++r) PetscCall(PetscViewerASCIIPrintf(viewer, " %12s", scene->ramps[r].name));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   for (PetscInt i = 0; i < scene->nsteps; ++i) {

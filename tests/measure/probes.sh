@@ -28,7 +28,7 @@ for ranks in 1 3; do
 done
 "$PYTHON" "$AMGF_DIR/share/plot/curves.py" stack_height.csv line.png --steps all && head -c 4 line.png | tail -c 3 &&
   echo
-"$contact" stack.yaml -scene_check | sed -n '/^Probes/,/load step/p'
+"$contact" stack.yaml -scene_check | sed -n '/^Probes/,/^Load steps/p'
 
 # Where bodies touch a point is the first one's, on any ranks
 cat > touch.yaml <<'YAML'
