@@ -36,6 +36,13 @@ static PetscErrorCode AppCreateOutput(const AppOptions *app, Scene scene, Simula
   PetscCall(SimulationGetDM(sim, &dm));
   PetscCall(OutputCreate(dm, scene->nbodies, names, app->output, output));
   PetscCall(OutputSetUnits(*output, scene->units));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    char text[PETSC_MAX_PATH_LEN];
+
+    if (!SceneBodyIsSurface(&scene->bodies[b])) continue;
+    PetscCall(SceneSurfaceWrite(&scene->bodies[b], BodyShapes[scene->bodies[b].shape], text, sizeof(text)));
+    PetscCall(OutputSetSurface(*output, b, text));
+  }
   PetscCall(PetscFree(names));
   PetscFunctionReturn(0);
 }

@@ -491,6 +491,7 @@ typedef struct {
   PetscReal corner[3], edge[3][3], size;
 } SceneSurfaceCube;
 PETSC_EXTERN void           SceneSurfaceGetCube(const SceneBody *, SceneSurfaceCube *);
+PETSC_EXTERN PetscErrorCode SceneSurfaceWrite(const SceneBody *, const char shape[], char text[], size_t length);
 PETSC_EXTERN PetscErrorCode SceneStlCreate(MPI_Comm, const char place[], const char file[], PetscReal scale, SceneStl *,
   PetscReal centre[3], PetscReal *edge);
 PETSC_EXTERN PetscErrorCode SceneStlDestroy(SceneStl *);

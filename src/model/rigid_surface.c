@@ -80,6 +80,28 @@ void SceneSurfaceGetCube(const SceneBody *body, SceneSurfaceCube *cube)
   }
 }
 
+/*
+   Writes a rigid surface as words for programs that draw it: the name of its shape, and its parameters own[] in the
+   order of the indices SURFACE_POINT, ...; of an STL file its scale and its name
+*/
+PetscErrorCode SceneSurfaceWrite(const SceneBody *body, const char shape[], char text[], size_t length)
+{
+  const PetscInt n = SURFACE_PROFILE + 1 + (PetscInt)body->own[SURFACE_PROFILE];
+  char           word[64];
+
+  PetscFunctionBegin;
+  PetscCall(PetscStrncpy(text, shape, length));
+  for (PetscInt i = 0; i < n && body->shape != SHAPE_RIGID_STL; ++i) {
+    (void)snprintf(word, sizeof(word), " %.17g", (double)body->own[i]);
+    PetscCall(PetscStrlcat(text, word, length));
+  }
+  if (body->shape != SHAPE_RIGID_STL) PetscFunctionReturn(0);
+  (void)snprintf(word, sizeof(word), " %.17g ", (double)(body->gmsh.scale > 0.0 ? body->gmsh.scale : 1.0));
+  PetscCall(PetscStrlcat(text, word, length));
+  PetscCall(PetscStrlcat(text, body->gmsh.file, length));
+  PetscFunctionReturn(0);
+}
+
 /* Returns the distance of a point from the surface in the half plane through the axis and the point [length]. across,
    along: coordinates of the point [length]; slope: derivatives with respect to them */
 static PetscReal SurfaceProfile(const SceneBody *body, PetscReal across, PetscReal along, PetscReal slope[2])
