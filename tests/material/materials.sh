@@ -33,7 +33,8 @@ def table(name):
     text = open(os.path.join(os.environ["AMGF_DIR"], "share", "materials", name)).read()
     return {
         m[1]: (float(m[2]), float(m[3]), float(m[4]), float(m[5] or 1))
-        for m in re.finditer(r"- (\w+): {.*young: ([^,]*), poisson: ([^,}]*).*density: ([^,}]*)(?:, yield: ([^}]*))?", text)
+        for m in re.finditer(
+            r"- (\w+): {.*young: ([^,]*), poisson: ([^,}]*).*density: ([^,}]*)(?:, yield: ([^}]*))?", text)
     }
 
 

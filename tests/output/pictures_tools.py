@@ -15,8 +15,8 @@ SHAPES = {
     "torus": "rigid_torus, center: [0, -3, 0], direction: [1, 2, 2], radius: 1, section_radius: 0.3",
     "groove": "rigid_extruded, center: [0, 0, -2], direction: [1, 2, 2], across: [2, 1, -2], "
     "points: [3, 1, 0.5, 0, -0.5, 0, -3, 1], outside: 0.1",
-    "ring": "rigid_revolved, center: [4, 4, 0], direction: [1, 2, 2], points: [0.5, 2, 0.5, 1, 0.9, 0, 0.5, -1, 0.5, -2], "
-    "outside: 0.1",
+    "ring": "rigid_revolved, center: [4, 4, 0], direction: [1, 2, 2], outside: 0.1, "
+            "points: [0.5, 2, 0.5, 1, 0.9, 0, 0.5, -1, 0.5, -2]",
     "facets": "rigid_stl, mesh: facets.stl, scale: 2",
 }
 STL = """solid one
