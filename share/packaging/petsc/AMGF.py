@@ -11,7 +11,6 @@ class Configure(config.package.Package):
     self.providesDocs    = 1
     self.docsDirs        = ['pc_amgf','tao_ipfilter','src/plugin','include']
     self.precisions      = ['double']
-    self.minCxxVersion   = None
     self.linkedbypetsc   = 0
     self.builtafterpetsc = 1
     return

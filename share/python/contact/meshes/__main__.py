@@ -8,6 +8,7 @@ import sys
 import numpy as np
 
 from contact import ContactError, load
+from contact.places import script
 
 from ..decks.translate import translate
 from . import formats
@@ -61,7 +62,7 @@ def inverted(mesh):
 
 def draw(mesh, path, picture):
     """A picture of the volumes, by the drawing of share/plot"""
-    sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), *[os.pardir] * 3, "plot"))
+    sys.path.insert(0, os.path.dirname(script("plot/mesh.py")))
     from mesh import draw_mesh
 
     corners = {
@@ -146,4 +147,5 @@ def main():
         sys.exit(f"contact-mesh: error: {given.input}: {wrong}")
 
 
-main()
+if __name__ == "__main__":
+    main()
