@@ -75,9 +75,10 @@ bin/contact: $(program_objects) $(LIBRARY) $(PLUGIN) $(configuration)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $(program_objects) $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' \
 	  $(PETSC_LIBS) $(CONTACT_LIBS) -o $@
 
-bin/contact-mesh bin/contact-ccx: bin/%: share/python/%.sh
+all: $(PLUGIN) $(if $(PETSC_COMPLEX),complex) \
+  $(if $(only_plugin),,$(LIBRARY) $(programs) bin/contact-mesh bin/contact-ccx)
 	@mkdir -p $(@D)
-	$(Q)install -m 755 $< $@
+	$(Q)sed 's|@PYTHON@|$(PYTHON)|' $< > $@ && chmod 755 $@
 
 .PRECIOUS: build/%.o
 -include $(wildcard $(addprefix build/,apps/*.d pc_amgf/*.d pc_amgf/*/*.d tao_ipfilter/*.d tao_ipfilter/*/*.d \
