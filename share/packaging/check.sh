@@ -13,7 +13,8 @@ bare() { mmdebstrap --quiet --variant=minbase --include=ca-certificates "$@" boo
 git clone -q . "$work/amgf"
 needed=$(tr -d '\n' < share/packaging/debian/control | sed 's/.*Build-Depends: //; s/Package:.*//; s/([^)]*)//g; s/,/ /g')
 echo "Building in a bare Debian 12"
-bare --customize-hook='chroot "$1" apt-get install -qq -y --no-install-recommends build-essential '"$needed > $work/build.log" \
+install='apt-get install -qq -y --no-install-recommends build-essential'
+bare --customize-hook="chroot \"\$1\" $install $needed > $work/build.log" \
   --customize-hook="copy-in $work/amgf /root" \
   --customize-hook="chroot \"\$1\" make -C /root/amgf deb >> $work/build.log 2>&1" \
   --customize-hook="sync-out /root/amgf/build/deb $work" || { tail -n 20 "$work/build.log"; exit 1; }

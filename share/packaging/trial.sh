@@ -29,13 +29,15 @@ run = contact.run("/usr/share/amgf/scenes/hertz_cylinder.yaml", refine=0)
 old = contact.load("hertz")
 assert run.exit_code == 0 and abs(run.history["energy"][-1] / old.history["energy"][-1] - 1) < 1e-9
 P
-python3 /usr/share/amgf/examples/ties_petsc4py.py -dll_append "$(pkg-config --variable=plugin petscamgf)" -pc_type amgf
+plugin=$(pkg-config --variable=plugin petscamgf)
+python3 /usr/share/amgf/examples/ties_petsc4py.py -dll_append "$plugin" -pc_type amgf
 cp -r /usr/share/amgf/examples . && make -s -C examples
-examples/ties_ksp -dll_append "$(pkg-config --variable=plugin petscamgf)" -pc_type amgf
+examples/ties_ksp -dll_append "$plugin" -pc_type amgf
 examples/press_library /usr/share/amgf/scenes/patch_test.yaml
 zcat -f /usr/share/man/man1/contact.1* > /dev/null
 zcat -f /usr/share/man/man3/PCAMGF.3* > /dev/null
 
 apt-get purge -qq -y $ours > /tmp/log 2>&1 || { cat /tmp/log; exit 1; }
 files > /tmp/after
-if diff /tmp/before /tmp/after; then echo "packages: all right"; else echo "packages: the files above remain"; exit 1; fi
+diff /tmp/before /tmp/after || { echo 'packages: the files above remain'; exit 1; }
+echo 'packages: all right'

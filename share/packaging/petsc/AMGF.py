@@ -42,5 +42,6 @@ class Configure(config.package.Package):
     self.addPost(self.packageDir,[make + ' install'])
     # without -dll_append: PETSc has loaded the library by itself
     examples = os.path.join(self.packageDir,'share','examples')
-    self.addMakeCheck(examples,'PKG_CONFIG_PATH=' + os.path.join(prefix,'lib','pkgconfig') + ' ${OMAKE} CC="${CC}" ties_ksp && ./ties_ksp -pc_type amgf')
+    found    = 'PKG_CONFIG_PATH=' + os.path.join(prefix,'lib','pkgconfig')
+    self.addMakeCheck(examples,found + ' ${OMAKE} CC="${CC}" ties_ksp && ./ties_ksp -pc_type amgf')
     return self.installDir
