@@ -11,7 +11,8 @@ trap 'rm -rf "$work"' EXIT
 bare() { mmdebstrap --quiet --variant=minbase --include=ca-certificates "$@" bookworm /dev/null; }
 
 git clone -q . "$work/amgf"
-needed=$(tr -d '\n' < share/packaging/debian/control | sed 's/.*Build-Depends: //; s/Package:.*//; s/([^)]*)//g; s/,/ /g')
+needed=$(tr -d '\n' < share/packaging/debian/control |
+  sed 's/.*Build-Depends: //; s/Package:.*//; s/([^)]*)//g; s/,/ /g')
 echo "Building in a bare Debian 12"
 install='apt-get install -qq -y --no-install-recommends build-essential'
 bare --customize-hook="chroot \"\$1\" $install $needed > $work/build.log" \

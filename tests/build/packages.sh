@@ -24,6 +24,10 @@ grep -v '^/' "$work/usr/share/amgf/installed" | sed 's|^|usr/|' | while read -r 
 done
 sort -u "$work/packages" | paste -sd' '
 
+# As AMGF.py does
+make --no-print-directory install PLUGIN_ONLY=1 PREFIX="$work/petsc" > "$work/log" 2>&1 || cat "$work/log"
+(cd "$work/petsc" && ls -d bin include/* lib/*.so lib/*.a lib/pkgconfig/* share/* share/amgf/*) 2> /dev/null | paste -sd' '
+
 "$PYTHON" - << 'P'
 import ast
 for name in ("petsc/AMGF.py", "spack/package.py"):
