@@ -5,7 +5,7 @@ set -eu
 export HOME=/tmp LC_ALL=C DEBIAN_FRONTEND=noninteractive OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 cd "$(dirname "$0")"
 ours='petscamgf contact libcontact-dev amgf-doc'
-tools='gcc make pkg-config libopenmpi-dev python3-petsc4py-real'
+tools='gcc make pkg-config libopenmpi-dev python3-petsc4py python3-petsc4py-real'
 files() { find / -xdev \( -path /tmp -o -path /root -o -path /proc -o -path /var/cache -o -path /var/log \
   -o -path /var/lib/apt -o -path /var/lib/dpkg \) -prune -o -print | sort; }
 
