@@ -75,8 +75,7 @@ bin/contact: $(program_objects) $(LIBRARY) $(PLUGIN) $(configuration)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $(program_objects) $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' \
 	  $(PETSC_LIBS) $(CONTACT_LIBS) -o $@
 
-all: $(PLUGIN) $(if $(PETSC_COMPLEX),complex) \
-  $(if $(only_plugin),,$(LIBRARY) $(programs) bin/contact-mesh bin/contact-ccx)
+bin/contact-mesh bin/contact-ccx: bin/%: share/python/%.sh makefile
 	@mkdir -p $(@D)
 	$(Q)sed 's|@PYTHON@|$(PYTHON)|' $< > $@ && chmod 755 $@
 
