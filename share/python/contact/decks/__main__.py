@@ -5,7 +5,7 @@ import sys
 
 from .. import ContactError, load
 from ..meshes.model import MeshError
-from ..runs import program
+from ..places import program
 from . import results
 from .translate import translate
 
