@@ -11,7 +11,8 @@ files() { find / -xdev \( -path /tmp -o -path /root -o -path /proc -o -path /var
 
 # What ours need, so that only ours come and go between the two lists of files
 apt-get install -s --no-install-recommends ./*.deb $tools | sed -n 's/^Inst \([^ ]*\) .*/\1/p' > /tmp/all
-apt-get install -qq -y --no-install-recommends $(grep -vxE "$(echo $ours | tr ' ' '|')" /tmp/all) > /tmp/log 2>&1
+needed=$(grep -vxE "$(echo $ours | tr ' ' '|')" /tmp/all)
+apt-get install -qq -y --no-install-recommends $needed > /tmp/log 2>&1 || { cat /tmp/log; exit 1; }
 files > /tmp/before
 apt-get install -qq -y --no-install-recommends ./*.deb > /tmp/log 2>&1 || { cat /tmp/log; exit 1; }
 ! command -v lintian > /dev/null || lintian ./*.deb
