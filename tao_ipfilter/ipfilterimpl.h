@@ -17,9 +17,10 @@
      step      one step: filter, barrier, direction, line search, restoration
      driver    the iteration: set-up, solve, convergence, reasons
      subspace  the filtered subspace method: directions, the reduced problem, its active sets
-     friction  the friction laws of the norm terms in the subspace
-   The driver calls subspace, and subspace calls friction, only through tables of functions, which register.c stores in
-   the solver. The rest compiles without these two folders if their lines in register.c are removed.
+     friction  the friction laws of few norm terms, and of those that stick, in the reduced problem
+     cones     the friction laws of many norm terms, by sparse factors
+   The driver calls subspace, and subspace calls friction and cones, only through tables of functions, which register.c
+   stores in the solver. The rest compiles without these folders if their lines in register.c are removed.
 */
 #ifndef IPFILTERIMPL_H
 #define IPFILTERIMPL_H

@@ -1,9 +1,11 @@
 /*
-   Registers the filtered subspace method and the friction laws of norm terms. No other file refers to their folders.
+   Registers the filtered subspace method and the friction laws of norm terms, of few and of many. No other file refers
+   to their folders.
 */
 #include "ipfilterimpl.h"
 #include "tao_ipfilter/subspace/subspaceimpl.h"
 #include "tao_ipfilter/friction/frictionimpl.h"
+#include "tao_ipfilter/cones/conesimpl.h"
 #include "tao_ipfilter/solver/method.h"
 
 PetscErrorCode IPRegisterMethods(TAO_IPFILTER *ip)
@@ -11,5 +13,6 @@ PetscErrorCode IPRegisterMethods(TAO_IPFILTER *ip)
   PetscFunctionBegin;
   ip->method->ops = &IPMethodSubspace;
   ip->laws        = &IPLawsFriction;
+  ip->contacts    = &IPContactsCones;
   PetscFunctionReturn(0);
 }

@@ -180,7 +180,8 @@ static PetscErrorCode SimulationReportStep(Simulation sim, StepReport *report)
 /*
    Collective. Warns in a dynamic analysis without interference if the normal forces of contact have given or taken more
    than 1 % of the energy that the bodies have or that the loads have given, and again if it is twice as much. They give
-   some if a curved gap changes much in a time step, and take some where nodes with mass hit a face.
+   some if a curved gap changes much in a time step, and take some where nodes with mass hit a face. Two rigid bodies
+   were named at the start (StartWarnOfRigid()).
 */
 static PetscErrorCode SimulationWarnOfGain(Simulation sim, const StepReport *report)
 {
@@ -189,8 +190,13 @@ static PetscErrorCode SimulationWarnOfGain(Simulation sim, const StepReport *rep
   PetscBool       intended = PETSC_FALSE;
 
   PetscFunctionBegin;
-  for (PetscInt p = 0; p < sim->scene->npairs; ++p)
-    intended = (PetscBool)(intended || sim->scene->pairs[p].interference > 0.0);
+  for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
+    const SceneContactPair *pair = &sim->scene->pairs[p];
+
+    intended = (PetscBool)(intended || pair->interference > 0.0 ||
+                           (SceneFaceBody(sim->scene, pair->mortar)->material.type == MATERIAL_RIGID &&
+                             SceneFaceBody(sim->scene, pair->nonmortar)->material.type == MATERIAL_RIGID));
+  }
   if (!report->converged || !report->nmotions || intended) PetscFunctionReturn(0);
   energy =
     PetscMax(sim->dynamics.kinetic, PetscMax(PetscAbsReal(report->work), PetscAbsReal(report->motions->total_energy)));

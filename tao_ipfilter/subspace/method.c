@@ -10,6 +10,7 @@
 #include "subspaceimpl.h"
 #include "tao_ipfilter/solver/rows.h"
 #include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/kkt.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/method.h"
@@ -151,6 +152,24 @@ static void FilteredBeginWhole(Tao tao, IPRecycle *recycle)
 }
 
 /*
+   Finds whether there are so many contacts with norm terms that the reduced problem, whose matrices are dense, costs
+   more than sparse factors of W. Terms that stick have several solutions, among which only the reduced problem chooses.
+*/
+static PetscErrorCode FilteredHasMany(Tao tao, PetscBool *many)
+{
+  const TAO_IPFILTER *ip      = (TAO_IPFILTER *)tao->data;
+  const PetscInt      most    = 400; /* bracket with a bolt and 410 contacts: 12 s; with 811: not done in 300 s */
+  PetscReal           largest = 0.0;
+
+  PetscFunctionBegin;
+  *many = (PetscBool)(ip->contacts && ip->terms->n > most);
+  if (!*many || !ip->terms->coefficient) PetscFunctionReturn(0);
+  PetscCall(VecMax(ip->terms->coefficient, NULL, &largest));
+  *many = (PetscBool)(largest > 0.0 && largest < IP_TERM_STICKS);
+  PetscFunctionReturn(0);
+}
+
+/*
    Sets W. *few: whether there are constraints, and they involve few unknowns. What is few is decided only with
    -tao_ipfilter_subspace auto and without norm terms.
 */
@@ -168,7 +187,12 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
   *few = (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n || touched <= fraction * n));
   PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
   FilteredBeginWhole(tao, recycle);
-  if (*few && ip->terms->n && recycle->whole) PetscCall(IPFilteredTakeAll(tao, &IPFilteredOf(tao)->W));
+  PetscCall(FilteredHasMany(tao, &IPFilteredOf(tao)->many));
+  if (IPFilteredOf(tao)->many) {
+    recycle->whole = PETSC_FALSE;
+    PetscCall(PetscObjectReference((PetscObject)ip->cond->filter));
+    IPFilteredOf(tao)->W = ip->cond->filter;
+  } else if (*few && ip->terms->n && recycle->whole) PetscCall(IPFilteredTakeAll(tao, &IPFilteredOf(tao)->W));
   else if (*few) PetscCall(FilteredChooseW(tao, &recycle->reduced, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);
 }
@@ -439,6 +463,36 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
 }
 
 /*
+   Takes one step of the laws of many contacts, whose systems add directions as they need them. The point does not move
+   before the state of each contact is known: later solves would take a point inside the cones for one where all
+   contacts are closed.
+*/
+static PetscErrorCode FilteredStepContacts(Tao tao, PetscBool *done)
+{
+  TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscInt patience = 60;
+  PetscReal      enough   = IP_FORCING_LAST * ip->tol * IPErrorBoundForceUnit(ip), violation;
+  PetscBool      moved    = PETSC_TRUE;
+  Vec            v, force;
+
+  PetscFunctionBegin;
+  tao->ksp_its = 0;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(IPFilteredStepContacts(tao, enough, v, force, &violation, done));
+  if (violation == PETSC_INFINITY) ip->rec->nacceptable = ip->rec->ntiny = 0; /* the point did not move */
+  else {
+    moved = IPFilteredProgresses(IPFilteredOf(tao), IPBothErrors(ip), patience);
+    if (moved) PetscCall(FilteredMove(tao, v, force, &moved));
+  }
+  *done = (PetscBool)(*done && moved);
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v));
+  if (*done) tao->niter++;
+  PetscFunctionReturn(0);
+}
+
+/*
    Computes the first point: for a quadratic program the solution of the first reduced problem, otherwise the start with
    its multipliers
 */
@@ -452,8 +506,9 @@ static PetscErrorCode FilteredFirst(Tao tao, IPRecycle *recycle, PetscBool *foun
   f->halved                = PETSC_INFINITY;
   f->residual              = 0.0;
   ip->mu                   = 0.0;
-  if (f->newton) PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
-  else {
+  if (f->newton || f->many) PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
+  if (!f->newton && f->many) PetscCall(IPFilteredBeginContacts(tao));
+  else if (!f->newton) {
     PetscCall(FilteredCentreHere(tao, &recycle->basis));
     PetscCall(FilteredSolveReduced(tao, recycle, found));
   }
@@ -529,6 +584,7 @@ static PetscErrorCode FilteredStepOfKind(Tao tao, PetscBool *done)
 {
   PetscFunctionBegin;
   if (IPFilteredOf(tao)->newton) PetscCall(IPNewtonSubspaceStep(tao, done));
+  else if (IPFilteredOf(tao)->many) PetscCall(FilteredStepContacts(tao, done));
   else PetscCall(FilteredStep(tao, done));
   if (*done) ((TAO_IPFILTER *)tao->data)->method->multipliers = PETSC_TRUE;
   PetscFunctionReturn(0);

@@ -7,13 +7,15 @@
    so far, directions, active sets tried, active constraints. Newton's method prints the columns of the driver. */
 PetscErrorCode IPFilteredMonitor(Tao tao, PetscBool *monitored)
 {
-  TAO_IPFILTER     *ip   = (TAO_IPFILTER *)tao->data;
-  const IPFiltered *f    = IPFilteredOf(tao);
+  TAO_IPFILTER     *ip = (TAO_IPFILTER *)tao->data;
+  const IPFiltered *f  = IPFilteredOf(tao);
+  IPRecycle        *recycle;
   MPI_Comm          comm = PetscObjectComm((PetscObject)tao);
 
   PetscFunctionBegin;
   *monitored = (PetscBool)!f->newton;
   if (!*monitored) PetscFunctionReturn(0);
+  PetscCall(IPRecycleGet(tao, &recycle));
   if (tao->niter % 20 == 0)
     PetscCall(
       PetscPrintf(comm, "iter     objective     inf_pr   inf_du   ||d||   applied directions sets active   kkt\n"));
@@ -21,7 +23,7 @@ PetscErrorCode IPFilteredMonitor(Tao tao, PetscBool *monitored)
     "%4" PetscInt_FMT " %15.8e %8.2e %8.2e %8.2e %8" PetscInt_FMT " %10" PetscInt_FMT " %4" PetscInt_FMT
     " %6" PetscInt_FMT "  %8.2e\n",
     tao->niter, (double)ip->at.f, (double)ip->kkt->inf_pr, (double)ip->kkt->inf_du, (double)ip->dir.norm,
-    ip->rec->napplications, f->reduced->system.k - f->reduced->companions.n, f->reduced->nsteps, f->reduced->nactive,
-    (double)ip->kkt->error));
+    ip->rec->napplications, f->many ? recycle->basis.n : f->reduced->system.k - f->reduced->companions.n,
+    f->many ? 1 : f->reduced->nsteps, f->many ? f->nclosed : f->reduced->nactive, (double)ip->kkt->error));
   PetscFunctionReturn(0);
 }

@@ -122,6 +122,29 @@ static PetscErrorCode NewtonSolveModel(Tao tao, IPRecycle *recycle, PetscReal ta
   PetscFunctionReturn(0);
 }
 
+/* Solves the model with many contacts until its residual is below `target` and their laws hold */
+static PetscErrorCode NewtonSolveContacts(Tao tao, PetscReal target, Vec d, Vec force, PetscBool *solved)
+{
+  const PetscReal enough = 1e-6; /* relative violation of the laws: at a larger one, states of contacts are unknown */
+  PetscReal       norm = PETSC_INFINITY, violation = PETSC_INFINITY;
+  PetscBool       done = PETSC_TRUE;
+  Vec             r;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
+  PetscCall(IPFilteredBeginContacts(tao));
+  PetscCall(VecZeroEntries(d));
+  PetscCall(VecZeroEntries(force));
+  while (done && !(norm <= target && violation <= enough)) {
+    PetscCall(IPFilteredStepContacts(tao, 0.5 * target, d, force, &violation, &done));
+    PetscCall(NewtonModelResidual(tao, d, force, r, &norm));
+  }
+  *solved                     = done;
+  IPFilteredOf(tao)->promised = norm;
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &r));
+  PetscFunctionReturn(0);
+}
+
 /* Computes violation = sum m max(-c, 0) */
 static PetscErrorCode NewtonViolation(Tao tao, Vec c, PetscReal *violation)
 {
@@ -390,7 +413,8 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPRecycle *recycle, Vec d, Vec for
       PetscCall(IPRecycleUpdate(tao, recycle, &convex));
       if (convex) PetscCall(IPFilteredSetUp(tao, recycle, &convex));
     }
-    if (convex) PetscCall(NewtonSolveModel(tao, recycle, target, d, force, &convex));
+    if (convex && IPFilteredOf(tao)->many) PetscCall(NewtonSolveContacts(tao, target, d, force, &convex));
+    else if (convex) PetscCall(NewtonSolveModel(tao, recycle, target, d, force, &convex));
     *found = convex;
     if (!convex) continue;
     PetscCall(NewtonSearch(tao, d, force, &downhill, found));

@@ -15,6 +15,7 @@
 PetscErrorCode IPFilteredDestroy(IPFiltered *f)
 {
   PetscFunctionBegin;
+  if (f->contacts) PetscCall(f->contactops->destroy(&f->contacts));
   f->reduced = NULL;
   PetscCall(ISDestroy(&f->W));
   PetscCall(VecDestroy(&f->centre));
@@ -91,6 +92,43 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec x, Vec centre
   PetscFunctionReturn(0);
 }
 
+/* Begins the laws of many contacts at the present point */
+PetscErrorCode IPFilteredBeginContacts(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f  = IPFilteredOf(tao);
+  Vec           values, force;
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(tao->solution, f->centre));
+  PetscCall(VecCopy(tao->gradient, f->gradient));
+  PetscCall(VecCopy(ip->at.c, f->c));
+  f->f = ip->at.f;
+  PetscCall(VecDuplicate(ip->terms->t, &values));
+  PetscCall(IPTermsValue(tao, tao->solution, values));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(VecPointwiseMult(force, ip->pair[IP_SLACK].z, ip->pair[IP_SLACK].w));
+  PetscCall(ip->contacts->begin(f->contacts, f->gradient, f->c, values, force, ip->terms->force));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
+  PetscCall(VecDestroy(&values));
+  PetscFunctionReturn(0);
+}
+
+/* Takes a step of the laws of many contacts. enough: residual [2-norm] that any system may leave; x: the point relative
+   to the begin; force: forces of the constraints */
+PetscErrorCode IPFilteredStepContacts(Tao tao, PetscReal enough, Vec x, Vec force, PetscReal *violation,
+  PetscBool *done)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f  = IPFilteredOf(tao);
+
+  PetscFunctionBegin;
+  PetscCall(ip->contacts->step(f->contacts, enough, x, force, ip->terms->force, violation, &f->nclosed, done));
+  ip->rec->nreduced++;
+  ip->rec->npivots++;
+  PetscFunctionReturn(0);
+}
+
 /*
    Finds whether W may be extended to all unknowns, so that no directions are needed. A factorization of the whole K
    must be cheap.
@@ -161,23 +199,32 @@ PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
    Reduces the number of directions. The newest remain. The others are replaced by those combinations that are coupled
    to W most, since these are most useful for other constraints and gaps. They contain the given motions. The rounding
    errors of combinations exceed the stiffness of these motions, so that the products with K are then computed again.
-   The reduced problem must afterwards be centred at its solution to remain exact.
+   E: Q_W^T A^-1 Q_W for the matrix A on W, in columns of the basis's maximal length; overwritten
 */
-PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
+PetscErrorCode IPFilteredCompress(Tao tao, IPBasis *basis, PetscReal E[])
 {
-  IPFiltered *f = IPFilteredOf(tao);
-  PetscInt    nmodes, room;
-  PetscReal  *E;
+  PetscInt nmodes, room;
 
   PetscFunctionBegin;
   PetscCall(IPModesGetNumber(tao, &nmodes));
   room = basis->max - nmodes;
-  PetscCall(PetscMalloc1(basis->max * basis->max, &E));
-  PetscCall(IPReducedCoupling(f->reduced, basis, E));
   PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
   PetscCall(IPBasisCompress(basis, nmodes + room / 2, room / 8, E));
   if (basis->has_modes) PetscCall(IPBasisMultiply(basis, ((TAO_IPFILTER *)tao->data)->hess->H));
   PetscCall(PetscLogEventEnd(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* Reduces the number of directions. The reduced problem must afterwards be centred at its solution to remain exact. */
+PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
+{
+  IPFiltered *f = IPFilteredOf(tao);
+  PetscReal  *E;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(basis->max * basis->max, &E));
+  PetscCall(IPReducedCoupling(f->reduced, basis, E));
+  PetscCall(IPFilteredCompress(tao, basis, E));
   PetscCall(PetscFree(E));
   PetscCall(IPReducedForget(f->reduced, basis));
   PetscFunctionReturn(0);
@@ -316,6 +363,13 @@ PetscErrorCode IPFilteredSetUp(Tao tao, IPRecycle *recycle, PetscBool *possible)
   PetscFunctionBegin;
   held = (PetscBool)(f->newton && ip->terms->n);
   if (!f->centre) PetscCall(FilteredCreate(tao, &recycle->basis));
+  if (f->many) {
+    *possible     = PETSC_TRUE;
+    f->contactops = ip->contacts;
+    if (f->contacts) PetscCall(ip->contacts->destroy(&f->contacts));
+    PetscCall(ip->contacts->create(tao, recycle, f->W, &f->contacts));
+    PetscFunctionReturn(0);
+  }
   f->reduced = &recycle->reduced;
   *possible  = PETSC_FALSE;
   if (!held || !recycle->whole) PetscCall(FilteredSetUpReduced(tao, &recycle->basis, ip->hess->H, possible));

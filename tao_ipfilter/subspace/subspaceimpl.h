@@ -178,24 +178,43 @@ typedef struct {
   IPReduced        reduced;
 } IPRecycle;
 
+/*
+   Interface of a solver for many contacts with norm terms (friction), which works in the same space, but without the
+   reduced problem. register.c stores the implementation. Its functions are collective.
+*/
+typedef struct _p_IPContacts *IPContacts;
+typedef struct _n_IPContactOps {
+  PetscErrorCode (*create)(Tao, IPRecycle *, IS W, IPContacts *); /* for the present Hessian, constraints and terms */
+  PetscErrorCode (*begin)(IPContacts, Vec gradient, Vec c, Vec values, Vec force,
+    Vec terms); /* moves to a point with these values of constraints and terms, and these forces */
+  PetscErrorCode (*step)(IPContacts, PetscReal enough, Vec x, Vec force, Vec terms, PetscReal *violation,
+    PetscInt *nclosed, PetscBool *done); /* takes a step. enough: residual [2-norm] that may be left; x: the point,
+                                            relative to the begin; violation: relative violation of the laws */
+  PetscErrorCode (*destroy)(IPContacts *);
+} IPContactOps;
+
 /* State of the filtered subspace method during a solve */
 typedef struct {
-  PetscBool      newton;  /* whether Newton's method is used, since the objective is not quadratic */
-  PetscContainer recycle; /* contains an IPRecycle */
-  IS             W;       /* unknowns that the reduced problem has: those of the constraints, and their neighbours */
-  IPReduced     *reduced; /* the reduced problem in `recycle`; NULL: not set up */
-  Vec            centre, gradient, c; /* the point to which the reduced problem is relative; grad f and c_I there */
-  PetscReal      f;                   /* f at that point */
-  PetscReal     *pg, *y;              /* P^T grad f at that point; coefficients of the directions */
-  PetscBool      renewed;             /* whether all directions were removed in this solve */
-  PetscBool      ready;               /* false if the Hessian was indefinite at the first point */
-  PetscInt       ncentred;            /* number of consecutive steps without a new direction */
-  PetscInt       nfutile;             /* number of steps since the KKT error was last halved */
-  PetscReal      halved;              /* KKT error when it was last halved */
-  PetscReal      begin, considered;   /* KKT error after the first reduced problem, and when the preconditioner was
+  PetscBool           newton;  /* whether Newton's method is used, since the objective is not quadratic */
+  PetscContainer      recycle; /* contains an IPRecycle */
+  IS                  W;    /* unknowns that the reduced problem has: those of the constraints, and their neighbours */
+  PetscBool           many; /* whether there are many contacts with norm terms: no reduced problem is set up */
+  const IPContactOps *contactops;
+  IPContacts          contacts;   /* NULL: not set up */
+  PetscInt            nclosed;    /* their number of closed contacts */
+  IPReduced          *reduced;    /* the reduced problem in `recycle`; NULL: not set up */
+  Vec        centre, gradient, c; /* the point to which the reduced problem is relative; grad f and c_I there */
+  PetscReal  f;                   /* f at that point */
+  PetscReal *pg, *y;              /* P^T grad f at that point; coefficients of the directions */
+  PetscBool  renewed;             /* whether all directions were removed in this solve */
+  PetscBool  ready;               /* false if the Hessian was indefinite at the first point */
+  PetscInt   ncentred;            /* number of consecutive steps without a new direction */
+  PetscInt   nfutile;             /* number of steps since the KKT error was last halved */
+  PetscReal  halved;              /* KKT error when it was last halved */
+  PetscReal  begin, considered;   /* KKT error after the first reduced problem, and when the preconditioner was
                                          last reconsidered */
-  PetscInt       nconsidered;         /* number of applications of the preconditioner when it was last reconsidered */
-  PetscReal      residual, promised;  /* Newton's method: residual before the last step, 0: none; and of its model */
+  PetscInt   nconsidered;         /* number of applications of the preconditioner when it was last reconsidered */
+  PetscReal  residual, promised;  /* Newton's method: residual before the last step, 0: none; and of its model */
 } IPFiltered;
 
 #define IPFilteredOf(tao) ((IPFiltered *)((TAO_IPFILTER *)(tao)->data)->method->data)
@@ -295,8 +314,12 @@ PETSC_INTERN PetscErrorCode IPFilteredWiden(Tao, IPRecycle *, PetscBool *possibl
 PETSC_INTERN PetscErrorCode IPFilteredSetUp(Tao, IPRecycle *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPFilteredDestroy(IPFiltered *);
 PETSC_INTERN PetscErrorCode IPFilteredCentre(Tao, const IPBasis *, Vec x, Vec centre, Vec gradient, Vec c);
+PETSC_INTERN PetscErrorCode IPFilteredBeginContacts(Tao);
+PETSC_INTERN PetscErrorCode IPFilteredStepContacts(Tao, PetscReal enough, Vec x, Vec force, PetscReal *violation,
+  PetscBool *done);
 PETSC_INTERN PetscErrorCode IPFilteredSolve(Tao, const IPBasis *, Vec v, Vec force, PetscBool *solved);
 PETSC_INTERN PetscErrorCode IPFilteredSetPairs(Tao, Vec force);
+PETSC_INTERN PetscErrorCode IPFilteredCompress(Tao, IPBasis *, PetscReal E[]);
 PETSC_INTERN PetscErrorCode IPFilteredMakeRoom(Tao, IPBasis *);
 PETSC_INTERN PetscBool      IPFilteredProgresses(IPFiltered *, PetscReal error, PetscInt patience);
 PETSC_INTERN PetscErrorCode IPFilteredAllows(Tao, PetscBool *);

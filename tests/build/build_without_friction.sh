@@ -1,6 +1,6 @@
-# A feature folder of the optimizer can go: without tao_ipfilter/friction and its lines in register.c the sources
-# compile, and the other objects of the plugin ask for nothing that was there. The same without tao_ipfilter/subspace
-# besides.
+# A feature folder of the optimizer can go: without tao_ipfilter/cones and its lines in register.c the sources compile,
+# and the other objects of the plugin ask for nothing that was there. The same without tao_ipfilter/friction besides,
+# and without tao_ipfilter/subspace.
 set -u
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -9,10 +9,10 @@ cd "$work" || exit 1
 headers=$(pkg-config --cflags PETSc)
 folders=()
 
-for folder in friction subspace; do
+for folder in cones friction subspace; do
   folders+=("$folder")
   rm -r "tao_ipfilter/$folder"
-  case $folder in friction) line='ip->laws *=' ;; *) line='ip->method->ops *=' ;; esac
+  case $folder in cones) line='ip->contacts *=' ;; friction) line='ip->laws *=' ;; *) line='ip->method->ops *=' ;; esac
   sed -i -e "/$folder\//d" -e "/$line/d" tao_ipfilter/register.c
   mpicc -std=c11 -Wall -Wextra -fsyntax-only -Iinclude -I. $headers tao_ipfilter/*.c tao_ipfilter/*/*.c 2>&1 |
     grep -E 'error|warning' | grep -v "unused parameter 'ip'\|unused parameter ‘ip’"

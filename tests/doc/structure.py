@@ -13,10 +13,10 @@ FORMATTED_BY = "14."  # another release of clang-format breaks lines elsewhere
 FILES = 20  # of a folder, C sources
 # The lowest first: a file calls files of its own folder and of those before it, and includes their headers alone
 LAYERS = """
-pc_amgf pc_amgf/blockamg pc_amgf/cholesky
+pc_amgf pc_amgf/blockamg
 tao_ipfilter/solver tao_ipfilter/problem tao_ipfilter/measure tao_ipfilter/system tao_ipfilter/linear
 tao_ipfilter/step tao_ipfilter/driver
-tao_ipfilter/subspace tao_ipfilter/friction tao_ipfilter
+tao_ipfilter/subspace tao_ipfilter/friction tao_ipfilter/cones tao_ipfilter
 src/plugin
 src/error src/options src/files src/material src/model src/report
 src/mesh/shapes src/mesh/query src/mesh/gmsh src/mesh/refine src/mesh src/mesh/supports

@@ -1,0 +1,445 @@
+/*
+   Contact with Coulomb's friction by an interior point method on second-order cones, from a cold start.
+
+   With the gap u_n, the slip u_t and the coefficient m, Coulomb's law is that y = (u_n + m |u_t|, m u_t) and f =
+   (r_n, r_t / m) are in the cone {(a, b): |b| <= a} and y^T f = 0 (De Saxce and Feng, The bipotential method, 1998).
+   For a fixed m |u_t| this is a convex problem (Acary, Cadoux, Lemarechal and Malick, A formulation of the linear
+   discrete Coulomb friction problem via convex optimization, 2011). The method takes m |u_t| and its derivative from
+   the iterate (Acary, Armand and Nguyen, High-accuracy computation of rolling friction contact problems, 2023).
+
+   A contact without friction has the cone y >= 0, f >= 0. A limit L of the tangential force adds a slider in series:
+   its slip z_t and the force (L, r_t) are in a cone of their own, whose first component is constant.
+
+   Each cone has a Nesterov-Todd scaling, so that a contact's linearized laws are df = s - D du with a 3 x 3 block D.
+   Steps are those of Mehrotra's predictor and corrector. Motions are multiplied by the square root of the contact's
+   stiffness, and forces divided by it, so that units do not matter.
+*/
+#include "conesimpl.h"
+
+/* One contact in scaled components */
+typedef struct {
+  PetscInt  n;        /* dimension of the cone of y and f: 3, 1 without friction or with a limit alone, 0 */
+  PetscBool limited;  /* whether there is a cone of z and (limit, f_t) */
+  PetscReal scale[2]; /* scaled by unscaled motions: normal and tangential */
+  PetscReal y[3], f[3], z[3], limit;
+  PetscReal W[9], Wi[9], V[9]; /* scalings of y and f, with the inverse; and of z and (limit, f_t) */
+  PetscReal ry[3], rz[2];      /* residuals of the equations of motions */
+  PetscReal e[2];              /* derivative of |slip| */
+  PetscReal p[3], pz[3];       /* right-hand sides of the scaled complementarity conditions */
+  PetscReal dy[3], df[3], dz[3];
+} Cone;
+
+/* The iterate */
+struct _p_Cones {
+  Contacts            *c;
+  const ContactBodies *bodies;
+  Cone                *cone;
+  PetscReal           *du, *df;       /* changes of unscaled motions and forces */
+  PetscReal            length, force; /* sizes of scaled motions and forces [square root of energy] */
+  PetscReal            force_now;     /* the larger one of `force` and the forces of the iterate */
+  PetscReal            count;         /* number of cones on all ranks */
+};
+
+static PetscErrorCode ConesSum(const Cones s, PetscReal *sum)
+{
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPIU_REAL, MPIU_SUM, s->c->comm));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ConesMax(const Cones s, PetscReal *largest)
+{
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 1, MPIU_REAL, MPIU_MAX, s->c->comm));
+  PetscFunctionReturn(0);
+}
+
+/* Sets the kinds and scales of a contact's cones */
+static void ConeSetKind(const Contacts *c, PetscInt i, Cone *k)
+{
+  const PetscReal  most       = 10.0; /* coefficient that stands for larger ones, whose scales differ too much */
+  const PetscReal *compliance = &c->compliance[2 * i];
+  const ContactLaw law        = c->law[i];
+  const PetscBool  coulomb    = (PetscBool)(law == CONTACT_COULOMB || law == CONTACT_LIMITED);
+
+  k->n        = coulomb ? 3 : c->normal[i] ? 1 : 0;
+  k->limited  = (PetscBool)(law == CONTACT_LIMITED || law == CONTACT_TRESCA);
+  k->scale[0] = c->normal[i] ? 1.0 / PetscSqrtReal(compliance[0]) : 0.0;
+  k->scale[1] = coulomb      ? PetscMin(c->coefficient[i], most) * k->scale[0]
+                : k->limited ? 1.0 / PetscSqrtReal(compliance[1])
+                             : 0.0;
+  k->limit    = k->limited ? c->limit[i] / k->scale[1] : 0.0;
+}
+
+/* Gets the scaled motions of a contact from the unscaled ones */
+static void ConeScale(const Cone *k, const PetscReal u[3], PetscReal scaled[3])
+{
+  for (PetscInt r = 0; r < 3; r++) scaled[r] = k->scale[r > 0] * u[r];
+}
+
+static PetscReal ConeLength(const PetscReal t[2])
+{
+  return PetscSqrtReal(t[0] * t[0] + t[1] * t[1]);
+}
+
+/*
+   Computes the residuals of the equations of motions, y = (u_n + |slip|, slip) and slip + z_t = u_t, and the derivative
+   of |slip|. Returns the largest residual.
+*/
+static PetscReal ConeResidual(Cone *k, const PetscReal motion[3])
+{
+  PetscReal u[3], largest = 0.0, slip;
+
+  ConeScale(k, motion, u);
+  slip = k->n == 3 ? ConeLength(k->limited ? k->y + 1 : u + 1) : 0.0;
+  for (PetscInt a = 0; a < 2; a++) {
+    k->e[a]      = slip > 0.0 ? (k->limited ? k->y[1 + a] : u[1 + a]) / slip : 0.0;
+    k->ry[1 + a] = k->n == 3 && !k->limited ? k->y[1 + a] - u[1 + a] : 0.0;
+    k->rz[a]     = k->limited ? k->z[1 + a] + (k->n == 3 ? k->y[1 + a] : 0.0) - u[1 + a] : 0.0;
+    largest      = PetscMax(largest, PetscMax(PetscAbsReal(k->ry[1 + a]), PetscAbsReal(k->rz[a])));
+  }
+  k->ry[0] = k->n ? k->y[0] - u[0] - slip : 0.0;
+  return PetscMax(largest, PetscAbsReal(k->ry[0]));
+}
+
+/* Returns the sum of y^T f over the cones of a contact after a step of length t */
+static PetscReal ConeGap(const Cone *k, PetscReal t)
+{
+  PetscReal sum = 0.0;
+
+  for (PetscInt r = 0; r < k->n; r++) sum += (k->y[r] + t * k->dy[r]) * (k->f[r] + t * k->df[r]);
+  if (!k->limited) return sum;
+  sum += (k->z[0] + t * k->dz[0]) * k->limit;
+  for (PetscInt r = 1; r < 3; r++) sum += (k->z[r] + t * k->dz[r]) * (k->f[r] + t * k->df[r]);
+  return sum;
+}
+
+/* Returns the largest step inside the cones of a contact */
+static PetscReal ConeStep(const Cone *k)
+{
+  const PetscReal f[3] = {k->limit, k->f[1], k->f[2]}, df[3] = {0.0, k->df[1], k->df[2]};
+  PetscReal       t = PETSC_INFINITY;
+
+  if (k->n == 3) t = PetscMin(ConeLongestStep(k->y, k->dy), ConeLongestStep(k->f, k->df));
+  if (k->n == 1 && k->dy[0] < 0.0) t = -k->y[0] / k->dy[0];
+  if (k->n == 1 && k->df[0] < 0.0) t = PetscMin(t, -k->f[0] / k->df[0]);
+  if (k->limited) t = PetscMin(t, PetscMin(ConeLongestStep(k->z, k->dz), ConeLongestStep(f, df)));
+  return t;
+}
+
+/* Computes the scalings at the iterate */
+static void ConeSetScalings(Cone *k)
+{
+  const PetscReal f[3] = {k->limit, k->f[1], k->f[2]};
+  PetscReal       unused[9];
+
+  if (k->n == 3) ConeScaling(k->y, k->f, k->W, k->Wi);
+  if (k->limited) ConeScaling(k->z, f, k->V, unused);
+}
+
+/*
+   Computes the right-hand sides p of the scaled complementarity conditions W^-1 dy + W df = p: target on the central
+   path, and whether the second-order term of the predictor is subtracted
+*/
+static void ConeSetTarget(Cone *k, PetscReal target, PetscBool corrector)
+{
+  PetscReal point[3], r[3], a[3], b[3];
+
+  if (k->n == 1) k->p[0] = target - k->y[0] * k->f[0] - (corrector ? k->dy[0] * k->df[0] : 0.0);
+  for (PetscInt cone = 0; cone < 2; cone++) {
+    const PetscReal f[3]     = {cone ? k->limit : k->f[0], k->f[1], k->f[2]},
+                    df[3]    = {cone ? 0.0 : k->df[0], k->df[1], k->df[2]};
+    const PetscReal *scaling = cone ? k->V : k->W;
+
+    if (cone ? !k->limited : k->n != 3) continue;
+    ConeMultiply(scaling, f, point);
+    ConeProduct(point, point, r);
+    for (PetscInt c = 0; c < 3; c++) r[c] = -r[c];
+    r[0] += target;
+    if (corrector) {
+      PetscReal inverse[9], second[3];
+
+      ConeInvert(3, scaling, inverse);
+      ConeMultiply(inverse, cone ? k->dz : k->dy, a);
+      ConeMultiply(scaling, df, b);
+      ConeProduct(a, b, second);
+      for (PetscInt c = 0; c < 3; c++) r[c] -= second[c];
+    }
+    ConeDivide(point, r, cone ? k->pz : k->p);
+  }
+}
+
+/* Computes the linearized law of a Coulomb cone without limit, df = s - D du, from B du + W^2 df = W p + ry with
+   B = [1 e; 0 I] */
+static void ConeCoulombLaw(const Cone *k, PetscReal D[9], PetscReal s[3])
+{
+  PetscReal square[9], a[3], b[3];
+
+  ConeSquare(k->Wi, square);
+  ConeMultiply(k->Wi, k->p, a);
+  ConeMultiply(square, k->ry, b);
+  for (PetscInt r = 0; r < 3; r++) {
+    s[r] = a[r] + b[r];
+    for (PetscInt c = 0; c < 3; c++) D[3 * r + c] = square[3 * r + c] + (c ? square[3 * r] * k->e[c - 1] : 0.0);
+  }
+}
+
+/*
+   Computes the linearized law with a limit. du + C df = q is the sum of the compliances of the sliders. Without a
+   Coulomb cone, only the tangential components take part.
+*/
+static PetscErrorCode ConeLimitedLaw(const Cone *k, PetscReal D[9], PetscReal s[3])
+{
+  const PetscInt n = k->n == 3 ? 3 : 2;
+  PetscReal      C[9], q[3], square[9], a[3] = {0.0, 0.0, 0.0}, b[3];
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(C, 9));
+  PetscCall(PetscArrayzero(D, 9));
+  if (n == 3) {
+    ConeSquare(k->W, C);
+    ConeMultiply(k->W, k->p, a);
+    for (PetscInt c = 0; c < 3; c++) C[c] -= k->e[0] * C[3 + c] + k->e[1] * C[6 + c];
+    q[0] = a[0] - k->e[0] * a[1] - k->e[1] * a[2] + k->ry[0];
+  } else q[0] = 0.0;
+  ConeSquare(k->V, square);
+  ConeMultiply(k->V, k->pz, b);
+  for (PetscInt r = 1; r < 3; r++) {
+    q[r] = a[r] + b[r] + k->rz[r - 1];
+    for (PetscInt c = 1; c < 3; c++) C[3 * r + c] += square[3 * r + c];
+  }
+  PetscCheck(ConeInvert(n, C, D), PETSC_COMM_SELF, PETSC_ERR_FP,
+    "The compliance of a contact with a limit is singular");
+  ConeMultiply(D, q, s);
+  PetscFunctionReturn(0);
+}
+
+/* Computes the linearized law of a contact in unscaled components */
+static PetscErrorCode ConeLaw(const Cone *k, PetscReal D[9], PetscReal s[3])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(D, 9));
+  PetscCall(PetscArrayzero(s, 3));
+  if (k->limited) PetscCall(ConeLimitedLaw(k, D, s));
+  else if (k->n == 3) ConeCoulombLaw(k, D, s);
+  if (k->n == 1) {
+    D[0] = k->f[0] / k->y[0];
+    s[0] = k->p[0] / k->y[0] + D[0] * k->ry[0];
+  }
+  for (PetscInt r = 0; r < 3; r++) {
+    s[r] *= k->scale[r > 0];
+    for (PetscInt c = 0; c < 3; c++) D[3 * r + c] *= k->scale[r > 0] * k->scale[c > 0];
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Computes the changes of y, z and f from those of the unscaled motions and forces */
+static void ConeSetChange(Cone *k, const PetscReal motion[3], const PetscReal force[3])
+{
+  PetscReal du[3], square[9], a[3], b[3];
+
+  ConeScale(k, motion, du);
+  for (PetscInt r = 0; r < 3; r++) k->df[r] = k->scale[r > 0] > 0.0 ? force[r] / k->scale[r > 0] : 0.0;
+  k->dy[1] = k->dy[2] = 0.0;
+  if (k->n == 3 && k->limited) {
+    ConeSquare(k->W, square);
+    ConeMultiply(square, k->df, a);
+    ConeMultiply(k->W, k->p, b);
+    for (PetscInt r = 1; r < 3; r++) k->dy[r] = b[r] - a[r];
+  } else if (k->n == 3)
+    for (PetscInt r = 1; r < 3; r++) k->dy[r] = du[r] - k->ry[r];
+  if (k->n == 3 && !k->limited) k->dy[0] = du[0] + k->e[0] * du[1] + k->e[1] * du[2] - k->ry[0];
+  else k->dy[0] = k->n ? du[0] + k->e[0] * k->dy[1] + k->e[1] * k->dy[2] - k->ry[0] : 0.0;
+  if (!k->limited) return;
+  ConeSquare(k->V, square);
+  ConeMultiply(k->V, k->pz, b);
+  k->dz[0] = b[0] - square[1] * k->df[1] - square[2] * k->df[2];
+  for (PetscInt r = 1; r < 3; r++) k->dz[r] = du[r] - k->dy[r] - k->rz[r - 1];
+}
+
+PetscErrorCode ConesCreate(Contacts *c, const ContactBodies *bodies, Cones *cones)
+{
+  Cones s;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(cones));
+  s         = *cones;
+  s->c      = c;
+  s->bodies = bodies;
+  PetscCall(PetscCalloc3(c->n, &s->cone, 3 * c->n, &s->du, 3 * c->n, &s->df));
+  for (PetscInt i = 0; i < c->n; i++) {
+    ConeSetKind(c, i, &s->cone[i]);
+    s->count += (s->cone[i].n > 0) + s->cone[i].limited;
+  }
+  PetscCall(ConesSum(s, &s->count));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ConesDestroy(Cones *cones)
+{
+  PetscFunctionBegin;
+  if (*cones) PetscCall(PetscFree3((*cones)->cone, (*cones)->du, (*cones)->df));
+  PetscCall(PetscFree(*cones));
+  PetscFunctionReturn(0);
+}
+
+/* Sets D and s of all contacts, and the matrix of the bodies if `matrix` */
+static PetscErrorCode ConesSetLaws(Cones s, PetscBool matrix, PetscBool *ready)
+{
+  PetscFunctionBegin;
+  *ready = PETSC_TRUE;
+  for (PetscInt i = 0; i < s->c->n; i++) {
+    PetscCall(ConeLaw(&s->cone[i], &s->c->D[9 * i], &s->c->s[3 * i]));
+    ContactsHold(s->c, i);
+  }
+  if (matrix) PetscCall(s->bodies->prepare(s->bodies->data, s->c->D, ready));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Moves to the equilibrium with a spring as stiff as the bodies in the place of each contact. The forces and motions
+   there decide where the iteration starts.
+*/
+static PetscErrorCode ConesFindSizes(Cones s, PetscBool *found)
+{
+  Contacts *c        = s->c;
+  PetscReal sizes[3] = {0.0, 0.0, 0.0}, least = PETSC_SQRT_MACHINE_EPSILON;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArrayzero(c->f, 3 * c->n));
+  for (PetscInt i = 0; i < c->n; i++) {
+    PetscCall(PetscArrayzero(&c->D[9 * i], 9));
+    for (PetscInt r = 0; r < 3; r++) {
+      c->D[9 * i + 4 * r] = PetscSqr(s->cone[i].scale[r > 0]);
+      c->s[3 * i + r]     = -c->D[9 * i + 4 * r] * c->u[3 * i + r];
+    }
+    ContactsHold(c, i);
+  }
+  PetscCall(s->bodies->residual(s->bodies->data, c->f, sizes));
+  s->force = sizes[0];
+  PetscCall(s->bodies->prepare(s->bodies->data, c->D, found));
+  if (*found) PetscCall(ContactsStep(c, s->bodies, 0.01, 0.0, s->du, s->df, found));
+  if (!*found) PetscFunctionReturn(0);
+  for (PetscInt i = 0; i < c->n; i++) {
+    for (PetscInt r = 0; r < 3; r++) {
+      const PetscReal scale = s->cone[i].scale[r > 0], u = c->u[3 * i + r];
+
+      s->length = PetscMax(s->length, scale * PetscMax(PetscAbsReal(u + s->du[3 * i + r]), PetscAbsReal(u)));
+    }
+  }
+  PetscCall(ConesMax(s, &s->length));
+  s->length = PetscMax(s->length, least * s->force);
+  s->force  = PetscMax(s->force, 1e-3 * s->length);
+  *found    = (PetscBool)(s->length > 0.0);
+  PetscFunctionReturn(0);
+}
+
+/* Copies the scaled forces to the unscaled ones */
+static void ConesSetForces(Cones s)
+{
+  for (PetscInt i = 0; i < s->c->n; i++)
+    for (PetscInt r = 0; r < 3; r++) s->c->f[3 * i + r] = s->cone[i].scale[r > 0] * s->cone[i].f[r];
+}
+
+/* Starts at the centre of all cones. *started: false if there is no load */
+PetscErrorCode ConesStart(Cones s, PetscBool *started)
+{
+  PetscFunctionBegin;
+  PetscCall(ConesFindSizes(s, started));
+  for (PetscInt i = 0; i < s->c->n; i++) {
+    Cone *k = &s->cone[i];
+
+    for (PetscInt r = 0; r < 3; r++) k->y[r] = k->f[r] = k->z[r] = 0.0;
+    if (k->n) k->y[0] = s->length;
+    if (k->n) k->f[0] = s->force;
+    if (k->limited) k->z[0] = s->length * PetscMax(1.0, s->force / k->limit);
+  }
+  ConesSetForces(s);
+  PetscFunctionReturn(0);
+}
+
+/*
+   Computes the residuals at the iterate. gap: the mean of y^T f over the cones; error: the larger one of the gap and of
+   the residual of motions, relative to forces and motions; balance: the residual of the bodies, relative to forces
+*/
+static PetscErrorCode ConesAssess(Cones s, PetscReal *gap, PetscReal *error, PetscReal *balance)
+{
+  PetscReal motions = 0.0, sizes[3];
+
+  PetscFunctionBegin;
+  *gap = 0.0;
+  for (PetscInt i = 0; i < s->c->n; i++) {
+    motions = PetscMax(motions, ConeResidual(&s->cone[i], &s->c->u[3 * i]));
+    *gap += ConeGap(&s->cone[i], 0.0);
+  }
+  PetscCall(ConesMax(s, &motions));
+  PetscCall(ConesSum(s, gap));
+  *gap /= s->count;
+  PetscCall(s->bodies->residual(s->bodies->data, s->c->f, sizes));
+  s->force_now = PetscMax(s->force, sizes[1]);
+  *balance     = sizes[0] / s->force_now;
+  *error       = PetscMax(motions / s->length, *gap / (s->length * s->force));
+  PetscFunctionReturn(0);
+}
+
+/* Computes a direction in the present subspace of the bodies. t: its largest step inside the cones */
+static PetscErrorCode ConesDirection(Cones s, PetscReal target, PetscBool corrector, PetscReal *t, PetscBool *solved)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->c->n; i++) ConeSetTarget(&s->cone[i], target, corrector);
+  PetscCall(ConesSetLaws(s, (PetscBool)!corrector, solved));
+  if (*solved) PetscCall(ContactsStep(s->c, s->bodies, 1.0, 0.0, s->du, s->df, solved));
+  if (!*solved) PetscFunctionReturn(0);
+  *t = PETSC_INFINITY;
+  for (PetscInt i = 0; i < s->c->n; i++) {
+    ConeSetChange(&s->cone[i], &s->du[3 * i], &s->df[3 * i]);
+    *t = PetscMin(*t, ConeStep(&s->cone[i]));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, t, 1, MPIU_REAL, MPIU_MIN, s->c->comm));
+  PetscFunctionReturn(0);
+}
+
+/* Takes the step t along the last direction */
+static PetscErrorCode ConesAdvance(Cones s, PetscReal t)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < s->c->n; i++) {
+    Cone *k = &s->cone[i];
+
+    for (PetscInt r = 0; r < 3; r++) {
+      k->y[r] += t * k->dy[r];
+      k->f[r] += t * k->df[r];
+      k->z[r] += t * k->dz[r];
+      s->c->u[3 * i + r] += t * s->du[3 * i + r];
+    }
+  }
+  ConesSetForces(s);
+  PetscCall(s->bodies->advance(s->bodies->data, t));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Takes one step of predictor and corrector. *error: that of the laws at the iterate before the step. No step is taken
+   if it is below the tolerance. *solved: false if a system was not solved
+*/
+PetscErrorCode ConesIterate(Cones s, PetscReal tolerance, PetscReal *error, PetscBool *solved)
+{
+  const PetscReal inside = 0.99, /* fraction of the longest step */
+    least                = 1e-6; /* of the centring: below it, rounding errors decide */
+  PetscReal t = 0.0, gap, balance = 0.0, after = 0.0;
+
+  PetscFunctionBegin;
+  *solved = PETSC_TRUE;
+  PetscCall(ConesAssess(s, &gap, error, &balance));
+  PetscCall(PetscInfo(NULL, "Cones: error %g, gap %g, balance %g\n", (double)*error, (double)gap, (double)balance));
+  if (*error < tolerance) PetscFunctionReturn(0);
+  for (PetscInt i = 0; i < s->c->n; i++) ConeSetScalings(&s->cone[i]);
+  PetscCall(ConesDirection(s, 0.0, PETSC_FALSE, &t, solved));
+  if (!*solved) PetscFunctionReturn(0);
+  for (PetscInt i = 0; i < s->c->n; i++) after += ConeGap(&s->cone[i], PetscMin(1.0, t));
+  PetscCall(ConesSum(s, &after));
+  after = PetscClipInterval(after / s->count / gap, 0.0, 1.0);
+  PetscCall(ConesDirection(s, PetscMax(least, after * after * after) * gap, PETSC_TRUE, &t, solved));
+  if (*solved) PetscCall(ConesAdvance(s, PetscMin(1.0, inside * t)));
+  PetscFunctionReturn(0);
+}

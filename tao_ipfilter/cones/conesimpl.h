@@ -1,0 +1,141 @@
+/*
+   tao_ipfilter/cones: many contacts with friction. Their laws are solved by an interior point method on second-order
+   cones and by a semismooth Newton method. Both know the bodies only as a ContactBodies. The files are
+   listed such that each depends only on those before it.
+*/
+#ifndef IPFILTER_CONESIMPL_H
+#define IPFILTER_CONESIMPL_H
+
+#include "tao_ipfilter/subspace/subspaceimpl.h"
+
+/*
+   Rows of closed and sticking contacts, u = 0, become springs -u = weak x compliance x df. Their forces are changes, so
+   that the solution does not depend on the springs: each step leaves a small fraction of u. The ratio of stiffnesses
+   limits the accuracy of a system; its square root is lost here.
+*/
+#define CONTACT_WEAK 1e-5
+
+/* The law of a contact's tangential force tau for the slip v: |tau| <= b, tau = -b v / |v| if it slips */
+typedef enum {
+  CONTACT_SMOOTH,  /* b = 0 */
+  CONTACT_COULOMB, /* b = coefficient x normal force */
+  CONTACT_LIMITED, /* b = min(limit, coefficient x normal force) */
+  CONTACT_TRESCA   /* b = limit */
+} ContactLaw;
+
+/*
+   The contacts of this rank. Each has a normal and two tangential components, which are neighbours in f and u. A
+   contact is without its normal component if its norm term does not depend on a constraint.
+*/
+typedef struct {
+  MPI_Comm    comm;
+  PetscInt    n;
+  ContactLaw *law;
+  PetscBool  *normal;              /* whether there is a normal component that some unknown moves */
+  PetscBool  *closed;              /* states in Newton's method */
+  PetscReal  *coefficient, *limit; /* of the law; unused ones are zero */
+  PetscReal  *rigid;               /* two per contact: unit direction along which it cannot slip; zeros: none */
+  PetscReal
+    *compliance;       /* two per contact: estimates for the normal and for the tangential components [length/force] */
+  PetscReal *f, *u;    /* three per contact: forces, and motions: the gap and the slip */
+  PetscReal *D, *s;    /* nine and three per contact: linearized laws df = s - D du */
+  PetscReal  rounding; /* size of the rounding errors of a gap [length] */
+  PetscReal  least;    /* normal force up to which a contact counts as open at the begin */
+} Contacts;
+
+/*
+   Linear bodies: K x + g = R^T f, with the motions u = R x + u_0 of the contacts. Functions of all ranks together. The
+   unknowns x, their change dx, and the residual r = K x + g - R^T f are kept by the implementation.
+*/
+typedef struct {
+  void *data;
+  /* computes r. sizes: the largest entries of r and of R^T f, and the 2-norm of r, where each entry is divided by the
+     square root of K's diagonal entry [square root of energy] */
+  PetscErrorCode (*residual)(void *, const PetscReal f[], PetscReal sizes[3]);
+  /* sets the matrix K + R^T D R. *prepared: false if it is singular */
+  PetscErrorCode (*prepare)(void *, const PetscReal D[], PetscBool *prepared);
+  /* solves (K + R^T D R) dx = R^T s - r until the residual is at most that fraction of the first one, or at most the
+     target, in the measure of sizes[0]; du = R dx */
+  PetscErrorCode (
+    *solve)(void *, const PetscReal s[], PetscReal fraction, PetscReal target, PetscReal du[], PetscBool *solved);
+  PetscErrorCode (*advance)(void *, PetscReal fraction); /* adds fraction dx to x */
+  PetscErrorCode (*keep)(void *, PetscBool back);        /* copies x to a second place, or from there */
+  PetscErrorCode (*interrupted)(void *, PetscBool *);    /* whether the user wants to end the solve */
+} ContactBodies;
+
+/* cone.c: algebra of the second-order cone {(a, b): |b| <= a} of three dimensions */
+PETSC_INTERN void      ConeMultiply(const PetscReal A[9], const PetscReal x[3], PetscReal y[3]);
+PETSC_INTERN void      ConeProduct(const PetscReal a[3], const PetscReal b[3], PetscReal product[3]);
+PETSC_INTERN void      ConeDivide(const PetscReal a[3], const PetscReal b[3], PetscReal quotient[3]);
+PETSC_INTERN void      ConeScaling(const PetscReal y[3], const PetscReal f[3], PetscReal W[9], PetscReal inverse[9]);
+PETSC_INTERN void      ConeSquare(const PetscReal W[9], PetscReal square[9]);
+PETSC_INTERN PetscBool ConeInvert(PetscInt n, const PetscReal A[9], PetscReal inverse[9]);
+PETSC_INTERN PetscReal ConeLongestStep(const PetscReal a[3], const PetscReal da[3]);
+
+/* contacts.c */
+PETSC_INTERN PetscErrorCode ContactsCreate(MPI_Comm, PetscInt n, Contacts *);
+PETSC_INTERN PetscErrorCode ContactsDestroy(Contacts *);
+PETSC_INTERN void           ContactsSetLaw(Contacts *, PetscInt i, PetscReal limit, PetscReal coefficient);
+PETSC_INTERN PetscReal      ContactsBound(const Contacts *, PetscInt i, PetscReal normal_force);
+PETSC_INTERN void           ContactsRemoveRigid(const Contacts *, PetscInt i, PetscReal u[3]);
+PETSC_INTERN void           ContactsHold(const Contacts *, PetscInt i);
+PETSC_INTERN void           ContactsSetNoSlip(const Contacts *, PetscInt i);
+PETSC_INTERN PetscErrorCode ContactsViolation(const Contacts *, const PetscReal force[], const PetscReal motion[],
+  PetscReal *violation, PetscReal *rounding);
+PETSC_INTERN PetscErrorCode ContactsNorm(const Contacts *, const PetscReal du[], PetscReal *norm);
+PETSC_INTERN PetscErrorCode ContactsStep(Contacts *, const ContactBodies *, PetscReal fraction, PetscReal target,
+  PetscReal du[], PetscReal df[], PetscBool *solved);
+
+/* cones.c */
+typedef struct _p_Cones *Cones;
+
+PETSC_INTERN PetscErrorCode ConesCreate(Contacts *, const ContactBodies *, Cones *);
+PETSC_INTERN PetscErrorCode ConesDestroy(Cones *);
+PETSC_INTERN PetscErrorCode ConesStart(Cones, PetscBool *started);
+PETSC_INTERN PetscErrorCode ConesIterate(Cones, PetscReal tolerance, PetscReal *error, PetscBool *solved);
+
+/* newton.c */
+PETSC_INTERN void           ContactsLinearize(const Contacts *, PetscInt i);
+PETSC_INTERN void           ContactsGuessStates(Contacts *, PetscBool interior);
+PETSC_INTERN PetscErrorCode ContactsNewtonStep(Contacts *, const ContactBodies *, PetscReal *merit, PetscReal *change,
+  PetscBool *solved);
+
+/* iteration.c */
+typedef enum {
+  CONTACT_WARM,  /* Newton's method from the present state */
+  CONTACT_CONES, /* the interior point method from a cold start */
+  CONTACT_LAST   /* Newton's method from its end */
+} ContactPhase;
+
+typedef struct {
+  Contacts     *contacts;
+  ContactBodies bodies;
+  ContactPhase  phase;
+  PetscBool     cold;            /* there is no state from which Newton's method could start */
+  Cones         cones;           /* NULL before the phase CONTACT_CONES */
+  PetscInt      nsteps, nfutile; /* numbers of steps of this phase; of those since the violation was halved */
+  PetscReal     size, best;      /* violation or change of motions at the start; smallest violation of this phase */
+  PetscReal     known;           /* error of the interior point method at which Newton's method is tried */
+  PetscReal     violation;       /* relative violation of the laws; infinite in the interior point method */
+  PetscReal    *kept;            /* state at the start of Newton's method */
+} ContactIteration;
+
+PETSC_INTERN PetscErrorCode ContactIterationBegin(Contacts *, ContactBodies, ContactIteration *);
+PETSC_INTERN PetscErrorCode ContactIterationEnd(ContactIteration *);
+PETSC_INTERN PetscErrorCode ContactIterate(ContactIteration *, PetscBool *done);
+
+/* subspace_bodies.c */
+typedef struct _p_SubspaceBodies *SubspaceBodies;
+
+PETSC_INTERN PetscErrorCode SubspaceBodiesCreate(Tao, IPRecycle *, IS W, PetscInt n, SubspaceBodies *);
+PETSC_INTERN PetscErrorCode SubspaceBodiesDestroy(SubspaceBodies *);
+PETSC_INTERN PetscErrorCode SubspaceBodiesCentre(SubspaceBodies, Vec g);
+PETSC_INTERN void           SubspaceBodiesSetEnough(SubspaceBodies, PetscReal enough);
+PETSC_INTERN PetscErrorCode SubspaceBodiesGetCompliance(SubspaceBodies, PetscInt n, PetscReal compliance[]);
+PETSC_INTERN Vec            SubspaceBodiesGet(SubspaceBodies);
+PETSC_INTERN ContactBodies  SubspaceBodiesInterface(SubspaceBodies);
+
+/* laws.c */
+PETSC_INTERN const IPContactOps IPContactsCones;
+
+#endif

@@ -1,0 +1,148 @@
+/*
+   The contacts of this rank and their laws: bounds of the tangential forces, and by how much forces and motions violate
+   the laws
+*/
+#include "conesimpl.h"
+#include "tao_ipfilter/measure/measureimpl.h"
+
+PetscErrorCode ContactsDestroy(Contacts *c)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree3(c->law, c->normal, c->closed));
+  PetscCall(PetscFree3(c->coefficient, c->limit, c->rigid));
+  PetscCall(PetscFree5(c->compliance, c->f, c->u, c->D, c->s));
+  PetscCall(PetscMemzero(c, sizeof(*c)));
+  PetscFunctionReturn(0);
+}
+
+/* Creates n contacts without friction and without forces */
+PetscErrorCode ContactsCreate(MPI_Comm comm, PetscInt n, Contacts *c)
+{
+  PetscFunctionBegin;
+  c->comm = comm;
+  c->n    = n;
+  PetscCall(PetscCalloc3(n, &c->law, n, &c->normal, n, &c->closed));
+  PetscCall(PetscCalloc3(n, &c->coefficient, n, &c->limit, 2 * n, &c->rigid));
+  PetscCall(PetscCalloc5(2 * n, &c->compliance, 3 * n, &c->f, 3 * n, &c->u, 9 * n, &c->D, 3 * n, &c->s));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Sets the law of a contact's tangential force. coefficient: negative if the bound is the limit alone. Compliances must
+   be set before.
+*/
+void ContactsSetLaw(Contacts *c, PetscInt i, PetscReal limit, PetscReal coefficient)
+{
+  c->limit[i]       = limit;
+  c->coefficient[i] = coefficient;
+  if (limit == 0.0 || coefficient == 0.0 || !(c->compliance[2 * i + 1] > 0.0)) c->law[i] = CONTACT_SMOOTH;
+  else if (coefficient < 0.0) c->law[i] = CONTACT_TRESCA;
+  else if (!c->normal[i]) c->law[i] = CONTACT_SMOOTH;
+  else c->law[i] = limit < PETSC_INFINITY ? CONTACT_LIMITED : CONTACT_COULOMB;
+}
+
+/* Returns the largest tangential force of a contact for a normal force */
+PetscReal ContactsBound(const Contacts *c, PetscInt i, PetscReal normal_force)
+{
+  if (c->law[i] == CONTACT_SMOOTH) return 0.0;
+  return IPTermBound(c->limit[i], c->coefficient[i], normal_force);
+}
+
+/* Removes the components of a contact's motion along the direction in which it cannot slip */
+void ContactsRemoveRigid(const Contacts *c, PetscInt i, PetscReal u[3])
+{
+  IPTermRemoveRigid(&c->rigid[2 * i], u + 1);
+}
+
+/* Sets the linearized law of tangential components without slip: v = 0, by springs */
+void ContactsSetNoSlip(const Contacts *c, PetscInt i)
+{
+  for (PetscInt a = 1; a < 3; a++) {
+    for (PetscInt b = 0; b < 3; b++) c->D[9 * i + 3 * a + b] = 0.0;
+    c->D[9 * i + 4 * a] = 1.0 / (CONTACT_WEAK * c->compliance[2 * i + 1]);
+    c->s[3 * i + a]     = -c->u[3 * i + a] * c->D[9 * i + 4 * a];
+  }
+}
+
+/* Projects D and s of a contact such that they leave out the direction in which it cannot slip */
+void ContactsHold(const Contacts *c, PetscInt i)
+{
+  const PetscReal *rigid = &c->rigid[2 * i];
+  PetscReal       *D     = &c->D[9 * i];
+
+  if (rigid[0] == 0.0 && rigid[1] == 0.0) return;
+  ContactsRemoveRigid(c, i, &c->s[3 * i]);
+  for (PetscInt r = 0; r < 3; r++) ContactsRemoveRigid(c, i, D + 3 * r);
+  for (PetscInt k = 0; k < 3; k++) {
+    PetscReal column[3] = {D[k], D[3 + k], D[6 + k]};
+
+    ContactsRemoveRigid(c, i, column);
+    for (PetscInt r = 0; r < 3; r++) D[3 * r + k] = column[r];
+  }
+}
+
+/*
+   Computes the violation of the laws by forces and motions [square root of energy]: rho r^2 is summed over all
+   contacts, with the stiffness rho, r = min(f / rho, u) for the normal component and r = |tau - P(tau - rho v)| /
+   rho for the tangential ones, where P projects onto |tau| <= b. rounding: the violation that rounding errors cause.
+*/
+PetscErrorCode ContactsViolation(const Contacts *c, const PetscReal force[], const PetscReal motion[],
+  PetscReal *violation, PetscReal *rounding)
+{
+  const PetscReal exact  = 1e-13; /* rounding errors of forces that are much larger than their changes */
+  PetscReal       sum[2] = {0.0, 0.0};
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < c->n; i++) {
+    const PetscReal *f = &force[3 * i], *u = &motion[3 * i], *compliance = &c->compliance[2 * i];
+
+    if (c->normal[i]) {
+      sum[0] += PetscSqr(PetscMin(f[0] * compliance[0], u[0])) / compliance[0];
+      sum[1] += PetscSqr(exact * f[0]) * compliance[0] + PetscSqr(c->rounding) / compliance[0];
+    }
+    if (c->law[i] != CONTACT_SMOOTH) {
+      const PetscReal rho = 1.0 / compliance[1];
+
+      sum[0] += rho * PetscSqr(IPTermViolation(f + 1, u + 1, rho, ContactsBound(c, i, f[0])));
+      sum[1] += (PetscSqr(exact * f[1]) + PetscSqr(exact * f[2])) * compliance[1] + PetscSqr(c->rounding) * rho;
+    }
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPIU_SUM, c->comm));
+  *violation = PetscSqrtReal(sum[0]);
+  *rounding  = PetscSqrtReal(sum[1]);
+  PetscFunctionReturn(0);
+}
+
+/* Returns the square root of the sum of squares of motions, each divided by its compliance [square root of energy] */
+PetscErrorCode ContactsNorm(const Contacts *c, const PetscReal du[], PetscReal *norm)
+{
+  PetscFunctionBegin;
+  *norm = 0.0;
+  for (PetscInt i = 0; i < c->n; i++) {
+    const PetscReal *d = &du[3 * i], *compliance = &c->compliance[2 * i];
+
+    if (c->normal[i]) *norm += d[0] * d[0] / compliance[0];
+    if (c->law[i] != CONTACT_SMOOTH) *norm += (d[1] * d[1] + d[2] * d[2]) / compliance[1];
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, norm, 1, MPIU_REAL, MPIU_SUM, c->comm));
+  *norm = PetscSqrtReal(*norm);
+  PetscFunctionReturn(0);
+}
+
+/*
+   Solves the bodies' equations with the linearized laws df = s - D du in place of the laws. du, df: changes of motions
+   and forces; fraction, target: accuracy of the solve, see ContactBodies
+*/
+PetscErrorCode ContactsStep(Contacts *c, const ContactBodies *bodies, PetscReal fraction, PetscReal target,
+  PetscReal du[], PetscReal df[], PetscBool *solved)
+{
+  PetscFunctionBegin;
+  PetscCall(bodies->solve(bodies->data, c->s, fraction, target, du, solved));
+  if (!*solved) PetscFunctionReturn(0);
+  for (PetscInt i = 0; i < c->n; i++) {
+    ContactsRemoveRigid(c, i, &du[3 * i]);
+    ConeMultiply(&c->D[9 * i], &du[3 * i], &df[3 * i]);
+    for (PetscInt r = 3 * i; r < 3 * i + 3; r++) df[r] = c->s[r] - df[r];
+  }
+  PetscFunctionReturn(0);
+}

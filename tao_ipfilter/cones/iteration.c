@@ -1,0 +1,153 @@
+/*
+   The iteration for the laws of all contacts: Newton's method from the present state or, if that makes no progress, the
+   interior point method from a cold start, and Newton's method from its end.
+*/
+#include "conesimpl.h"
+
+/* Copies the state of contacts and bodies to a second place, or from there if `back` */
+static PetscErrorCode IterationKeep(ContactIteration *it, PetscBool back)
+{
+  const Contacts *c = it->contacts;
+  const size_t    n = 3 * (size_t)c->n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(back ? c->f : it->kept, back ? it->kept : c->f, n));
+  PetscCall(PetscArraycpy(back ? c->u : it->kept + n, back ? it->kept + n : c->u, n));
+  PetscCall(it->bodies.keep(it->bodies.data, back));
+  PetscFunctionReturn(0);
+}
+
+/* Enters Newton's method, before or after the interior point method */
+static PetscErrorCode IterationEnterNewton(ContactIteration *it, ContactPhase phase)
+{
+  PetscFunctionBegin;
+  it->phase  = phase;
+  it->nsteps = it->nfutile = 0;
+  it->best                 = PETSC_INFINITY;
+  ContactsGuessStates(it->contacts, (PetscBool)(phase == CONTACT_LAST));
+  PetscCall(IterationKeep(it, PETSC_FALSE));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode ContactIterationEnd(ContactIteration *it)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(it->kept));
+  PetscCall(ConesDestroy(&it->cones));
+  PetscCall(PetscMemzero(it, sizeof(*it)));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Takes one Newton step. *done: false if the violation of the laws was not halved in three steps in a row, or after
+   twelve, although it is more than rounding errors
+*/
+static PetscErrorCode IterationNewton(ContactIteration *it, PetscBool *done)
+{
+  const PetscInt  patience = 3, most = 12;
+  const PetscReal exact = 1e-9; /* violation that counts as none, relative to its size at the start */
+  PetscReal       before, violation, rounding, change, merit;
+
+  PetscFunctionBegin;
+  PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &before, &rounding));
+  PetscCall(ContactsNewtonStep(it->contacts, &it->bodies, &merit, &change, done));
+  if (!*done) PetscFunctionReturn(0);
+  if (it->size == 0.0) it->size = PetscMax(before, change);
+  PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &violation, &rounding));
+  PetscCall(PetscInfo(NULL, "Newton: merit %g, violation %g, size %g, change %g\n", (double)merit, (double)violation,
+    (double)it->size, (double)change));
+  it->violation = violation > rounding ? violation / it->size : 0.0;
+  if (violation <= PetscMax(exact * it->size, rounding)) {
+    it->nsteps = it->nfutile = 0;
+    PetscFunctionReturn(0);
+  }
+  it->nfutile = merit <= 0.7 * it->best ? 0 : it->nfutile + 1;
+  it->best    = PetscMin(it->best, merit);
+  *done       = (PetscBool)(!PetscIsInfOrNanReal(merit) && it->nfutile < patience && ++it->nsteps < most);
+  PetscFunctionReturn(0);
+}
+
+/* Takes one step of the interior point method, or of Newton's method if the error is below it->known */
+static PetscErrorCode IterationCones(ContactIteration *it, PetscBool *done)
+{
+  const PetscInt most = 60;
+  PetscReal      error;
+
+  PetscFunctionBegin;
+  PetscCall(ConesIterate(it->cones, it->known, &error, done));
+  it->violation = PETSC_INFINITY; /* iterates inside the cones belong to no state of a contact */
+  if (++it->nsteps > most) *done = PETSC_FALSE;
+  if (!*done || error >= it->known) PetscFunctionReturn(0);
+  PetscCall(IterationEnterNewton(it, CONTACT_LAST));
+  PetscCall(IterationNewton(it, done));
+  PetscFunctionReturn(0);
+}
+
+/* Returns from Newton's method to the interior point method, since the states of some contacts were not known yet */
+static PetscErrorCode IterationReturn(ContactIteration *it, PetscBool *done)
+{
+  const PetscReal closer = 1e-2,
+                  last   = 1e-10; /* error: by which factor it is reduced; below it, rounding errors decide */
+
+  PetscFunctionBegin;
+  PetscCall(IterationKeep(it, PETSC_TRUE));
+  it->known *= closer;
+  it->phase  = CONTACT_CONES;
+  it->nsteps = 0;
+  *done      = (PetscBool)(it->known >= last);
+  if (*done) PetscCall(ConesStart(it->cones, done)); /* with the directions that Newton's method has added */
+  if (*done) PetscCall(IterationCones(it, done));
+  PetscFunctionReturn(0);
+}
+
+/* Enters the interior point method at the state before Newton's method */
+static PetscErrorCode IterationEnterCones(ContactIteration *it, PetscBool *done)
+{
+  PetscFunctionBegin;
+  PetscCall(IterationKeep(it, PETSC_TRUE));
+  it->cold   = PETSC_FALSE;
+  it->phase  = CONTACT_CONES;
+  it->nsteps = 0;
+  it->known  = 1e-5; /* most states are known then; IterationReturn() is for the others */
+  PetscCall(ConesCreate(it->contacts, &it->bodies, &it->cones));
+  PetscCall(ConesStart(it->cones, done));
+  if (*done) PetscCall(IterationCones(it, done));
+  PetscFunctionReturn(0);
+}
+
+/* Begins the iteration at the present state of contacts and bodies. Without any force it is a cold start. */
+PetscErrorCode ContactIterationBegin(Contacts *c, ContactBodies bodies, ContactIteration *it)
+{
+  PetscReal largest = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(ContactIterationEnd(it));
+  it->contacts = c;
+  it->bodies   = bodies;
+  PetscCall(PetscMalloc1(6 * c->n, &it->kept));
+  PetscCall(IterationEnterNewton(it, CONTACT_WARM));
+  for (PetscInt r = 0; r < 3 * c->n; r++) largest = PetscMax(largest, PetscAbsReal(c->f[r]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, c->comm));
+  it->cold = (PetscBool)(largest == 0.0);
+  PetscFunctionReturn(0);
+}
+
+/*
+   Takes one step. it->violation: by how much the laws are violated, relative to the first step. *done: false if no
+   method makes progress. The state is then the best that was reached.
+*/
+PetscErrorCode ContactIterate(ContactIteration *it, PetscBool *done)
+{
+  PetscFunctionBegin;
+  PetscCall(it->bodies.interrupted(it->bodies.data, done));
+  *done = (PetscBool) !*done;
+  if (!*done) PetscFunctionReturn(0);
+  if (it->phase == CONTACT_CONES) PetscCall(IterationCones(it, done));
+  else if (it->cold) PetscCall(IterationEnterCones(it, done));
+  else {
+    PetscCall(IterationNewton(it, done));
+    if (!*done && it->phase == CONTACT_WARM) PetscCall(IterationEnterCones(it, done));
+    else if (!*done) PetscCall(IterationReturn(it, done));
+  }
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,167 @@
+/*
+   Implements the interface IPContactOps of the subspace method: the contacts of the optimizer's constraints and norm
+   terms, and the bodies of its Hessian
+*/
+#include "conesimpl.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/rows.h"
+#include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/terms.h"
+
+struct _p_IPContacts {
+  Tao              tao;
+  PetscInt         m, nterms; /* numbers of constraints and of norm terms on this rank */
+  Contacts         contacts;
+  SubspaceBodies   bodies;
+  ContactIteration iteration;
+};
+
+static PetscErrorCode ContactLawsDestroy(IPContacts *laws)
+{
+  PetscFunctionBegin;
+  if (!*laws) PetscFunctionReturn(0);
+  PetscCall(ContactIterationEnd(&(*laws)->iteration));
+  PetscCall(ContactsDestroy(&(*laws)->contacts));
+  PetscCall(SubspaceBodiesDestroy(&(*laws)->bodies));
+  PetscCall(PetscFree(*laws));
+  PetscFunctionReturn(0);
+}
+
+/* Finds which components of contacts some unknown moves. The compliance of the others is a rounding error. */
+static PetscErrorCode LawsFindMoved(IPContacts laws)
+{
+  const PetscReal rounding = 1e-14; /* compliance of a component that is held, relative to the largest one */
+  Contacts       *c        = &laws->contacts;
+  PetscReal       largest  = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(SubspaceBodiesGetCompliance(laws->bodies, c->n, c->compliance));
+  for (PetscInt i = 0; i < 2 * c->n; i++) largest = PetscMax(largest, c->compliance[i]);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, c->comm));
+  for (PetscInt i = 0; i < 2 * c->n; i++)
+    if (c->compliance[i] <= rounding * largest) c->compliance[i] = 0.0;
+  for (PetscInt i = 0; i < laws->m; i++) c->normal[i] = (PetscBool)(c->compliance[2 * i] > 0.0);
+  PetscFunctionReturn(0);
+}
+
+/* Sets the laws of the norm terms. Coefficients are those of unscaled constraints. */
+static PetscErrorCode LawsSetTerms(IPContacts laws)
+{
+  TAO_IPFILTER      *ip    = (TAO_IPFILTER *)laws->tao->data;
+  const IPTerms     *terms = ip->terms;
+  const PetscScalar *limit = NULL, *coefficient = NULL, *scale = NULL, *rigid;
+
+  PetscFunctionBegin;
+  if (terms->limit) PetscCall(VecGetArrayRead(terms->limit, &limit));
+  if (terms->coefficient) PetscCall(VecGetArrayRead(terms->coefficient, &coefficient));
+  if (ip->rows->inequality) PetscCall(VecGetArrayRead(ip->rows->inequality, &scale));
+  PetscCall(VecGetArrayRead(terms->rigid, &rigid));
+  PetscCall(PetscArraycpy(laws->contacts.rigid, rigid, 2 * laws->nterms));
+  for (PetscInt i = 0; i < laws->nterms; i++) {
+    const PetscReal factor = scale && coefficient ? PetscRealPart(scale[i]) : 1.0;
+
+    ContactsSetLaw(&laws->contacts, i, limit ? PetscRealPart(limit[i]) : PETSC_INFINITY,
+      coefficient ? factor * PetscRealPart(coefficient[i]) : -1.0);
+  }
+  PetscCall(VecRestoreArrayRead(terms->rigid, &rigid));
+  if (ip->rows->inequality) PetscCall(VecRestoreArrayRead(ip->rows->inequality, &scale));
+  if (terms->coefficient) PetscCall(VecRestoreArrayRead(terms->coefficient, &coefficient));
+  if (terms->limit) PetscCall(VecRestoreArrayRead(terms->limit, &limit));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode ContactLawsCreate(Tao tao, IPRecycle *recycle, IS W, IPContacts *laws)
+{
+  const TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscInt            n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(laws));
+  (*laws)->tao = tao;
+  PetscCall(VecGetLocalSize(ip->at.c, &(*laws)->m));
+  PetscCall(VecGetLocalSize(ip->terms->rho, &(*laws)->nterms));
+  n = PetscMax((*laws)->m, (*laws)->nterms);
+  PetscCall(ContactsCreate(PetscObjectComm((PetscObject)tao), n, &(*laws)->contacts));
+  PetscCall(SubspaceBodiesCreate(tao, recycle, W, n, &(*laws)->bodies));
+  PetscCall(LawsFindMoved(*laws));
+  PetscCall(LawsSetTerms(*laws));
+  PetscFunctionReturn(0);
+}
+
+/* Copies the entries of a vector for constraints and one for norm terms to the components of contacts, or back */
+static PetscErrorCode LawsCopy(IPContacts laws, Vec constraints, Vec terms, PetscReal components[], PetscBool back)
+{
+  PetscScalar *normal, *tangential;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(constraints, &normal));
+  PetscCall(VecGetArray(terms, &tangential));
+  for (PetscInt i = 0; i < laws->contacts.n; i++) {
+    for (PetscInt a = 0; a < 3; a++) {
+      const PetscBool has   = (PetscBool)(a ? i < laws->nterms : i < laws->m);
+      PetscScalar    *entry = a ? &tangential[2 * i + a - 1] : &normal[i];
+
+      if (has && back) *entry = components[3 * i + a];
+      else if (!back) components[3 * i + a] = has ? PetscRealPart(*entry) : 0.0;
+    }
+  }
+  PetscCall(VecRestoreArray(terms, &tangential));
+  PetscCall(VecRestoreArray(constraints, &normal));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Begins at a point with the gradient g, the constraint values c and the values of norm terms; force, terms: forces of
+   both there. Contacts with forces below the accuracy of a solve count as open: friction does not hold them.
+*/
+static PetscErrorCode LawsBegin(IPContacts laws, Vec g, Vec c, Vec values, Vec force, Vec terms)
+{
+  const PetscReal     accuracy = 1e-8;
+  const TAO_IPFILTER *ip       = (TAO_IPFILTER *)laws->tao->data;
+  Contacts           *contacts = &laws->contacts;
+
+  PetscFunctionBegin;
+  PetscCall(SubspaceBodiesCentre(laws->bodies, g));
+  contacts->rounding = ip->first->jacobian * ip->given->rounding;
+  contacts->least    = accuracy * IPErrorBoundForceUnit(ip);
+  PetscCall(LawsCopy(laws, c, values, contacts->u, PETSC_FALSE));
+  PetscCall(LawsCopy(laws, force, terms, contacts->f, PETSC_FALSE));
+  for (PetscInt i = 0; i < contacts->n; i++) {
+    ContactsRemoveRigid(contacts, i, &contacts->u[3 * i]);
+    ContactsRemoveRigid(contacts, i, &contacts->f[3 * i]);
+    if (!contacts->normal[i]) contacts->f[3 * i] = 0.0;
+    if (contacts->law[i] == CONTACT_SMOOTH) contacts->f[3 * i + 1] = contacts->f[3 * i + 2] = 0.0;
+  }
+  PetscCall(ContactIterationBegin(contacts, SubspaceBodiesInterface(laws->bodies), &laws->iteration));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Takes one step. x: the point, relative to the begin; force, terms: forces there. violation: of the laws, relative
+   to the first step; nclosed: number of closed contacts; enough: residual [2-norm] at which directions are no longer
+   added. *done: false if no progress is possible
+*/
+static PetscErrorCode LawsStep(IPContacts laws, PetscReal enough, Vec x, Vec force, Vec terms, PetscReal *violation,
+  PetscInt *nclosed, PetscBool *done)
+{
+  PetscFunctionBegin;
+  SubspaceBodiesSetEnough(laws->bodies, enough);
+  PetscCall(ContactIterate(&laws->iteration, done));
+  *violation = laws->iteration.violation;
+  if (*violation < PETSC_INFINITY) {
+    PetscCall(VecCopy(SubspaceBodiesGet(laws->bodies), x));
+    PetscCall(LawsCopy(laws, force, terms, laws->contacts.f, PETSC_TRUE));
+  }
+  *nclosed = 0;
+  for (PetscInt i = 0; i < laws->m; i++) *nclosed += laws->contacts.f[3 * i] > 0.0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, nclosed, 1, MPIU_INT, MPI_SUM, laws->contacts.comm));
+  PetscFunctionReturn(0);
+}
+
+const IPContactOps IPContactsCones = {
+  .create  = ContactLawsCreate,
+  .begin   = LawsBegin,
+  .step    = LawsStep,
+  .destroy = ContactLawsDestroy,
+};

@@ -1,0 +1,678 @@
+/*
+   Bodies with the equations K x + g = R^T f, whose systems with A = K + R^T D R are solved in a filtered subspace: the
+   unknowns W that contacts touch, and the directions P, which are zero on W. With x = w + P y and Q = K_WP
+     [A_WW Q; Q^T P^T K P] (dw, dy) = (R^T s - r)
+   is solved by a factorization of A_WW and a dense Schur complement. The residual that is left is zero on W. A
+   direction is added for it until it is small. With a fixed D this is CG with the cycle `fbf` of PCAMGF. Later systems,
+   with other D, use the directions again.
+*/
+#include "conesimpl.h"
+#include "pc_amgf/amgfimpl.h"
+#include "pc_amgf/mumps.h"
+#include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/matrices.h"
+#include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/record.h"
+#include "tao_ipfilter/solver/sizes.h"
+#include "tao_ipfilter/solver/stiffness.h"
+#include "tao_ipfilter/solver/terms.h"
+#include <petscblaslapack.h>
+
+struct _p_SubspaceBodies {
+  Tao        tao;
+  IPRecycle *recycle; /* the preconditioner of K, and the directions */
+  Mat        K;
+  IS         W;
+  Mat        R, RW;                 /* rows of the contacts: three for each contact of this rank; columns W of R */
+  Mat        D, DR, RDR, KWW, A, F; /* D; D R_W; R_W^T D R_W; K_WW; A_WW, and its factors */
+  Vec        x, dx, r, Kx, Kdx, g;  /* K x is kept beside x, K dx beside dx */
+  Vec        kept_x, kept_Kx;
+  Vec        base, rhs;             /* dx = base + what the subspace adds, for the right-hand side rhs of the latter */
+  Vec        on_W, dw0, load, rows; /* work vectors on W; one with the entries of contacts */
+  PetscReal *X, *S, *factors, *dy; /* A_WW^-1 Q: columns on W; Schur complement in columns of length max; its factors */
+  PetscReal *loads;                /* loads of the first nloads directions in this solve */
+  PetscInt   nloads;
+  PetscInt   nX, generation; /* number of columns of X; generation of the directions that it belongs to */
+  PetscReal  enough;         /* residual [2-norm] that any solve may leave */
+  PetscBLASInt *pivots;
+  PetscInt      relaxation; /* work space of MUMPS beyond its estimate [per cent]; 0: its default */
+};
+
+PetscErrorCode SubspaceBodiesDestroy(SubspaceBodies *bodies)
+{
+  SubspaceBodies b = *bodies;
+  Mat           *matrices[8];
+  Vec           *vectors[14];
+
+  PetscFunctionBegin;
+  if (!b) PetscFunctionReturn(0);
+  PetscCall(PetscArraycpy(matrices, ((Mat *[]){&b->R, &b->RW, &b->D, &b->DR, &b->RDR, &b->KWW, &b->A, &b->F}), 8));
+  PetscCall(PetscArraycpy(vectors,
+    ((Vec *[]){&b->x, &b->dx, &b->r, &b->Kx, &b->Kdx, &b->g, &b->kept_x, &b->kept_Kx, &b->on_W, &b->dw0, &b->load,
+      &b->rows, &b->base, &b->rhs}),
+    14));
+  for (PetscInt k = 0; k < 8; k++) PetscCall(MatDestroy(matrices[k]));
+  for (PetscInt k = 0; k < 14; k++) PetscCall(VecDestroy(vectors[k]));
+  PetscCall(ISDestroy(&b->W));
+  PetscCall(PetscFree6(b->X, b->S, b->factors, b->dy, b->loads, b->pivots));
+  PetscCall(PetscFree(*bodies));
+  PetscFunctionReturn(0);
+}
+
+/* Copies a row of J or T to row 3 i + a of R, or counts its entries */
+static PetscErrorCode BodiesCopyRow(Mat from, PetscInt row, Mat R, PetscInt to, PetscInt *count)
+{
+  const PetscInt    *columns;
+  const PetscScalar *values;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetRow(from, row, &n, &columns, &values));
+  *count = n;
+  if (R) PetscCall(MatSetValues(R, 1, &to, n, columns, values, INSERT_VALUES));
+  PetscCall(MatRestoreRow(from, row, &n, &columns, &values));
+  PetscFunctionReturn(0);
+}
+
+/* Creates R from the rows of constraints J and of norm terms T. n: number of contacts on this rank */
+static PetscErrorCode BodiesCreateRows(Mat J, Mat T, PetscInt n, Mat *R)
+{
+  PetscInt mJ, mT, startJ, startT, columns, start = 0, *counts;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetLocalSize(J, &mJ, &columns));
+  PetscCall(MatGetLocalSize(T, &mT, NULL));
+  PetscCall(MatGetOwnershipRange(J, &startJ, NULL));
+  PetscCall(MatGetOwnershipRange(T, &startT, NULL));
+  PetscCall(PetscCalloc1(3 * n, &counts));
+  *R = NULL;
+  for (PetscInt pass = 0; pass < 2; pass++) {
+    if (pass) {
+      PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)J), 3 * n, columns, PETSC_DETERMINE, PETSC_DETERMINE, 0,
+        counts, 0, counts, R));
+      PetscCall(MatGetOwnershipRange(*R, &start, NULL));
+    }
+    for (PetscInt i = 0; i < n; i++) {
+      for (PetscInt a = 0; a < 3; a++) {
+        const PetscInt row = a ? startT + 2 * i + a - 1 : startJ + i;
+
+        if (a ? 2 * i < mT : i < mJ)
+          PetscCall(BodiesCopyRow(a ? T : J, row, *R, start + 3 * i + a, &counts[3 * i + a]));
+      }
+    }
+  }
+  PetscCall(MatAssemblyBegin(*R, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*R, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscFree(counts));
+  PetscFunctionReturn(0);
+}
+
+/* Creates D with a 3 x 3 block per contact, all of whose entries are stored */
+static PetscErrorCode BodiesCreateBlocks(Mat R, PetscInt n, Mat *D)
+{
+  PetscInt start;
+
+  PetscFunctionBegin;
+  PetscCall(
+    MatCreateAIJ(PetscObjectComm((PetscObject)R), 3 * n, 3 * n, PETSC_DETERMINE, PETSC_DETERMINE, 3, NULL, 0, NULL, D));
+  PetscCall(MatGetOwnershipRange(*D, &start, NULL));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscScalar ones[9] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
+    const PetscInt    r = start + 3 * i, rows[3] = {r, r + 1, r + 2};
+
+    PetscCall(MatSetValues(*D, 3, rows, 3, rows, ones, INSERT_VALUES));
+  }
+  PetscCall(MatAssemblyBegin(*D, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*D, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/* Extracts R_W and K_WW, and creates A_WW with the union of the patterns of K_WW and R_W^T D R_W */
+static PetscErrorCode BodiesCreateMatrices(SubspaceBodies b, PetscInt n)
+{
+  PetscInt start, end;
+  IS       all;
+  Mat      thin;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(b->R, &start, &end));
+  PetscCall(ISCreateStride(PetscObjectComm((PetscObject)b->R), end - start, start, 1, &all));
+  PetscCall(MatCreateSubMatrix(b->R, all, b->W, MAT_INITIAL_MATRIX, &b->RW));
+  PetscCall(ISDestroy(&all));
+  PetscCall(MatGetThinRows_AMGF(b->K, b->W, PETSC_FALSE, &thin));
+  PetscCall(MatGetOwnershipRange(thin, &start, &end));
+  PetscCall(ISCreateStride(PetscObjectComm((PetscObject)b->R), end - start, start, 1, &all));
+  PetscCall(MatCreateSubMatrix(thin, all, b->W, MAT_INITIAL_MATRIX, &b->KWW));
+  PetscCall(ISDestroy(&all));
+  PetscCall(MatDestroy(&thin));
+  PetscCall(BodiesCreateBlocks(b->R, n, &b->D));
+  PetscCall(MatMatMult(b->D, b->RW, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &b->DR));
+  PetscCall(MatTransposeMatMult(b->RW, b->DR, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &b->RDR));
+  PetscCall(MatDuplicate(b->RDR, MAT_DO_NOT_COPY_VALUES, &b->A));
+  PetscCall(MatAXPY(b->A, 1.0, b->KWW, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&b->KWW));
+  PetscCall(MatDuplicate(b->A, MAT_COPY_VALUES, &b->KWW));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Creates the bodies for the present Hessian and constraints of the optimizer, with n contacts on this rank. W has the
+   unknowns of the contacts.
+*/
+PetscErrorCode SubspaceBodiesCreate(Tao tao, IPRecycle *recycle, IS W, PetscInt n, SubspaceBodies *bodies)
+{
+  TAO_IPFILTER  *ip  = (TAO_IPFILTER *)tao->data;
+  const PetscInt max = recycle->basis.max;
+  SubspaceBodies b;
+  PetscInt       nw;
+  Vec           *like_x[9];
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(bodies));
+  b          = *bodies;
+  b->tao     = tao;
+  b->recycle = recycle;
+  b->K       = ip->hess->H;
+  PetscCall(PetscObjectReference((PetscObject)W));
+  b->W = W;
+  PetscCall(BodiesCreateRows(ip->jac->inequality, ip->terms->T, n, &b->R));
+  PetscCall(BodiesCreateMatrices(b, n));
+  PetscCall(PetscArraycpy(like_x,
+    ((Vec *[]){&b->x, &b->dx, &b->r, &b->Kx, &b->Kdx, &b->kept_x, &b->kept_Kx, &b->base, &b->rhs}), 9));
+  for (PetscInt k = 0; k < 9; k++) PetscCall(VecDuplicate(tao->solution, like_x[k]));
+  PetscCall(MatCreateVecs(b->RW, &b->on_W, &b->rows));
+  PetscCall(VecDuplicate(b->on_W, &b->dw0));
+  PetscCall(VecDuplicate(b->on_W, &b->load));
+  PetscCall(VecGetLocalSize(b->on_W, &nw));
+  PetscCall(PetscMalloc6((size_t)nw * (size_t)max, &b->X, max * max, &b->S, max * max, &b->factors, max, &b->dy, max,
+    &b->loads, max, &b->pivots));
+  PetscFunctionReturn(0);
+}
+
+/* Sets the origin x = 0: a point with the gradient g */
+PetscErrorCode SubspaceBodiesCentre(SubspaceBodies b, Vec g)
+{
+  PetscFunctionBegin;
+  if (!b->g) PetscCall(VecDuplicate(g, &b->g));
+  PetscCall(VecCopy(g, b->g));
+  PetscCall(VecZeroEntries(b->x));
+  PetscCall(VecZeroEntries(b->Kx));
+  PetscFunctionReturn(0);
+}
+
+/* Sets the residual [2-norm] that any solve may leave */
+void SubspaceBodiesSetEnough(SubspaceBodies b, PetscReal enough)
+{
+  b->enough = enough;
+}
+
+/* Gets x, which is relative to the origin */
+Vec SubspaceBodiesGet(SubspaceBodies b)
+{
+  return b->x;
+}
+
+/* Computes the compliance of each contact's normal component, and the larger one of its tangential components, as if no
+   unknown moved any other [length/force] */
+PetscErrorCode SubspaceBodiesGetCompliance(SubspaceBodies b, PetscInt n, PetscReal compliance[])
+{
+  PetscInt           start;
+  const PetscScalar *k;
+  PetscReal          sum[3];
+  Mat                squares;
+  Vec                inverse;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(b->on_W, &inverse));
+  PetscCall(MatGetDiagonal(b->KWW, inverse));
+  PetscCall(VecAbs(inverse));
+  PetscCall(VecReciprocal(inverse));
+  PetscCall(MatDuplicate(b->RW, MAT_COPY_VALUES, &squares));
+  PetscCall(MatGetOwnershipRange(squares, &start, NULL));
+  for (PetscInt part = 0; part < 2; part++) {
+    Mat          local = NULL;
+    PetscScalar *values;
+    MatInfo      info;
+    PetscMPIInt  size;
+
+    PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)squares), &size));
+    if (size == 1) local = part ? NULL : squares;
+    else PetscCall(MatMPIAIJGetSeqAIJ(squares, part ? NULL : &local, part ? &local : NULL, NULL));
+    if (!local) continue;
+    PetscCall(MatGetInfo(local, MAT_LOCAL, &info));
+    PetscCall(MatSeqAIJGetArray(local, &values));
+    for (PetscInt j = 0; j < (PetscInt)info.nz_used; j++) values[j] *= values[j];
+    PetscCall(MatSeqAIJRestoreArray(local, &values));
+  }
+  PetscCall(MatMult(squares, inverse, b->rows));
+  PetscCall(VecGetArrayRead(b->rows, &k));
+  for (PetscInt i = 0; i < n; i++) {
+    for (PetscInt a = 0; a < 3; a++) sum[a] = PetscRealPart(k[3 * i + a]);
+    compliance[2 * i]     = sum[0];
+    compliance[2 * i + 1] = PetscMax(sum[1], sum[2]);
+  }
+  PetscCall(VecRestoreArrayRead(b->rows, &k));
+  PetscCall(MatDestroy(&squares));
+  PetscCall(VecDestroy(&inverse));
+  PetscFunctionReturn(0);
+}
+
+/* Computes y = R^T f, or y += R^T f */
+static PetscErrorCode BodiesSpread(SubspaceBodies b, const PetscReal f[], PetscBool add, Vec y)
+{
+  PetscScalar *a;
+  PetscInt     n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(b->rows, &n));
+  PetscCall(VecGetArrayWrite(b->rows, &a));
+  PetscCall(PetscArraycpy(a, f, n));
+  PetscCall(VecRestoreArrayWrite(b->rows, &a));
+  if (add) PetscCall(MatMultTransposeAdd(b->R, b->rows, y, y));
+  else PetscCall(MatMultTranspose(b->R, b->rows, y));
+  PetscFunctionReturn(0);
+}
+
+/* Returns the largest entry of v, and the 2-norm unless it is NULL, where each entry is divided by the square root of
+   K's diagonal entry */
+static PetscErrorCode BodiesSize(SubspaceBodies b, Vec v, PetscReal *size, PetscReal *norm)
+{
+  const PetscScalar *a, *d;
+  PetscInt           n;
+  PetscReal          largest = 0.0, sum = 0.0;
+  const Vec          diagonal = ((TAO_IPFILTER *)b->tao->data)->stiff->hdiag;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(v, &n));
+  PetscCall(VecGetArrayRead(v, &a));
+  PetscCall(VecGetArrayRead(diagonal, &d));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscReal square = PetscAbsScalar(d[i]) > 0.0 ? PetscSqr(PetscAbsScalar(a[i])) / PetscAbsScalar(d[i]) : 0.0;
+
+    largest = PetscMax(largest, square);
+    sum += square;
+  }
+  PetscCall(VecRestoreArrayRead(diagonal, &d));
+  PetscCall(VecRestoreArrayRead(v, &a));
+  PetscCallMPI(MPI_Allreduce(&largest, size, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)v)));
+  *size = PetscSqrtReal(*size);
+  if (!norm) PetscFunctionReturn(0);
+  PetscCallMPI(MPI_Allreduce(&sum, norm, 1, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)v)));
+  *norm = PetscSqrtReal(*norm);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode BodiesResidual(void *data, const PetscReal f[], PetscReal sizes[3])
+{
+  const SubspaceBodies b = (SubspaceBodies)data;
+
+  PetscFunctionBegin;
+  PetscCall(BodiesSpread(b, f, PETSC_FALSE, b->r));
+  PetscCall(BodiesSize(b, b->r, &sizes[1], NULL));
+  PetscCall(VecAYPX(b->r, -1.0, b->g));
+  PetscCall(VecAXPY(b->r, 1.0, b->Kx));
+  PetscCall(IPFixedZero(b->tao, b->r));
+  PetscCall(BodiesSize(b, b->r, &sizes[0], &sizes[2]));
+  PetscFunctionReturn(0);
+}
+
+/* Sets the values of D and A_WW */
+static PetscErrorCode BodiesAssemble(SubspaceBodies b, const PetscReal D[])
+{
+  PetscInt start, end;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetOwnershipRange(b->D, &start, &end));
+  for (PetscInt r = start; r < end; r += 3) {
+    const PetscInt rows[3] = {r, r + 1, r + 2};
+
+    PetscCall(MatSetValues(b->D, 3, rows, 3, rows, D + 3 * (r - start), INSERT_VALUES));
+  }
+  PetscCall(MatAssemblyBegin(b->D, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(b->D, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatMatMult(b->D, b->RW, MAT_REUSE_MATRIX, PETSC_DEFAULT, &b->DR));
+  PetscCall(MatTransposeMatMult(b->RW, b->DR, MAT_REUSE_MATRIX, PETSC_DEFAULT, &b->RDR));
+  PetscCall(MatCopy(b->KWW, b->A, SAME_NONZERO_PATTERN));
+  PetscCall(MatAXPY(b->A, 1.0, b->RDR, SUBSET_NONZERO_PATTERN));
+  PetscFunctionReturn(0);
+}
+
+/* Creates the factors of A_WW, with the work space that earlier factorizations have needed */
+static PetscErrorCode BodiesCreateFactors(SubspaceBodies b, const MatFactorInfo *info)
+{
+  MatType   type;
+  PetscBool mumps;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetType(b->A, &type));
+  PetscCall(AMGFMumpsFactors(type, MAT_FACTOR_LU, &mumps));
+  PetscCall(MatGetFactor(b->A, mumps ? MATSOLVERMUMPS : MATSOLVERPETSC, MAT_FACTOR_LU, &b->F));
+  if (mumps && b->relaxation) PetscCall(AMGFMumpsSetIcntl(b->F, 14, b->relaxation));
+  PetscCall(MatLUFactorSymbolic(b->F, b->A, NULL, NULL, info));
+  PetscFunctionReturn(0);
+}
+
+/* Factors A_WW, again with more work space while MUMPS needs it. *factored: false if A_WW is singular */
+static PetscErrorCode BodiesFactor(SubspaceBodies b, PetscBool *factored)
+{
+  MatFactorInfo  info;
+  MatFactorError error;
+
+  PetscFunctionBegin;
+  PetscCall(MatFactorInfoInitialize(&info));
+  do {
+    if (!b->F) PetscCall(BodiesCreateFactors(b, &info));
+    PetscCall(MatLUFactorNumeric(b->F, b->A, &info));
+    PetscCall(MatFactorGetError(b->F, &error));
+    if (error != MAT_FACTOR_NOERROR) PetscCall(MatDestroy(&b->F)); /* MUMPS cannot use it again */
+  } while (error == MAT_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, &b->relaxation));
+  *factored = (PetscBool)(error == MAT_FACTOR_NOERROR);
+  b->nX     = 0;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode BodiesPrepare(void *data, const PetscReal D[], PetscBool *prepared)
+{
+  const SubspaceBodies b = (SubspaceBodies)data;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
+  PetscCall(BodiesAssemble(b, D));
+  PetscCall(BodiesFactor(b, prepared));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* Creates a dense matrix of n columns on W. columns: their local entries */
+static PetscErrorCode BodiesDense(SubspaceBodies b, PetscInt n, PetscScalar columns[], Mat *dense)
+{
+  PetscInt m, M;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(b->on_W, &m));
+  PetscCall(VecGetSize(b->on_W, &M));
+  PetscCall(MatCreateDense(PetscObjectComm((PetscObject)b->on_W), m, PETSC_DECIDE, M, n, columns, dense));
+  PetscFunctionReturn(0);
+}
+
+/* Computes the columns of A_WW^-1 Q that are missing */
+static PetscErrorCode BodiesSolveDirections(SubspaceBodies b)
+{
+  const IPBasis *basis = &b->recycle->basis;
+  PetscInt       m, n;
+  PetscScalar   *Q;
+  Mat            dense[2];
+
+  PetscFunctionBegin;
+  if (b->generation != basis->generation) b->nX = 0;
+  b->generation = basis->generation;
+  n             = basis->n - b->nX;
+  if (!n) PetscFunctionReturn(0);
+  PetscCall(VecGetLocalSize(b->on_W, &m));
+  PetscCall(PetscMalloc1((size_t)m * (size_t)n, &Q));
+  for (PetscInt j = 0; j < n; j++) PetscCall(PetscArraycpy(Q + j * m, basis->q[b->nX + j], m));
+  PetscCall(BodiesDense(b, n, Q, &dense[0]));
+  PetscCall(BodiesDense(b, n, b->X + (size_t)m * (size_t)b->nX, &dense[1]));
+  PetscCall(MatMatSolve(b->F, dense[0], dense[1]));
+  PetscCall(MatDestroy(&dense[0]));
+  PetscCall(MatDestroy(&dense[1]));
+  PetscCall(PetscFree(Q));
+  PetscFunctionReturn(0);
+}
+
+/* Returns the product of two arrays with an entry per unknown of W on this rank */
+static PetscReal BodiesDot(PetscInt n, const PetscScalar a[], const PetscScalar b[])
+{
+  PetscReal sum = 0.0;
+
+  for (PetscInt i = 0; i < n; i++) sum += PetscRealPart(a[i] * b[i]);
+  return sum;
+}
+
+/* Computes the missing rows and columns of the Schur complement S = P^T K P - Q^T A_WW^-1 Q, and its factors */
+static PetscErrorCode BodiesFactorDirections(SubspaceBodies b, PetscBool *factored)
+{
+  const IPBasis *basis = &b->recycle->basis;
+  const PetscInt k = basis->n, old = b->generation == basis->generation ? b->nX : 0;
+  PetscInt       m, count          = 0;
+  PetscReal     *sums;
+  PetscBLASInt   nk, ld, info = 0;
+
+  PetscFunctionBegin;
+  *factored = PETSC_TRUE;
+  PetscCall(BodiesSolveDirections(b));
+  PetscCall(VecGetLocalSize(b->on_W, &m));
+  PetscCall(PetscMalloc1(k * k - old * old, &sums));
+  for (PetscInt j = 0; j < k; j++)
+    for (PetscInt i = j < old ? old : 0; i < k; i++)
+      sums[count++] = BodiesDot(m, basis->q[i], b->X + (size_t)j * (size_t)m);
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)count, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)b->on_W)));
+  count = 0;
+  for (PetscInt j = 0; j < k; j++)
+    for (PetscInt i = j < old ? old : 0; i < k; i++)
+      b->S[i + j * basis->max] = basis->gram[i + j * basis->max] - sums[count++];
+  PetscCall(PetscFree(sums));
+  b->nX = k;
+  if (!k) PetscFunctionReturn(0);
+  for (PetscInt j = 0; j < k; j++) PetscCall(PetscArraycpy(b->factors + j * basis->max, b->S + j * basis->max, k));
+  PetscCall(PetscBLASIntCast(k, &nk));
+  PetscCall(PetscBLASIntCast(basis->max, &ld));
+  PetscCallBLAS("LAPACKgetrf", LAPACKgetrf_(&nk, &nk, b->factors, &ld, b->pivots, &info));
+  *factored = (PetscBool)!info;
+  PetscFunctionReturn(0);
+}
+
+/* Adds the sum of the columns of an array on W, each times its factor, to v */
+static PetscErrorCode BodiesAddColumns(PetscInt k, const PetscReal factors[], const PetscScalar X[], Vec v)
+{
+  PetscScalar *a;
+  PetscInt     m;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(v, &m));
+  PetscCall(VecGetArray(v, &a));
+  for (PetscInt j = 0; j < k; j++)
+    for (PetscInt i = 0; i < m; i++) a[i] += factors[j] * X[i + (size_t)j * (size_t)m];
+  PetscCall(VecRestoreArray(v, &a));
+  PetscFunctionReturn(0);
+}
+
+/* Computes the loads P^T rhs - Q^T dw0 of the directions that are new in this solve */
+static PetscErrorCode BodiesLoadDirections(SubspaceBodies b)
+{
+  const IPBasis     *basis = &b->recycle->basis;
+  const PetscInt     first = b->nloads, n = basis->n - first;
+  const PetscScalar *w;
+  PetscInt           m;
+  PetscReal         *sums;
+
+  PetscFunctionBegin;
+  if (n <= 0) PetscFunctionReturn(0);
+  PetscCall(PetscMalloc1(n, &sums));
+  PetscCall(VecGetLocalSize(b->dw0, &m));
+  PetscCall(VecGetArrayRead(b->dw0, &w));
+  for (PetscInt j = 0; j < n; j++) sums[j] = BodiesDot(m, basis->q[first + j], w);
+  PetscCall(VecRestoreArrayRead(b->dw0, &w));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)n, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)b->dx)));
+  PetscCall(IPBasisDots(basis, first, n, b->rhs, b->loads + first));
+  for (PetscInt j = 0; j < n; j++) b->loads[first + j] -= sums[j];
+  PetscCall(PetscFree(sums));
+  b->nloads = basis->n;
+  PetscFunctionReturn(0);
+}
+
+/*
+   Computes dx = base + (dw, dy) with dw0 = A_WW^-1 rhs_W, S dy = P^T rhs - Q^T dw0, dw = dw0 - A_WW^-1 Q dy
+*/
+static PetscErrorCode BodiesSolveInSubspace(SubspaceBodies b)
+{
+  const IPBasis *basis = &b->recycle->basis;
+  const PetscInt k     = basis->n;
+  PetscReal     *minus;
+  PetscBLASInt   nk, ld, one = 1, info;
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(b->dw0, b->load));
+  PetscCall(VecCopy(b->base, b->dx));
+  PetscCall(BodiesLoadDirections(b));
+  if (k) {
+    PetscCall(PetscArraycpy(b->dy, b->loads, k));
+    PetscCall(PetscBLASIntCast(k, &nk));
+    PetscCall(PetscBLASIntCast(basis->max, &ld));
+    PetscCallBLAS("LAPACKgetrs", LAPACKgetrs_("N", &nk, &one, b->factors, &ld, b->pivots, b->dy, &nk, &info));
+    PetscCall(IPBasisAdd(basis, b->dy, b->dx));
+    PetscCall(PetscMalloc1(k, &minus));
+    for (PetscInt j = 0; j < k; j++) minus[j] = -b->dy[j];
+    PetscCall(BodiesAddColumns(k, minus, b->X, b->load));
+    PetscCall(PetscFree(minus));
+  }
+  PetscCall(VecISAXPY(b->dx, b->W, 1.0, b->load));
+  PetscFunctionReturn(0);
+}
+
+/* Computes K dx, and the residual that dx leaves in v, which is zero on W, and its 2-norm */
+static PetscErrorCode BodiesLeft(SubspaceBodies b, Vec v, PetscReal *norm)
+{
+  PetscFunctionBegin;
+  PetscCall(MatMult(b->K, b->dx, b->Kdx));
+  PetscCall(VecWAXPY(v, 1.0, b->r, b->Kdx));
+  PetscCall(VecScale(v, -1.0));
+  PetscCall(IPFixedZero(b->tao, v));
+  PetscCall(VecISSet(v, b->W, 0.0));
+  PetscCall(VecNorm(v, NORM_2, norm));
+  PetscFunctionReturn(0);
+}
+
+/* Reduces the number of directions, and keeps those combinations that are coupled to W most. The next solution in the
+   subspace adds to dx, which the directions that are left do not contain. left: the residual of dx */
+static PetscErrorCode BodiesMakeRoom(SubspaceBodies b, Vec left)
+{
+  IPBasis       *basis = &b->recycle->basis;
+  const PetscInt max   = basis->max;
+  PetscReal     *E;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(max * max, &E));
+  for (PetscInt j = 0; j < basis->n; j++)
+    for (PetscInt i = 0; i < basis->n; i++)
+      E[i + j * max] = basis->gram[i + j * max] - 0.5 * (b->S[i + j * max] + b->S[j + i * max]);
+  PetscCall(IPFilteredCompress(b->tao, basis, E));
+  PetscCall(PetscFree(E));
+  PetscCall(VecCopy(b->dx, b->base));
+  PetscCall(VecCopy(left, b->rhs));
+  PetscCall(VecZeroEntries(b->dw0));
+  b->nloads = 0;
+  PetscFunctionReturn(0);
+}
+
+/* Adds a direction for the residual `left`. *added: false if K is not positive along it, or it depends on the others */
+static PetscErrorCode BodiesExtend(SubspaceBodies b, Vec left, PetscBool *added)
+{
+  Vec d;
+
+  PetscFunctionBegin;
+  PetscCall(IPFilteredAllows(b->tao, added));
+  if (!*added) PetscFunctionReturn(0);
+  if (b->recycle->basis.n == b->recycle->basis.max) PetscCall(BodiesMakeRoom(b, left));
+  PetscCall(IPGetWork(b->tao, IP_UNKNOWNS, &d));
+  PetscCall(IPFilteredPrecondition(b->tao, b->recycle, left, d, added));
+  PetscCall(VecISSet(d, b->W, 0.0));
+  PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, b->tao, d, NULL, NULL));
+  if (*added) PetscCall(IPBasisAppend(&b->recycle->basis, b->K, d, added));
+  PetscCall(PetscLogEventEnd(TAO_IPFilterDirections, b->tao, d, NULL, NULL));
+  PetscCall(IPRestoreWork(b->tao, IP_UNKNOWNS, &d));
+  if (*added) ((TAO_IPFILTER *)b->tao->data)->rec->ndirections++;
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fraction, PetscReal target, PetscReal du[],
+  PetscBool *solved)
+{
+  const SubspaceBodies b = (SubspaceBodies)data;
+  const PetscScalar   *u;
+  PetscReal            norm, size, first = PETSC_INFINITY;
+  PetscBool            added = PETSC_TRUE;
+  PetscInt             n;
+  Vec                  left;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(b->tao, IP_UNKNOWNS, &left));
+  PetscCall(BodiesSpread(b, s, PETSC_FALSE, b->rhs));
+  PetscCall(VecAXPY(b->rhs, -1.0, b->r));
+  PetscCall(VecZeroEntries(b->base));
+  PetscCall(VecISCopy(b->rhs, b->W, SCATTER_REVERSE, b->load));
+  PetscCall(MatSolve(b->F, b->load, b->dw0));
+  b->nloads = 0;
+  for (PetscInt k = 0;; k++) {
+    PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
+    PetscCall(BodiesFactorDirections(b, solved));
+    if (*solved) PetscCall(BodiesSolveInSubspace(b));
+    PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
+    if (!*solved) break;
+    PetscCall(BodiesLeft(b, left, &norm));
+    PetscCall(BodiesSize(b, left, &size, NULL));
+    *solved = (PetscBool)!PetscIsInfOrNanReal(size);
+    if (!k) first = size;
+    if (!*solved || size <= PetscMax(fraction * first, target) || (fraction > 0.0 && norm <= b->enough)) break;
+    PetscCall(BodiesExtend(b, left, &added));
+    if (!added) break;
+  }
+  PetscCall(IPRestoreWork(b->tao, IP_UNKNOWNS, &left));
+  *solved = (PetscBool)(*solved && (added || size < first));
+  PetscCall(MatMult(b->R, b->dx, b->rows));
+  PetscCall(VecGetLocalSize(b->rows, &n));
+  PetscCall(VecGetArrayRead(b->rows, &u));
+  for (PetscInt i = 0; i < n; i++) du[i] = PetscRealPart(u[i]);
+  PetscCall(VecRestoreArrayRead(b->rows, &u));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode BodiesAdvance(void *data, PetscReal fraction)
+{
+  const SubspaceBodies b = (SubspaceBodies)data;
+
+  PetscFunctionBegin;
+  PetscCall(VecAXPY(b->x, fraction, b->dx));
+  PetscCall(VecAXPY(b->Kx, fraction, b->Kdx));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode BodiesKeep(void *data, PetscBool back)
+{
+  const SubspaceBodies b = (SubspaceBodies)data;
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(back ? b->kept_x : b->x, back ? b->x : b->kept_x));
+  PetscCall(VecCopy(back ? b->kept_Kx : b->Kx, back ? b->Kx : b->kept_Kx));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode BodiesInterrupted(void *data, PetscBool *stop)
+{
+  const IPGiven *given = ((TAO_IPFILTER *)((SubspaceBodies)data)->tao->data)->given;
+
+  PetscFunctionBegin;
+  *stop = PETSC_FALSE;
+  if (given->interrupt) PetscCall(given->interrupt(given->interrupt_ctx, stop));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, stop, 1, MPI_PETSCBOOL, MPI_LOR,
+    PetscObjectComm((PetscObject)((SubspaceBodies)data)->x)));
+  PetscFunctionReturn(0);
+}
+
+/* Gets the interface of the bodies that the laws of contacts use */
+ContactBodies SubspaceBodiesInterface(SubspaceBodies b)
+{
+  const ContactBodies bodies = {
+    .data        = b,
+    .residual    = BodiesResidual,
+    .prepare     = BodiesPrepare,
+    .solve       = BodiesSolve,
+    .advance     = BodiesAdvance,
+    .keep        = BodiesKeep,
+    .interrupted = BodiesInterrupted,
+  };
+
+  return bodies;
+}
