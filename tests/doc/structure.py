@@ -13,7 +13,7 @@ FORMATTED_BY = "14."  # another release of clang-format breaks lines elsewhere
 FILES = 20  # of a folder, C sources
 # The lowest first: a file calls files of its own folder and of those before it, and includes their headers alone
 LAYERS = """
-pc_amgf pc_amgf/blockamg
+pc_amgf pc_amgf/blockamg pc_amgf/cholesky
 tao_ipfilter/solver tao_ipfilter/problem tao_ipfilter/measure tao_ipfilter/system tao_ipfilter/linear
 tao_ipfilter/step tao_ipfilter/driver
 tao_ipfilter/subspace tao_ipfilter/friction tao_ipfilter/cones tao_ipfilter
