@@ -212,14 +212,13 @@ static PetscErrorCode TestRestart(void)
     c.normal[i]         = PETSC_TRUE;
     c.compliance[2 * i] = c.compliance[2 * i + 1] = 1.0 / s.k;
     ContactsSetLaw(&c, i, PETSC_INFINITY, 0.5);
-    s.g[3 * i]     = 1.0;
-    s.g[3 * i + 1] = 1e3 * (PetscReal)i; /* slips far beyond the size of the normal forces */
+    s.g[3 * i] = s.g[3 * i + 1] = 1e3;
   }
   PetscCall(ConesCreate(&c, &bodies, &cones));
   for (PetscInt round = 0; round < 3 && solved; round++) {
     PetscCall(ConesStart(cones, &solved));
-    for (PetscInt i = 0; i < N; i++) s.g[3 * i + 1] *= 1e-2; /* the next start is at smaller forces */
     for (PetscInt k = 0; k < 4 && solved; k++) PetscCall(ConesIterate(cones, 1e-12, &error, &solved));
+    for (PetscInt i = 0; i < 3 * N; i++) s.g[i] = 1e-3 - s.k * s.x[i]; /* the next start is at much smaller forces */
   }
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "cones that start again: %s\n",
     solved && PetscIsNormalReal(error) ? "inside" : "OUTSIDE"));

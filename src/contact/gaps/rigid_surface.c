@@ -66,16 +66,19 @@ static void SurfacePlaceBefore(const ContactPairData *pair, const ContactSurface
 {
   const PetscReal r[3] = {x[0] - pair->corner_at[0][0], x[1] - pair->corner_at[0][1], x[2] - pair->corner_at[0][2]};
 
-  SurfaceTurn(r, motion->edge, motion->cube.edge, before);
-  for (PetscInt c = 0; c < 3; ++c) before[c] += motion->cube.corner[c];
+  for (PetscInt c = 0; c < 3; ++c) {
+    before[c] = motion->cube.corner[c];
+    for (PetscInt i = 0; i < 3; ++i) before[c] += VectorDot(r, motion->edge[i]) * motion->cube.edge[i][c];
+  }
 }
 
-/* Computes the weights of the four corners of the cube at the point y */
-static void SurfaceWeigh(const ContactPairData *pair, const ContactSurfaceMotion *motion, const PetscReal y[3],
-  PetscReal weight[4])
+/* Computes the weights of the four corners of the cube at the point x - distance normal */
+static void SurfaceWeigh(const ContactPairData *pair, const ContactSurfaceMotion *motion, const PetscReal x[3],
+  PetscReal distance, const PetscReal normal[3], PetscReal weight[4])
 {
-  const PetscReal r[3] = {y[0] - pair->corner_at[0][0], y[1] - pair->corner_at[0][1], y[2] - pair->corner_at[0][2]};
+  PetscReal r[3];
 
+  for (PetscInt c = 0; c < 3; ++c) r[c] = x[c] - pair->corner_at[0][c] - distance * normal[c];
   weight[0] = 1.0;
   for (PetscInt i = 0; i < 3; ++i) {
     weight[i + 1] = VectorDot(r, motion->edge[i]) / motion->cube.size;
@@ -89,14 +92,13 @@ PetscReal ContactSurfaceDistance(const ContactPairData *pair, const PetscReal x[
   PetscReal weight[4])
 {
   ContactSurfaceMotion motion;
-  PetscReal            before[3], turned[3], y[3], distance;
+  PetscReal            before[3], turned[3], distance;
 
   SurfaceGetMotion(pair, &motion);
   SurfacePlaceBefore(pair, &motion, x, before);
   distance = SceneSurfaceDistance(pair->formula, before, turned);
   SurfaceTurn(turned, motion.cube.edge, motion.edge, gradient);
-  for (PetscInt c = 0; c < 3; ++c) y[c] = x[c] - distance * gradient[c];
-  SurfaceWeigh(pair, &motion, y, weight);
+  SurfaceWeigh(pair, &motion, x, distance, gradient, weight);
   return distance;
 }
 
@@ -120,9 +122,8 @@ PetscInt ContactSurfaceFindCorners(const ContactPairData *pair, const PetscReal 
                     normal[3] = {corner[i].normal[0], corner[i].normal[1], corner[i].normal[2]};
 
     SurfaceTurn(normal, motion.cube.edge, motion.edge, corner[i].normal);
-    for (PetscInt c = 0; c < 3; ++c)
-      y[c] = (1.0 - share) * ends[c] + share * ends[3 + c] + corner[i].gap * corner[i].normal[c];
-    SurfaceWeigh(pair, &motion, y, weight[i]);
+    for (PetscInt c = 0; c < 3; ++c) y[c] = (1.0 - share) * ends[c] + share * ends[3 + c];
+    SurfaceWeigh(pair, &motion, y, -corner[i].gap, corner[i].normal, weight[i]);
   }
   return n;
 }
