@@ -75,9 +75,9 @@ bin/contact: $(program_objects) $(LIBRARY) $(PLUGIN) $(configuration)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $(program_objects) $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' \
 	  $(PETSC_LIBS) $(CONTACT_LIBS) -o $@
 
-bin/contact-mesh bin/contact-ccx: bin/%: share/python/%.sh makefile
+bin/contact-mesh bin/contact-ccx: share/python/program.sh makefile
 	@mkdir -p $(@D)
-	$(Q)sed 's|@PYTHON@|$(PYTHON)|' $< > $@ && chmod 755 $@
+	$(Q)sed 's|@PYTHON@|$(PYTHON)|; s|@NAME@|$(@F)|; s|@FILE@|$(subst -,_,$(@F)).py|' $< > $@ && chmod 755 $@
 
 .PRECIOUS: build/%.o
 -include $(wildcard $(addprefix build/,apps/*.d pc_amgf/*.d pc_amgf/*/*.d tao_ipfilter/*.d tao_ipfilter/*/*.d \

@@ -512,6 +512,12 @@ PETSC_EXTERN PetscReal SceneSurfaceRadius(const SceneBody *);
 PETSC_EXTERN PetscErrorCode SceneContactPairSetSelf(PetscInt nbodies, SceneBody bodies[], SceneContactPair *);
 /* Returns the body that a face belongs to */
 PETSC_EXTERN const SceneBody *SceneFaceBody(Scene, const char face[]);
+/* Returns whether a pair is between two rigid bodies */
+static inline PetscBool SceneContactPairIsRigid(Scene scene, const SceneContactPair *pair)
+{
+  return (PetscBool)(SceneFaceBody(scene, pair->mortar)->material.type == MATERIAL_RIGID &&
+                     SceneFaceBody(scene, pair->nonmortar)->material.type == MATERIAL_RIGID);
+}
 /* Evaluates an expression in x, y and z at a point */
 PETSC_EXTERN PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value);
 

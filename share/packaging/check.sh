@@ -1,5 +1,5 @@
 #!/bin/sh
-# Usage: check.sh FOLDER
+# Usage: check.sh FOLDER, a folder for the packages
 # Builds the Debian packages of the last commit in a bare Debian 12, copies them to FOLDER, and tries them in another
 # bare Debian 12. Needs mmdebstrap, root and the network. The last line reads "packages: all right".
 set -eu

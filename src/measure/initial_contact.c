@@ -161,12 +161,8 @@ static PetscErrorCode StartWarnOfFrictionless(Simulation sim, PetscInt p)
    step, so that the velocity after it depends on where in the step the bodies meet */
 static PetscErrorCode StartWarnOfRigid(Simulation sim, const SceneContactPair *pair)
 {
-  Scene scene = sim->scene;
-
   PetscFunctionBegin;
-  if (!SceneIsDynamic(scene) || SceneFaceBody(scene, pair->mortar)->material.type != MATERIAL_RIGID ||
-      SceneFaceBody(scene, pair->nonmortar)->material.type != MATERIAL_RIGID)
-    PetscFunctionReturn(0);
+  if (!SceneIsDynamic(sim->scene) || !SceneContactPairIsRigid(sim->scene, pair)) PetscFunctionReturn(0);
   PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
     "contact pair \"%s\" is between two rigid bodies, whose rebound depends on the time steps; their energy does not "
     "grow: give one of the two bodies an elastic material if the rebound matters",

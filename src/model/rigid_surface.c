@@ -81,8 +81,9 @@ void SceneSurfaceGetCube(const SceneBody *body, SceneSurfaceCube *cube)
 }
 
 /*
-   Writes a rigid surface as words for programs that draw it: the name of its shape, and its parameters own[] in the
-   order of the indices SURFACE_POINT, ...; of an STL file its scale and its name
+   Writes a rigid surface as words separated by blanks, for programs that draw it. The first word is the shape. The
+   numbers own[] follow, in the order of the indices SURFACE_POINT, SURFACE_AXIS and so on. For an STL file the scale
+   and the file's name follow instead.
 */
 PetscErrorCode SceneSurfaceWrite(const SceneBody *body, const char shape[], char text[], size_t length)
 {
@@ -194,16 +195,16 @@ static PetscReal ProfileTurn(const PetscReal p[], PetscInt k, PetscReal normal[2
   return PetscAtan2Real(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
 }
 
-/* Computes where corner k of the profile is nearest to the edge. Returns false if that is not within the edge, or if
-   the edge's face looks away from the corner. */
+/*
+   Computes where corner k of the profile is nearest to the edge. Returns false if that is not within the edge, or if
+   the edge's face looks away from the corner. from, to: the edge's ends in the plane of the profile
+*/
 static PetscBool ProfileMeetsEdge(const SceneBody *body, PetscInt k, const PetscReal ends[6],
-  const PetscReal normals[6], SceneSurfaceCorner *corner)
+  const PetscReal normals[6], const PetscReal from[2], const PetscReal to[2], SceneSurfaceCorner *corner)
 {
   const PetscReal *p = &body->own[SURFACE_PROFILE + 1];
-  PetscReal        from[2], to[2], unit[2][3], x[3], place[2], outward[2], turn, size, across = 0.0, facing = 0.0;
+  PetscReal        unit[2][3], x[3], place[2], outward[2], turn, size, across = 0.0, facing = 0.0;
 
-  ProfilePlace(body, ends, from, unit);
-  ProfilePlace(body, ends + 3, to, unit);
   size = PetscSqrtReal(PetscSqr(to[0] - from[0]) + PetscSqr(to[1] - from[1]));
   turn = ProfileTurn(p, k, outward);
   if (!(turn > 0.0) || body->own[SURFACE_OUTSIDE] * turn >= size) return PETSC_FALSE;
@@ -234,11 +235,14 @@ PetscInt SceneSurfaceFindCorners(const SceneBody *body, const PetscReal ends[6],
 {
   const PetscInt n     = SceneSurfaceHasProfile(body) ? (PetscInt)body->own[SURFACE_PROFILE] / 2 : 0;
   PetscInt       found = 0;
+  PetscReal      from[2], to[2], unit[2][3];
 
+  ProfilePlace(body, ends, from, unit);
+  ProfilePlace(body, ends + 3, to, unit);
   for (PetscInt k = 1; k + 1 < n; ++k) {
     SceneSurfaceCorner corner;
 
-    if (!ProfileMeetsEdge(body, k, ends, normals, &corner)) continue;
+    if (!ProfileMeetsEdge(body, k, ends, normals, from, to, &corner)) continue;
     if (found < 2) deepest[found++] = corner;
     else {
       const PetscInt higher = deepest[0].gap > deepest[1].gap ? 0 : 1;

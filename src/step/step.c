@@ -193,9 +193,7 @@ static PetscErrorCode SimulationWarnOfGain(Simulation sim, const StepReport *rep
   for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
     const SceneContactPair *pair = &sim->scene->pairs[p];
 
-    intended = (PetscBool)(intended || pair->interference > 0.0 ||
-                           (SceneFaceBody(sim->scene, pair->mortar)->material.type == MATERIAL_RIGID &&
-                             SceneFaceBody(sim->scene, pair->nonmortar)->material.type == MATERIAL_RIGID));
+    intended = (PetscBool)(intended || pair->interference > 0.0 || SceneContactPairIsRigid(sim->scene, pair));
   }
   if (!report->converged || !report->nmotions || intended) PetscFunctionReturn(0);
   energy =

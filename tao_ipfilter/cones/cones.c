@@ -290,7 +290,7 @@ static PetscErrorCode ConesSetLaws(Cones s, PetscBool matrix, PetscBool *ready)
   *ready = PETSC_TRUE;
   for (PetscInt i = 0; i < s->c->n; i++) {
     PetscCall(ConeLaw(&s->cone[i], &s->c->D[9 * i], &s->c->s[3 * i]));
-    ContactsHold(s->c, i);
+    ContactsProjectLaw(s->c, i);
   }
   if (matrix) PetscCall(s->bodies->prepare(s->bodies->data, s->c->D, ready));
   PetscFunctionReturn(0);
@@ -313,12 +313,12 @@ static PetscErrorCode ConesFindSizes(Cones s, PetscBool *found)
       c->D[9 * i + 4 * r] = PetscSqr(s->cone[i].scale[r > 0]);
       c->s[3 * i + r]     = -c->D[9 * i + 4 * r] * c->u[3 * i + r];
     }
-    ContactsHold(c, i);
+    ContactsProjectLaw(c, i);
   }
   PetscCall(s->bodies->residual(s->bodies->data, c->f, sizes));
   s->force = sizes[0];
   PetscCall(s->bodies->prepare(s->bodies->data, c->D, found));
-  if (*found) PetscCall(ContactsStep(c, s->bodies, 0.01, 0.0, s->du, s->df, found));
+  if (*found) PetscCall(ContactsStep(c, s->bodies, 0.01, s->du, s->df, found));
   if (!*found) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < c->n; i++) {
     for (PetscInt r = 0; r < 3; r++) {
@@ -388,7 +388,7 @@ static PetscErrorCode ConesDirection(Cones s, PetscReal target, PetscBool correc
   PetscFunctionBegin;
   for (PetscInt i = 0; i < s->c->n; i++) ConeSetTarget(&s->cone[i], target, corrector);
   PetscCall(ConesSetLaws(s, (PetscBool)!corrector, solved));
-  if (*solved) PetscCall(ContactsStep(s->c, s->bodies, 1.0, 0.0, s->du, s->df, solved));
+  if (*solved) PetscCall(ContactsStep(s->c, s->bodies, 1.0, s->du, s->df, solved));
   if (!*solved) PetscFunctionReturn(0);
   *t = PETSC_INFINITY;
   for (PetscInt i = 0; i < s->c->n; i++) {

@@ -54,10 +54,9 @@ typedef struct {
   PetscErrorCode (*residual)(void *, const PetscReal f[], PetscReal sizes[3]);
   /* sets the matrix K + R^T D R. *prepared: false if it is singular */
   PetscErrorCode (*prepare)(void *, const PetscReal D[], PetscBool *prepared);
-  /* solves (K + R^T D R) dx = R^T s - r until the residual is at most that fraction of the first one, or at most the
-     target, in the measure of sizes[0]; du = R dx */
-  PetscErrorCode (
-    *solve)(void *, const PetscReal s[], PetscReal fraction, PetscReal target, PetscReal du[], PetscBool *solved);
+  /* solves (K + R^T D R) dx = R^T s - r. The search space of dx is extended until the residual, in the measure of
+     sizes[0], is at most `fraction` of that in the present space; 1: it is not extended. du = R dx */
+  PetscErrorCode (*solve)(void *, const PetscReal s[], PetscReal fraction, PetscReal du[], PetscBool *solved);
   PetscErrorCode (*advance)(void *, PetscReal fraction); /* adds fraction dx to x */
   PetscErrorCode (*keep)(void *, PetscBool back);        /* copies x to a second place, or from there */
   PetscErrorCode (*interrupted)(void *, PetscBool *);    /* whether the user wants to end the solve */
@@ -78,13 +77,12 @@ PETSC_INTERN PetscErrorCode ContactsDestroy(Contacts *);
 PETSC_INTERN void           ContactsSetLaw(Contacts *, PetscInt i, PetscReal limit, PetscReal coefficient);
 PETSC_INTERN PetscReal      ContactsBound(const Contacts *, PetscInt i, PetscReal normal_force);
 PETSC_INTERN void           ContactsRemoveRigid(const Contacts *, PetscInt i, PetscReal u[3]);
-PETSC_INTERN void           ContactsHold(const Contacts *, PetscInt i);
-PETSC_INTERN void           ContactsSetNoSlip(const Contacts *, PetscInt i);
+PETSC_INTERN void           ContactsProjectLaw(const Contacts *, PetscInt i);
 PETSC_INTERN PetscErrorCode ContactsViolation(const Contacts *, const PetscReal force[], const PetscReal motion[],
   PetscReal *violation, PetscReal *rounding);
 PETSC_INTERN PetscErrorCode ContactsNorm(const Contacts *, const PetscReal du[], PetscReal *norm);
-PETSC_INTERN PetscErrorCode ContactsStep(Contacts *, const ContactBodies *, PetscReal fraction, PetscReal target,
-  PetscReal du[], PetscReal df[], PetscBool *solved);
+PETSC_INTERN PetscErrorCode ContactsStep(Contacts *, const ContactBodies *, PetscReal fraction, PetscReal du[],
+  PetscReal df[], PetscBool *solved);
 
 /* cones.c */
 typedef struct _p_Cones *Cones;

@@ -54,18 +54,8 @@ void ContactsRemoveRigid(const Contacts *c, PetscInt i, PetscReal u[3])
   IPTermRemoveRigid(&c->rigid[2 * i], u + 1);
 }
 
-/* Sets the linearized law of tangential components without slip: v = 0, by springs */
-void ContactsSetNoSlip(const Contacts *c, PetscInt i)
-{
-  for (PetscInt a = 1; a < 3; a++) {
-    for (PetscInt b = 0; b < 3; b++) c->D[9 * i + 3 * a + b] = 0.0;
-    c->D[9 * i + 4 * a] = 1.0 / (CONTACT_WEAK * c->compliance[2 * i + 1]);
-    c->s[3 * i + a]     = -c->u[3 * i + a] * c->D[9 * i + 4 * a];
-  }
-}
-
 /* Projects D and s of a contact such that they leave out the direction in which it cannot slip */
-void ContactsHold(const Contacts *c, PetscInt i)
+void ContactsProjectLaw(const Contacts *c, PetscInt i)
 {
   const PetscReal *rigid = &c->rigid[2 * i];
   PetscReal       *D     = &c->D[9 * i];
@@ -131,13 +121,13 @@ PetscErrorCode ContactsNorm(const Contacts *c, const PetscReal du[], PetscReal *
 
 /*
    Solves the bodies' equations with the linearized laws df = s - D du in place of the laws. du, df: changes of motions
-   and forces; fraction, target: accuracy of the solve, see ContactBodies
+   and forces; fraction: accuracy of the solve, see ContactBodies
 */
-PetscErrorCode ContactsStep(Contacts *c, const ContactBodies *bodies, PetscReal fraction, PetscReal target,
-  PetscReal du[], PetscReal df[], PetscBool *solved)
+PetscErrorCode ContactsStep(Contacts *c, const ContactBodies *bodies, PetscReal fraction, PetscReal du[],
+  PetscReal df[], PetscBool *solved)
 {
   PetscFunctionBegin;
-  PetscCall(bodies->solve(bodies->data, c->s, fraction, target, du, solved));
+  PetscCall(bodies->solve(bodies->data, c->s, fraction, du, solved));
   if (!*solved) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < c->n; i++) {
     ContactsRemoveRigid(c, i, &du[3 * i]);

@@ -8,15 +8,6 @@
 #include "tao_ipfilter/measure/measureimpl.h"
 
 /*
-   Returns the largest tangential force of a closed contact at its present normal force. A limit alone does not
-   depend on that force.
-*/
-static PetscReal NewtonBound(const Contacts *c, PetscInt i)
-{
-  return c->coefficient[i] < 0.0 ? c->limit[i] : ContactsBound(c, i, c->f[3 * i]);
-}
-
-/*
    Guesses which contacts are closed. interior: forces and motions are those of the interior point method, which are
    both positive; the larger one, in units of force, tells the state. Otherwise contacts with a force are closed.
 */
@@ -47,6 +38,16 @@ static void NewtonNormalLaw(const Contacts *c, PetscInt i, PetscReal D[9], Petsc
   s[0] = c->closed[i] ? -u / (CONTACT_WEAK * compliance) : -f;
 }
 
+/* Sets the linearized law of tangential components without slip: v = 0, by springs */
+static void NewtonStickLaw(const Contacts *c, PetscInt i)
+{
+  for (PetscInt a = 1; a < 3; a++) {
+    for (PetscInt b = 0; b < 3; b++) c->D[9 * i + 3 * a + b] = 0.0;
+    c->D[9 * i + 4 * a] = 1.0 / (CONTACT_WEAK * c->compliance[2 * i + 1]);
+    c->s[3 * i + a]     = -c->u[3 * i + a] * c->D[9 * i + 4 * a];
+  }
+}
+
 /*
    Sets the linearized law of the tangential components of a contact that slips: tau = b d with d = t / |t|,
    t = tau - rho v, b = min(limit, coefficient x f_n)
@@ -55,7 +56,7 @@ static void NewtonSlipLaw(const Contacts *c, PetscInt i, const PetscReal t[2], P
   PetscReal s[3])
 {
   const PetscReal *f = &c->f[3 * i], rho = 1.0 / c->compliance[2 * i + 1];
-  const PetscReal  bound = NewtonBound(c, i), theta = PetscMin(bound / size, 1.0),
+  const PetscReal  bound = ContactsBound(c, i, f[0]), theta = PetscMin(bound / size, 1.0),
                   slope = c->coefficient[i] < 0.0 || bound >= c->limit[i] ? 0.0 : c->coefficient[i],
                   d[2] = {t[0] / size, t[1] / size}, stiff = rho * PetscMin(theta / (1.0 - theta), 1.0 / CONTACT_WEAK);
   PetscReal off[2], along;
@@ -89,7 +90,7 @@ void ContactsLinearize(const Contacts *c, PetscInt i)
   for (PetscInt a = 0; a < 2; a++) t[a] = f[1 + a] - u[1 + a] / compliance;
   size = PetscSqrtReal(t[0] * t[0] + t[1] * t[1]);
   if (size > ContactsBound(c, i, f[0] - u[0] / c->compliance[2 * i])) NewtonSlipLaw(c, i, t, size, D, s);
-  else ContactsSetNoSlip(c, i);
+  else NewtonStickLaw(c, i);
 }
 
 /*
@@ -137,11 +138,11 @@ PetscErrorCode ContactsNewtonStep(Contacts *c, const ContactBodies *bodies, Pets
   PetscCall(PetscCalloc2(3 * c->n, &du, 3 * c->n, &df));
   for (PetscInt i = 0; i < c->n; i++) {
     ContactsLinearize(c, i);
-    ContactsHold(c, i);
+    ContactsProjectLaw(c, i);
   }
   PetscCall(bodies->residual(bodies->data, c->f, sizes));
   PetscCall(bodies->prepare(bodies->data, c->D, solved));
-  if (*solved) PetscCall(ContactsStep(c, bodies, forcing, 0.0, du, df, solved));
+  if (*solved) PetscCall(ContactsStep(c, bodies, forcing, du, df, solved));
   if (*solved) {
     PetscCall(NewtonChooseFraction(c, du, df, sizes[2], &fraction, merit));
     for (PetscInt r = 0; r < 3 * c->n; r++) {

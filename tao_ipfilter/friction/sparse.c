@@ -168,20 +168,11 @@ static PetscErrorCode TermSparseFactor(const TermSparse *p, Mat A, PetscBool *so
 {
   PetscInt       relaxation = AMGF_MUMPS_RELAXATION;
   MatFactorError error;
-  MatFactorInfo  info;
-  Mat            F, B, X;
+  Mat            F = NULL, B, X;
 
   PetscFunctionBegin;
-  PetscCall(MatFactorInfoInitialize(&info));
-  do {
-    PetscCall(MatGetFactor(A, MATSOLVERMUMPS, MAT_FACTOR_LU, &F));
-    PetscCall(AMGFMumpsSetIcntl(F, 14, relaxation));
-    PetscCall(MatLUFactorSymbolic(F, A, NULL, NULL, &info));
-    PetscCall(MatLUFactorNumeric(F, A, &info));
-    PetscCall(MatFactorGetError(F, &error));
-    *solved = (PetscBool)(error == MAT_FACTOR_NOERROR);
-    if (!*solved) PetscCall(MatDestroy(&F));
-  } while (error == MAT_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, &relaxation));
+  PetscCall(AMGFMumpsFactorLU(A, &relaxation, &F, &error));
+  *solved = (PetscBool)(error == MAT_FACTOR_NOERROR);
   if (!*solved) PetscFunctionReturn(0);
   PetscCall(MatCreateSeqDense(PETSC_COMM_SELF, p->nw + p->n, p->nd + 1, p->x, &B));
   PetscCall(MatDuplicate(B, MAT_COPY_VALUES, &X));

@@ -161,7 +161,7 @@ DECKS = {
     "orthotropic": (deck(
         push(-0.02), elastic="*ELASTIC, TYPE=ENGINEERING CONSTANTS\n"
         "2000., 1000., 500., 0., 0., 0., 400., 300.,\n200."), {"reaction": 5}),
-    # the stiffness of the third axis, 500, lies along x of the body
+    # The first material axis, with the modulus 2000, lies along z. The top is pushed along z.
     "stiffness": (deck(push(-0.02), elastic="*ELASTIC, TYPE=ORTHO\n2000., 0., 1000., 0., 0., 500., 400., 300.,\n200.",
                        more="*ORIENTATION, NAME=OR, SYSTEM=RECTANGULAR\n0., 0., 1., 1., 0., 0.").replace(
                            "MATERIAL=EL\n*B", "MATERIAL=EL, ORIENTATION=OR\n*B"), {"reaction": 20}),

@@ -4,6 +4,7 @@ import sys
 from decks import DECKS, push
 from summaries import say
 
+# A cube: its corners, and the numbers of the corners of its edges, in the order of CalculiX's cell of 20 nodes
 CORNERS = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
 EDGES = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7))
 
