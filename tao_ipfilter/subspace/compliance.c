@@ -47,8 +47,8 @@ PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, PetscBool *definite)
 }
 
 /*
-   Finds whether K, which is not positive definite, has a clearly negative eigenvalue: it is not positive definite either
-   after its diagonal is increased by a small part. K is otherwise singular, or has motions that stresses destabilize a
+   Finds whether K, which is not positive definite, has a clearly negative eigenvalue: it is not positive definite
+   either after its diagonal is increased by a small part. K is otherwise singular, or has motions that stresses destabilize a
    little, as rotations of bodies that only contact holds.
 */
 PetscErrorCode IPComplianceIsNegative(Mat K, PetscBool *negative)
