@@ -21,7 +21,9 @@ plugin_sources  := $(wildcard pc_amgf/*.c src/plugin/*.c $(if $(PETSC_COMPLEX),,
 plugin_objects  := $(patsubst %.c,build/%.o,$(plugin_sources))
 library_objects := $(filter-out build/src/plugin/%,$(patsubst %.c,build/%.o,$(wildcard src/*/*.c src/*/*/*.c)))
 program_objects := $(patsubst %.c,build/%.o,$(wildcard apps/*.c))
-programs        := $(if $(PETSC_COMPLEX),,bin/contact)
+# PLUGIN_ONLY=1 builds and installs the plugin alone, which needs PETSc alone
+only_plugin     := $(PETSC_COMPLEX)$(PLUGIN_ONLY)
+programs        := $(if $(only_plugin),,bin/contact)
 # What is linked changes when a source file comes or goes, not only when one changes
 source_list := build/sources.list
 
@@ -30,7 +32,8 @@ source_list := build/sources.list
 .DELETE_ON_ERROR:
 .SUFFIXES:
 
-all: $(PLUGIN) $(if $(PETSC_COMPLEX),complex,$(LIBRARY)) $(programs) $(if $(programs),bin/contact-mesh)
+all: $(PLUGIN) $(if $(PETSC_COMPLEX),complex) \
+  $(if $(only_plugin),,$(LIBRARY) $(programs) bin/contact-mesh bin/contact-ccx)
 
 complex: $(PLUGIN)
 	@echo 'The scalars of this PETSc are complex: the plugin is PCAMGF alone, for ipfilter and contact need real ones'
@@ -44,7 +47,7 @@ build/%.o: %.c makefile share/toolchain.mk $(configuration)
 # Products and sums of the V-cycle become one instruction where the processor has it. Vectors of 8 floats are never
 # arguments of functions that are not inlined.
 build/pc_amgf/blockamg/sweep.o: COMPILE_FLAGS += -ffp-contract=fast -Wno-psabi
-build/src/output/page.o build/src/mesh/gmsh/convert.o: COMPILE_FLAGS += -DCONTACT_PYTHON='"$(PYTHON)"'
+build/src/output/page.o build/src/mesh/gmsh/convert.o build/apps/deck.o: COMPILE_FLAGS += -DCONTACT_PYTHON='"$(PYTHON)"'
 
 $(source_list): FORCE
 	@mkdir -p $(@D)
@@ -72,9 +75,9 @@ bin/contact: $(program_objects) $(LIBRARY) $(PLUGIN) $(configuration)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) $(program_objects) $(LIBRARY) -Llib -lpetscamgf '-Wl,-rpath,$$ORIGIN/../lib' \
 	  $(PETSC_LIBS) $(CONTACT_LIBS) -o $@
 
-bin/contact-mesh: share/python/contact-mesh.sh
+bin/contact-mesh bin/contact-ccx: share/python/program.sh makefile
 	@mkdir -p $(@D)
-	$(Q)install -m 755 $< $@
+	$(Q)sed 's|@PYTHON@|$(PYTHON)|; s|@NAME@|$(@F)|; s|@FILE@|$(subst -,_,$(@F)).py|' $< > $@ && chmod 755 $@
 
 .PRECIOUS: build/%.o
 -include $(wildcard $(addprefix build/,apps/*.d pc_amgf/*.d pc_amgf/*/*.d tao_ipfilter/*.d tao_ipfilter/*/*.d \
@@ -125,6 +128,7 @@ scene-stress: dependencies
 
 include share/doc.mk
 include share/install.mk
+include share/packaging.mk
 include share/checks.mk
 include share/bench.mk
 include share/published.mk
@@ -161,6 +165,8 @@ help:
 	@echo 'make doc             guides and manual pages in build/doc; needs pandoc'
 	@echo 'make install         installs into PREFIX=$(PREFIX); DESTDIR is put in front of it'
 	@echo 'make uninstall       removes what make install has installed'
+	@echo '    PLUGIN_ONLY=1             all and install: the plugin alone, which needs PETSc alone'
+	@echo 'make deb             packages for Debian in build/deb; make deb-check tries them in a bare Debian 12'
 	@echo 'make clean           removes build, bin and lib'
 	@echo
 	@echo 'PETSC_DIR, PETSC_ARCH  the PETSc to use (now: $(or $(PETSC_PREFIX),none found))'

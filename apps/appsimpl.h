@@ -11,7 +11,7 @@ typedef struct {
     checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN], report[PETSC_MAX_PATH_LEN];
   PetscInt  checkpoint_every; /* number of load steps from one checkpoint to the next; 0: a checkpoint is written
                                  only if a signal ends the run */
-  PetscBool write, gauss, restarts, summarize, contact_free, effects, accuracy, check, quiet, page;
+  PetscBool write, gauss, restarts, summarize, contact_free, tables, check, quiet, page;
 } AppOptions;
 
 /* State of main() for the handling of errors */
@@ -22,7 +22,7 @@ typedef struct {
   PetscBool silent;    /* another rank prints the message */
   int       end;       /* exit code of the program */
   PetscBool alone;     /* the error occurred on this rank only, and no other rank knows of it */
-  char      sentence[512];
+  char      sentence[1536];
 } AppError;
 
 /*
@@ -43,6 +43,9 @@ PETSC_INTERN PetscErrorCode AppGetVersions(char text[], size_t length);
 /* options.c */
 PETSC_INTERN PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *);
 PETSC_INTERN PetscErrorCode AppCheckWords(int argc, char **argv);
+
+/* deck.c */
+PETSC_INTERN PetscErrorCode AppTranslateDeck(AppOptions *);
 
 /* files.c: checks the names of all files, and that they can be written, before the run begins */
 PETSC_INTERN PetscErrorCode AppGetCheckpointFile(const AppOptions *, Scene, char file[PETSC_MAX_PATH_LEN]);

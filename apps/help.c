@@ -3,6 +3,7 @@
 #include <string.h>
 
 const char AppHelp[] = "Contact of deformable bodies: contact SCENE.yaml [options]. SCENE.yaml describes the model.\n\
+contact DECK.inp translates a deck of Abaqus or CalculiX into the scene DECK_deck.yaml and runs it.\n\
   -refine N            number of uniform refinements of the mesh\n\
   -load_steps N        number of load steps of equal size\n\
   -contact_updates N   largest number of contact updates per load step (20); with 1 the gap is not checked\n\
@@ -22,10 +23,10 @@ Results\n\
   -checkpoint FILE     name of the checkpoint; default BASE_checkpoint.h5, or <problem>_checkpoint.h5 without -output\n\
   -restart FILE        continue from a checkpoint; ranks, -refine and the later load program may differ\n\
 What is printed\n\
-  -accuracy_view       the meshes that -accuracy chose and their errors, also with -quiet\n\
-  -effects_view        which effects the scene uses, why, and their share of the time\n\
+  -tables_view         also with -quiet: tables of load steps, solver, forces, energy, errors, meshes of -accuracy,\n\
+                       times, memory, and effects: which ones the scene uses, why, and their share of the time\n\
   -contact_free        a comparison with the first load step without contact\n\
-  -quiet               no line per iteration and no tables\n\
+  -quiet               no line per iteration and no largest values\n\
   -traceback           PETSc's traceback after an error\n\
 Without a run\n\
   -scene_check         check the scene, build its mesh, print what would be simulated\n\

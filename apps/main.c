@@ -24,16 +24,20 @@ static PetscErrorCode AppShowProgress(void)
   PetscFunctionReturn(0);
 }
 
+/* Refuses what a run refuses before its first load step, and prints what would be simulated */
 static PetscErrorCode AppCheckScene(Scene scene)
 {
-  DM dm;
+  Simulation sim;
+  DM         dm;
 
   PetscFunctionBeginUser;
-  PetscCall(MeshCreateScene(PETSC_COMM_WORLD, scene, NULL, &dm));
-  PetscCall(MeshCheckScene(dm, scene));
+  PetscCall(SimulationCreate(PETSC_COMM_WORLD, scene, &sim));
+  PetscCall(SimulationSetFromOptions(sim));
+  PetscCall(SimulationCheck(sim));
+  PetscCall(SimulationGetDM(sim, &dm));
   PetscCall(SceneDescribe(scene, dm, PETSC_VIEWER_STDOUT_WORLD));
   PetscCall(StepDescribeContact(scene, dm, PETSC_VIEWER_STDOUT_WORLD));
-  PetscCall(DMDestroy(&dm));
+  PetscCall(SimulationDestroy(&sim));
   PetscFunctionReturn(0);
 }
 
@@ -109,7 +113,10 @@ static PetscErrorCode AppRun(int argc, char **argv, AppError *error, ReportPage 
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-traceback", &error->traceback, NULL));
   PetscCall(AppGetOptions(argc, argv, &app));
   PetscCall(AppCheckWords(argc, argv));
-  if (app.scene[0]) PetscCall(AppRunScene(&app, end));
+  if (app.scene[0]) {
+    PetscCall(AppTranslateDeck(&app));
+    PetscCall(AppRunScene(&app, end));
+  }
   if (app.scene[0] && !app.check) PetscCall(AppDescribePage(&app, argc, argv, page));
   PetscFunctionReturn(0);
 }

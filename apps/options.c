@@ -51,10 +51,9 @@ PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
     sizeof(app->report), &app->page));
   PetscCall(PetscOptionsBool("-contact_free", "Also solve the first load step without contact, for comparison", NULL,
     app->contact_free, &app->contact_free, NULL));
-  PetscCall(PetscOptionsBool("-accuracy_view", "Print the meshes that -accuracy chose, and their errors", NULL,
-    app->accuracy, &app->accuracy, NULL));
-  PetscCall(PetscOptionsBool("-effects_view", "Print which effects the scene uses, why, and their share of the time",
-    NULL, app->effects, &app->effects, NULL));
+  PetscCall(
+    PetscOptionsBool("-tables_view", "Print tables of load steps, solver, forces, energy, errors, times, memory", NULL,
+      app->tables, &app->tables, NULL));
   PetscCall(PetscOptionsBool("-scene_check", "Check the scene, build its mesh, print what would be simulated, and stop",
     NULL, app->check, &app->check, NULL));
   PetscCall(PetscOptionsBool("-quiet", "Print neither iterations nor tables", NULL, app->quiet, &app->quiet, NULL));

@@ -36,17 +36,36 @@ static PetscErrorCode AppCreateOutput(const AppOptions *app, Scene scene, Simula
   PetscCall(SimulationGetDM(sim, &dm));
   PetscCall(OutputCreate(dm, scene->nbodies, names, app->output, output));
   PetscCall(OutputSetUnits(*output, scene->units));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    char text[PETSC_MAX_PATH_LEN];
+
+    if (!SceneBodyIsSurface(&scene->bodies[b])) continue;
+    PetscCall(SceneSurfaceWrite(&scene->bodies[b], BodyShapes[scene->bodies[b].shape], text, sizeof(text)));
+    PetscCall(OutputSetSurface(*output, b, text));
+  }
   PetscCall(PetscFree(names));
+  PetscFunctionReturn(0);
+}
+
+/* Prints the names of the files that the run has written */
+static PetscErrorCode AppViewFiles(const AppOptions *app)
+{
+  PetscFunctionBeginUser;
+  if (app->write || app->summarize) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %-22s", "files"));
+  if (app->write) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s.xmf %s.csv", app->output, app->output));
+  if (app->summarize) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s", app->summary));
+  if (app->page) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s", app->report));
+  if (app->write || app->summarize) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "\n"));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode AppReport(const AppOptions *app, const RunReport *report)
 {
   PetscFunctionBeginUser;
+  if (app->tables) PetscCall(ReportViewTables(report, PETSC_VIEWER_STDOUT_WORLD));
+  else if (report->accuracy && !app->quiet) PetscCall(ReportViewAccuracy(report, PETSC_VIEWER_STDOUT_WORLD));
   if (!app->quiet) PetscCall(ReportView(report, PETSC_VIEWER_STDOUT_WORLD));
-  if (app->accuracy && (app->quiet || !report->accuracy))
-    PetscCall(ReportViewAccuracy(report, PETSC_VIEWER_STDOUT_WORLD));
-  if (app->effects) PetscCall(ReportViewEffects(report, PETSC_VIEWER_STDOUT_WORLD));
+  if (!app->quiet) PetscCall(AppViewFiles(app));
   if (app->summarize) PetscCall(ReportWriteJSON(PETSC_COMM_WORLD, report, app->summary));
   if (!report->converged)
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, stderr, "contact: load step %" PetscInt_FMT " failed: %s\n",

@@ -11,8 +11,10 @@ typedef struct _n_Contact *Contact;
 
 /* Data of one contact update. Rows are distributed like their nonmortar vertices. */
 typedef struct {
-  Vec g; /* gap at u_ref, divided by the lumped mass [length] */
-  Mat J; /* m x n AIJ, derivative of the gap, dimensionless; columns are the DM's global rows */
+  Vec g;     /* gap at u_ref, divided by the lumped mass [length] */
+  Vec doubt; /* uncertainty of the gap between smooth surfaces: they may be as much higher than the true ones
+                [length] */
+  Mat J;     /* m x n AIJ, derivative of the gap, dimensionless; columns are the DM's global rows */
   /* derivative of the gap that includes the rotation of the normals; J is the derivative for patches of smooth pairs
      that keep their shape. NULL if no pair is smooth, or if it was not requested */
   Mat       derivative;

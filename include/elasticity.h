@@ -13,6 +13,16 @@
 
 typedef struct _n_Elasticity *Elasticity;
 
+/* A largest value, and its undeformed place [length] */
+typedef struct {
+  PetscReal value, place[3];
+} LargestValue;
+
+/* Largest values at the nodes of a body [force/length^2], [length] */
+typedef struct {
+  LargestValue von_mises, displacement;
+} LargestOfBody;
+
 /* Creates the elasticity of a mesh. materials[b] and elements[b] belong to the cells whose label "body" has the
    value b. elements: NULL selects full integration for all bodies. */
 PETSC_EXTERN PetscErrorCode ElasticityCreate(DM, PetscInt nbodies, const Material materials[],
@@ -98,8 +108,6 @@ PETSC_EXTERN PetscErrorCode ElasticityBoundStrain(Elasticity, Vec u, PetscReal b
 PETSC_EXTERN PetscErrorCode ElasticityMeasureStrain(Elasticity, Vec u, PetscReal values[][3]);
 /* Computes the mean Cauchy stress of each local cell, 7 values: xx yy zz xy yz zx and von Mises [force/length^2] */
 PETSC_EXTERN PetscErrorCode ElasticityCellStress(Elasticity, Vec u, PetscReal *stress[]);
-/* Computes the recovered stress at the nodes of the local section, 6 values per node [force/length^2] */
-PETSC_EXTERN PetscErrorCode ElasticityNodalStress(Elasticity, Vec u, PetscReal *stress[]);
 /* Computes the stress at the quadrature points of this rank, and the undeformed positions of these points */
 PETSC_EXTERN PetscErrorCode ElasticityPointStress(Elasticity, Vec u, PetscInt *npoints, PetscReal *places[],
   PetscReal *stress[]);
@@ -107,9 +115,11 @@ PETSC_EXTERN PetscErrorCode ElasticityPointStress(Elasticity, Vec u, PetscInt *n
 PETSC_EXTERN PetscErrorCode ElasticityCellEnergy(Elasticity, Vec u, PetscReal *density[]);
 /* Computes the principal values of a stress xx yy zz xy yz zx, the largest first */
 PETSC_EXTERN PetscErrorCode ElasticityPrincipal(const PetscReal stress[6], PetscReal principal[3]);
-/* Estimates the square of the discretization error in the energy norm [force length], for each body and, unless `cells`
-   is NULL, for each local cell */
-PETSC_EXTERN PetscErrorCode ElasticityEstimateError(Elasticity, Vec u, PetscReal bodies[], PetscReal *cells[]);
+/* Recovers the stress at the nodes. Gets the stress itself (6 values per node of the local section), the largest values
+   of each body, the square of the discretization error in the energy norm of each body and of each local cell
+   [force length]. NULL: not wanted. */
+PETSC_EXTERN PetscErrorCode ElasticityRecoverStress(Elasticity, Vec u, PetscReal *stress[], LargestOfBody largest[],
+  PetscReal errors[], PetscReal *cells[]);
 /* Stores the plastic strains at u, a state of equilibrium, as those from which the next load step starts */
 PETSC_EXTERN PetscErrorCode ElasticityCommit(Elasticity, Vec u);
 /* Finds whether any point has a plastic strain */

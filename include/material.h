@@ -63,7 +63,7 @@ typedef struct {
   PetscReal
     expansion[3]; /* laws of small strain: coefficient of linear thermal expansion; for an orthotropic law along its
                      three axes [1/temperature] */
-  MaterialHardening hardening; /* j2, j2_finite */
+  MaterialHardening hardening; /* j2, j2_finite; of elastic laws only `yield`, for the safety factor; 0: not given */
   PetscReal         density;   /* mass per undeformed volume, used in dynamics only; 0: not given */
   PetscReal         own[MATERIAL_OWN];
 } Material;

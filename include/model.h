@@ -141,6 +141,7 @@ typedef struct {
   PetscInt     cells[3];           /* number of cells. box: along each axis; tube_arc: radially, around and along the
                                      axis; other shapes: see above */
   Material     material;
+  char        *material_name; /* NULL: the scene names the law, and no material */
   ElementType  element;
   PetscInt     order; /* polynomial order of the displacements in a cell, 1 or 2; 0: the default, 1 for hexahedra and 2
                       for tetrahedra */
@@ -237,8 +238,9 @@ typedef struct {
 typedef struct {
   char       *name;
   const char *place;
-  PetscInt    body;    /* rigid body on which the resultant acts; PETSC_DECIDE: the load acts on a face */
-  char       *face;    /* the face; for a resultant also "<body>" SCENE_WHOLE_BODY, a whole rigid body */
+  PetscInt    body;    /* body on which the resultant acts; PETSC_DECIDE: the load acts on a face */
+  char       *face;    /* the face; for a resultant also "<body>" SCENE_WHOLE_BODY, a whole rigid body, or a point of an
+                          elastic body */
   PetscBool resultant; /* `value` is a resultant force [force] and not a traction [force/length^2]; both at factor 1 */
   PetscReal value[3];
   PetscReal moment[3]; /* moment of the resultant about its point of action, at factor 1 [force length] */
@@ -381,6 +383,10 @@ typedef struct {
                       option */
 } SceneOption;
 
+/* units.c: kinds of units */
+typedef enum { UNIT_LENGTH, UNIT_FORCE, UNIT_STRESS, UNIT_TIME } UnitKind;
+PETSC_EXTERN const char *UnitsFind(const char text[], UnitKind, PetscReal *si);
+
 /* The keys of a scene file, and their places "FILE: line N: " */
 typedef struct {
   PetscInt n;
@@ -444,6 +450,12 @@ static inline PetscBool SceneIsDynamic(Scene scene)
   return (PetscBool)(scene->dynamics.time_step > 0.0);
 }
 
+/* Returns whether a force acts at a point of an elastic body */
+static inline PetscBool SceneForceIsAtPoint(Scene scene, const SceneTraction *t)
+{
+  return (PetscBool)(t->body >= 0 && scene->bodies[t->body].material.type != MATERIAL_RIGID);
+}
+
 /* Returns whether any motion of a rigid body is free */
 static inline PetscBool SceneFreesMotion(const SceneDisplacement *d)
 {
@@ -467,17 +479,32 @@ static inline PetscBool SceneBodyIsSurface(const SceneBody *body)
   return (PetscBool)(body->shape >= SHAPE_RIGID_PLANE && body->shape <= SHAPE_RIGID_STL);
 }
 
+/* Returns whether a body is a rigid surface with a profile */
+static inline PetscBool SceneSurfaceHasProfile(const SceneBody *body)
+{
+  return (PetscBool)(body->shape == SHAPE_RIGID_EXTRUDED || body->shape == SHAPE_RIGID_REVOLVED);
+}
+
 /* The cube of one cell that represents a rigid surface in the mesh: corner, unit vectors of its edges, length of the
    edges */
 typedef struct {
   PetscReal corner[3], edge[3][3], size;
 } SceneSurfaceCube;
 PETSC_EXTERN void           SceneSurfaceGetCube(const SceneBody *, SceneSurfaceCube *);
+PETSC_EXTERN PetscErrorCode SceneSurfaceWrite(const SceneBody *, const char shape[], char text[], size_t length);
 PETSC_EXTERN PetscErrorCode SceneStlCreate(MPI_Comm, const char place[], const char file[], PetscReal scale, SceneStl *,
   PetscReal centre[3], PetscReal *edge);
 PETSC_EXTERN PetscErrorCode SceneStlDestroy(SceneStl *);
 /* Returns the distance of a point from an undeformed rigid surface, negative inside [length]; computes its gradient */
 PETSC_EXTERN PetscReal SceneSurfaceDistance(const SceneBody *, const PetscReal x[3], PetscReal gradient[3]);
+/* A convex corner of the profile of a rigid surface, opposite an edge of another body's face */
+typedef struct {
+  PetscReal share;     /* position of the opposite point on the edge, from 0 to 1 */
+  PetscReal normal[3]; /* unit normal of the face there */
+  PetscReal gap;       /* height of the corner above that point, along the normal [length] */
+} SceneSurfaceCorner;
+PETSC_EXTERN PetscInt SceneSurfaceFindCorners(const SceneBody *, const PetscReal ends[6], const PetscReal normals[6],
+  SceneSurfaceCorner deepest[2]);
 /* Returns the radius of a rigid sphere or cylinder, or of the section of a rigid torus [length]; of other bodies
    PETSC_INFINITY */
 PETSC_EXTERN PetscReal SceneSurfaceRadius(const SceneBody *);
@@ -485,6 +512,12 @@ PETSC_EXTERN PetscReal SceneSurfaceRadius(const SceneBody *);
 PETSC_EXTERN PetscErrorCode SceneContactPairSetSelf(PetscInt nbodies, SceneBody bodies[], SceneContactPair *);
 /* Returns the body that a face belongs to */
 PETSC_EXTERN const SceneBody *SceneFaceBody(Scene, const char face[]);
+/* Returns whether a pair is between two rigid bodies */
+static inline PetscBool SceneContactPairIsRigid(Scene scene, const SceneContactPair *pair)
+{
+  return (PetscBool)(SceneFaceBody(scene, pair->mortar)->material.type == MATERIAL_RIGID &&
+                     SceneFaceBody(scene, pair->nonmortar)->material.type == MATERIAL_RIGID);
+}
 /* Evaluates an expression in x, y and z at a point */
 PETSC_EXTERN PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value);
 

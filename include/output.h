@@ -10,6 +10,7 @@ typedef struct _n_Output *Output;
 PETSC_EXTERN PetscErrorCode OutputCreate(DM, PetscInt nbodies, const char *const bodynames[], const char basename[],
   Output *);
 PETSC_EXTERN PetscErrorCode OutputSetUnits(Output, const char units[]);
+PETSC_EXTERN PetscErrorCode OutputSetSurface(Output, PetscInt body, const char text[]);
 PETSC_EXTERN PetscErrorCode OutputContinue(Output, PetscInt step, PetscReal increment, PetscBool same);
 PETSC_EXTERN PetscErrorCode OutputWrite(Output, const StepState *);
 PETSC_EXTERN PetscErrorCode OutputDestroy(Output *);
@@ -36,8 +37,8 @@ PETSC_EXTERN PetscErrorCode ReportPageCheck(MPI_Comm, const char file[]);
 PETSC_EXTERN int            ReportPageMake(const ReportPage *, char sentence[], size_t length);
 PETSC_EXTERN PetscErrorCode ReportWriteJSON(MPI_Comm, const RunReport *, const char file[]);
 PETSC_EXTERN PetscErrorCode ReportView(const RunReport *, PetscViewer);
+PETSC_EXTERN PetscErrorCode ReportViewTables(const RunReport *, PetscViewer);
 PETSC_EXTERN PetscErrorCode ReportViewAccuracy(const RunReport *, PetscViewer);
 PETSC_EXTERN PetscErrorCode ReportViewNextMesh(const Accuracy *, PetscInt refine, PetscViewer);
-PETSC_EXTERN PetscErrorCode ReportViewEffects(const RunReport *, PetscViewer);
 
 #endif

@@ -9,21 +9,22 @@
 /* Results of a contact pair. Forces are summed over the rows of this pair only. */
 typedef struct {
   const char *name;
-  PetscReal   force[3];         /* on the nonmortar side [force] */
-  PetscReal   moment[3];        /* [force length] */
-  PetscReal   mortar_force[3];  /* on the mortar side [force] */
-  PetscReal   mortar_moment[3]; /* [force length] */
-  PetscReal   size;             /* sum of the magnitudes of the components of the nodal forces [force] */
-  PetscReal   normal_force;     /* sum of the magnitudes of the rows' forces, which is the integral of the pressure
+  PetscReal   force[3];          /* on the nonmortar side [force] */
+  PetscReal   moment[3];         /* [force length] */
+  PetscReal   mortar_force[3];   /* on the mortar side [force] */
+  PetscReal   mortar_moment[3];  /* [force length] */
+  PetscReal   size;              /* sum of the magnitudes of the components of the nodal forces [force] */
+  PetscReal   normal_force;      /* sum of the magnitudes of the rows' forces, which is the integral of the pressure
                                    [force] */
-  PetscReal   area;             /* area around the vertices in contact that the other side covers [length^2] */
-  PetscReal   pressure;         /* largest value of the contact pressure field [force/length^2] */
-  PetscReal   penetration;      /* depth of the deepest vertex of either face below the other face [length]; after the
+  PetscReal   area;              /* area around the vertices in contact that the other side covers [length^2] */
+  PetscReal   pressure;          /* largest value of the contact pressure field [force/length^2] */
+  PetscReal   pressure_place[3]; /* the undeformed vertex with this pressure [length]; NaN: no contact */
+  PetscReal   penetration;       /* depth of the deepest vertex of either face below the other face [length]; after the
                                    last load step, of pairs without force, also of points in the facets */
-  PetscReal   coarseness;       /* mean size of the nonmortar facets in contact divided by that of the mortar facets;
+  PetscReal   coarseness;        /* mean size of the nonmortar facets in contact divided by that of the mortar facets;
                                    0: no contact */
-  PetscBool   narrow;           /* the contact area is only one nonmortar facet wide */
-  PetscReal   facet;            /* mean size of the nonmortar facets in contact [length]; 0: no contact */
+  PetscBool   narrow;            /* the contact area is only one nonmortar facet wide */
+  PetscReal   facet;             /* mean size of the nonmortar facets in contact [length]; 0: no contact */
   PetscReal   penetration_rounding; /* uncertainty of `penetration` on curved faces [length] */
   PetscBool   frictional;           /* has friction */
   PetscReal   shear_force;          /* sum of the magnitudes of the friction forces of all rows [force] */
@@ -89,7 +90,13 @@ typedef struct {
   PetscReal   residual[3];                                           /* their sum [force] */
   PetscReal   balance; /* magnitude of `residual` divided by the sum of the magnitudes of all forces; of contact and
                           reactions those at the nodes, whose sum may vanish, as in a press fit */
-  PetscReal   plastic_strain; /* largest equivalent plastic strain at any quadrature point */
+  PetscReal   plastic_strain;                      /* largest equivalent plastic strain at any quadrature point */
+  PetscReal   displacement, displacement_place[3]; /* length of the largest displacement, and its undeformed place; of a
+                                                      rigid surface the displacement of its reference point [length] */
+  PetscReal   von_mises, von_mises_place[3];       /* largest von Mises stress at any node, and its undeformed place
+                                                [force/length^2], [length]; NaN: rigid */
+  PetscReal   safety; /* yield stress of the material divided by `von_mises`, at most 1 if the body has yielded; NaN: no
+                         yield stress is given, or no stress */
 } BodyReport;
 
 /* Results of a dynamic analysis. Works are summed since the start by the trapezoidal rule. */
@@ -98,9 +105,9 @@ typedef struct {
   PetscReal   kinetic_energy;        /* [force length] */
   PetscReal   total_energy;          /* kinetic and elastic [force length] */
   PetscReal   damping_work;          /* energy that damping has dissipated [force length] */
-  PetscReal   numerical_dissipation; /* energy that the time integration has lost: work of the loads plus initial
-                                        kinetic energy, minus total energy, minus the energy taken up by contact and
-                                        damping [force length] */
+  PetscReal   numerical_dissipation; /* energy that the time integration has lost, also in the normal forces of contact:
+                                        work of the loads plus initial kinetic energy, minus total energy, minus the
+                                        energy taken up by friction, damping and plasticity [force length] */
   PetscInt    rejected_steps;        /* number of time steps that were repeated in this load step because their error
                                         was too large; only with controlled time steps */
   PetscReal   shortest_step;         /* length of the shortest time step in this load step [time] */
@@ -255,6 +262,18 @@ typedef struct {
   PetscLogDouble time; /* time [s]; NaN: not measured separately, because it is a part of another phase */
 } RunEffect;
 
+/* A figure that a reader of the results looks for first: the largest value of a quantity over the load steps that
+   converged */
+typedef struct {
+  const char *quantity;
+  const char *name; /* of the body, pair or face to which the figure belongs; "" for the whole model */
+  PetscReal   value;
+  char        unit[32];      /* in the words of the scene's units; "" if these are unknown, or the figure has no unit */
+  PetscReal   place[3];      /* undeformed place [length]; NaN: none */
+  PetscReal   components[3]; /* of a force at the end of the load step; NaN: none */
+  PetscInt    step;          /* load step */
+} RunFigure;
+
 /* Accuracy of the results on one mesh. Arrays have the values of all load steps one after the other. */
 typedef struct {
   PetscInt       refine, dofs;
@@ -347,6 +366,8 @@ typedef struct {
   StepReport     *steps;
   PetscInt        nbodies;
   const char    **bodies;
+  PetscInt        nfigures;
+  RunFigure      *figures;
   PetscInt       *assemblies; /* number of times that each body's tangent was assembled */
   const Accuracy *accuracy;   /* choices and results of -accuracy; NULL: not requested */
   PetscInt        neffects;

@@ -42,6 +42,7 @@ PETSC_EXTERN PetscErrorCode SimulationSetMarks(Simulation, const MeshMarks *);
 PETSC_EXTERN PetscErrorCode SimulationSetForecast(Simulation, StepForecast *);
 PETSC_EXTERN PetscErrorCode StepForecastDestroy(StepForecast *);
 PETSC_EXTERN PetscErrorCode SimulationSetUp(Simulation);
+PETSC_EXTERN PetscErrorCode SimulationCheck(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetDM(Simulation, DM *);
 PETSC_EXTERN PetscErrorCode SimulationStep(Simulation, PetscInt step, StepState *);
 PETSC_EXTERN PetscErrorCode SimulationCatchSignals(void);

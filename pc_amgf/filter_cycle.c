@@ -41,7 +41,7 @@ static PetscErrorCode CycleGuardAMG(PC pc, Vec r, Vec z)
     if (!failed) PetscFunctionReturn(0);
     PetscCall(PetscInfo(pc, "An error inside the AMG: %s\n", guard.why));
   }
-  pc->failedreason = PC_SUBPC_ERROR;
+  PetscCall(PCSetFailedReason(pc, PC_SUBPC_ERROR));
   PetscCall(VecGetLocalSize(z, &n));
   PetscCall(VecGetArrayWrite(z, &values));
   PetscCall(PetscArrayzero(values, n));
@@ -132,10 +132,13 @@ static PetscErrorCode CycleApplyBFB(PC pc, PetscBool adjoint, Vec r, Vec z)
 {
   PC_AMGF  *amgf     = (PC_AMGF *)pc->data;
   Vec       residual = amgf->w[0], work = amgf->w[1];
-  const Mat A = pc->useAmat ? pc->mat : pc->pmat;
+  Mat       A;
   AMGFStamp now;
+  PetscBool use_amat;
 
   PetscFunctionBegin;
+  PetscCall(PCGetUseAmat(pc, &use_amat));
+  A = use_amat ? pc->mat : pc->pmat;
   PetscCall(MatGetStamp_AMGF(A, &now));
   PetscCall(CycleApplyAMG(pc, adjoint, r, z));
   PetscCall(MatMult(A, z, work));
@@ -217,9 +220,12 @@ static PetscErrorCode CycleApply(PC pc, PetscBool adjoint, Vec r, Vec z)
 
 PetscErrorCode PCApply_AMGF(PC pc, Vec r, Vec z)
 {
+  PCFailedReason reason;
+
   PetscFunctionBegin;
   PetscCall(CycleApply(pc, PETSC_FALSE, r, z));
-  PetscCall(VecFlag(z, pc->failedreason)); /* makes the KSP look at the reason of the failure */
+  PetscCall(PCGetFailedReason(pc, &reason));
+  PetscCall(VecFlag(z, reason)); /* makes the KSP look at the reason of the failure */
   PetscFunctionReturn(0);
 }
 

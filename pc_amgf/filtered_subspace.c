@@ -49,10 +49,12 @@ PetscErrorCode PCAMGFSubspaceIsStale_Private(PC pc, PetscBool *stale)
   PetscObjectId       id;
   PetscObjectState    state;
   AMGFStamp           now;
+  PetscBool           reuse;
 
   PetscFunctionBegin;
   *stale = PETSC_FALSE;
-  if (!amgf->active || amgf->set_is || pc->reusepreconditioner) PetscFunctionReturn(0);
+  PetscCall(PCGetReusePreconditioner(pc, &reuse));
+  if (!amgf->active || amgf->set_is || reuse) PetscFunctionReturn(0);
   if (amgf->set_P) {
     PetscCall(MatGetStamp_AMGF(amgf->set_P, &now));
     *stale = (PetscBool)!AMGFStampSameValues(&now, &sub->stamp);

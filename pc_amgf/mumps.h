@@ -51,4 +51,32 @@ static inline PetscErrorCode AMGFMumpsFactors(MatType type, MatFactorType factor
   #define AMGFMumpsGetInfog(F, infog, value) ((void)(F), (void)(infog), *(value) = 0, 0)
 #endif
 
+/*
+   Computes L U of A by MUMPS, or by PETSc without it, again with more work space while MUMPS's estimate is too small.
+   *F: NULL, or factors for the same nonzero pattern, whose analysis is used again; NULL on return after an error.
+   *relaxation: work space beyond the estimate [per cent], AMGF_MUMPS_RELAXATION at first
+*/
+static inline PetscErrorCode AMGFMumpsFactorLU(Mat A, PetscInt *relaxation, Mat *F, MatFactorError *error)
+{
+  MatFactorInfo info;
+  MatType       type;
+  PetscBool     mumps;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetType(A, &type));
+  PetscCall(AMGFMumpsFactors(type, MAT_FACTOR_LU, &mumps));
+  PetscCall(MatFactorInfoInitialize(&info));
+  do {
+    if (!*F) {
+      PetscCall(MatGetFactor(A, mumps ? MATSOLVERMUMPS : MATSOLVERPETSC, MAT_FACTOR_LU, F));
+      if (mumps) PetscCall(AMGFMumpsSetIcntl(*F, 14, *relaxation));
+      PetscCall(MatLUFactorSymbolic(*F, A, NULL, NULL, &info));
+    }
+    PetscCall(MatLUFactorNumeric(*F, A, &info));
+    PetscCall(MatFactorGetError(*F, error));
+    if (*error != MAT_FACTOR_NOERROR) PetscCall(MatDestroy(F)); /* MUMPS cannot use them again */
+  } while (*error == MAT_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, relaxation));
+  PetscFunctionReturn(0);
+}
+
 #endif

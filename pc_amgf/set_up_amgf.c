@@ -131,14 +131,18 @@ static PetscErrorCode SetUpChooseAMG(PC pc)
 
 static PetscErrorCode SetUpAMG(PC pc, PetscBool *failed)
 {
-  PC_AMGF *amgf = (PC_AMGF *)pc->data;
+  PC_AMGF  *amgf = (PC_AMGF *)pc->data;
+  DM        dm;
+  PetscBool use_amat;
 
   PetscFunctionBegin;
   PetscCall(SetUpChooseAMG(pc));
-  if (pc->dm) PetscCall(PCSetDM(amgf->amg, pc->dm));
+  PetscCall(PCGetDM(pc, &dm));
+  if (dm) PetscCall(PCSetDM(amgf->amg, dm));
+  PetscCall(PCGetUseAmat(pc, &use_amat));
   PetscCall(PCSetErrorIfFailure(amgf->amg, pc->erroriffailure));
   PetscCall(PCSetOperators(amgf->amg, pc->mat, pc->pmat));
-  PetscCall(PCSetUseAmat(amgf->amg, pc->useAmat));
+  PetscCall(PCSetUseAmat(amgf->amg, use_amat));
   PetscCall(PCSetReusePreconditioner(amgf->amg, PETSC_FALSE));
   PetscCall(SetUpGuardAMG(pc, failed));
   /* PCApply() must not rebuild the AMG when the values of the operator change. */

@@ -8,7 +8,7 @@ petsc_release := $(subst ., ,$(petsc_version))
 petsc_minor   := $(word 2,$(petsc_release))
 petsc_scalars := $(if $(PETSC_COMPLEX),complex,real)
 petsc_indices := $(if $(shell grep -hs 'define PETSC_USE_64BIT_INDICES' $(petsc_headers) /dev/null),64,32)
-package_files := petscamgf.pc $(if $(PETSC_COMPLEX),,contact.pc)
+package_files := petscamgf.pc $(if $(only_plugin),,contact.pc)
 
 # What a pkg-config file says of this PREFIX and this PETSc
 fill_in = sed -e 's|@PREFIX@|$(PREFIX)|' -e 's|@VERSION@|$(VERSION)|' \
@@ -25,18 +25,19 @@ contact_headers = $(filter-out include/petscamgf.h include/petsccompat.h,$(wildc
 
 # The program contact, and what belongs to it
 installed_contact = $(call put,644,$(LIBRARY),lib) $(call put,644,$(contact_headers),include/contact) \
-  $(foreach folder,plot report python python/contact python/contact/meshes, \
-    $(call put,644,$(wildcard share/$(folder)/*.py),share/amgf/$(folder)))
+  $(foreach folder,plot report python python/contact python/contact/meshes python/contact/decks, \
+    $(call put,644,$(wildcard share/$(folder)/*.py),share/amgf/$(folder))) \
+  $(foreach folder,scenes materials options gmsh, \
+    $(call put,644,$(wildcard share/$(folder)/*.*),share/amgf/$(folder)))
 
-installed = $(call put,755,$(programs) $(if $(programs),bin/contact-mesh),bin) \
+installed = $(call put,755,$(programs) $(if $(programs),bin/contact-mesh bin/contact-ccx),bin) \
   $(call put,755,$(PLUGIN).$(VERSION),lib) \
   'link $(notdir $(PLUGIN)).$(VERSION) $(PLUGIN).$(SOVERSION)' \
   'link $(notdir $(PLUGIN)).$(SOVERSION) $(PLUGIN)' \
   $(foreach file,$(package_files),'644 @FOLDER@/$(file) lib/pkgconfig/$(file)') \
   $(call put,644,include/petscamgf.h,include) \
-  $(if $(PETSC_COMPLEX),,$(installed_contact)) \
-  $(foreach folder,scenes materials options gmsh examples, \
-    $(call put,644,$(wildcard share/$(folder)/*.* share/$(folder)/makefile),share/amgf/$(folder))) \
+  $(if $(only_plugin),,$(installed_contact)) \
+  $(call put,644,$(wildcard share/examples/*.*) share/examples/makefile,share/amgf/examples) \
   $(call put,644,$(wildcard share/doc/*.md),share/doc/amgf) \
   $(foreach section,1 3,$(call put,644,$(sort $(wildcard build/doc/man/man$(section)/*)),share/man/man$(section)))
 

@@ -26,6 +26,7 @@ seconds | awk -v took=$took '{s += $1}
 seconds | sort -rn | awk 'NR <= 10 && $1 > 1 {printf " %s %.0f s,", $2, $1}' | sed 's/,$//'
 echo
 [ $skipped -eq 0 ] || echo "# skipped: $skipped"
+[ ! -f "$counts/../stacks.txt" ] || sed '1i # stacks of runs that reached their time limit:' "$counts/../stacks.txt"
 [ -z "$failures" ] || echo "# failed:$failures"
 echo "$passed passed, $failed failed" | tee "$counts/../summary"
 [ $failed -eq 0 ] && [ $passed -gt 0 ]

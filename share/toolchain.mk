@@ -18,7 +18,9 @@ pkg_config = $(shell PKG_CONFIG_PATH='$(PKG_CONFIG_PATH)' pkg-config $(1) 2>/dev
 PETSC_PREFIX := $(or $(PETSC_DIR),$(call pkg_config,--variable=prefix PETSc))
 PETSC_CFLAGS := $(call pkg_config,--cflags PETSc)
 petsc_libdir := $(call pkg_config,--variable=libdir PETSc)
-PETSC_LIBS   := $(call pkg_config,--libs PETSc) $(if $(petsc_libdir),-Wl$(comma)-rpath$(comma)$(petsc_libdir))
+# PETSC_RPATH= (empty): the loader finds PETSc without it
+PETSC_RPATH  ?= $(petsc_libdir)
+PETSC_LIBS   := $(call pkg_config,--libs PETSc) $(if $(PETSC_RPATH),-Wl$(comma)-rpath$(comma)$(PETSC_RPATH))
 
 # Not empty where PETSc's scalars are complex
 PETSC_COMPLEX := $(shell grep -ls 'define PETSC_USE_COMPLEX' \

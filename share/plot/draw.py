@@ -16,6 +16,7 @@ import numpy as np
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "..", "python")]
 from contact.files import ContactError, Files
+import tools
 from screen import open_screen, stop
 
 try:
@@ -87,8 +88,9 @@ def arguments(words=None):
     parser.add_argument("--step", type=int, help="load step; default: the last one")
     parser.add_argument("--field", default="von_mises",
                         help="field of the files, for example contact_pressure or displacement_z; default: von_mises")
-    parser.add_argument("--scale", default="1",
-                        help="factor of the displacements; auto: the largest one is a tenth of the model's size")
+    parser.add_argument(
+        "--scale", default="1",
+        help="factor of the displacements; auto: the largest one is at least a tenth of the model's size")
     view = ("ELEVATION", "AZIMUTH")
     parser.add_argument("--view", type=float, nargs=2, default=(20, -60), metavar=view,
                         help="direction of view [degrees]; default: 20 -60")
@@ -109,7 +111,7 @@ def arguments(words=None):
 
 def chosen_cells(args, run):
     """Numbers of the cells to draw"""
-    keep = np.ones(len(run.cells), bool)
+    keep = ~np.isin(run.body, list(run.surfaces))  # cubes that stand for rigid surfaces
     if args.only:
         keep &= np.isin(run.body, run.body_numbers(args.only))
     if args.hide:
@@ -175,6 +177,29 @@ def body_of_vertices(run):
     for body, cell in zip(run.body, run.cells):
         owner[cell] = body
     return owner
+
+
+def tool_surfaces(args, run, cells, displacement, scale):
+    """The surfaces of rigid tools, displaced; infinite ones are drawn around the bodies"""
+    nodes = np.unique(np.concatenate([run.cells[c] for c in cells]))
+    low, high = run.vertices[nodes].min(axis=0), run.vertices[nodes].max(axis=0)
+    for body in run.surfaces if not args.only else set(run.surfaces) & set(run.body_numbers(args.only)):
+        cube = run.cells[np.flatnonzero(run.body == body)[0]]
+        points, faces = tools.surface(run.surfaces[body], low, high)
+        points = points + scale * tools.moved(points, run.vertices[cube], displacement[cube])
+        data, array, places = vtkPolyData(), vtkCellArray(), vtkPoints()
+        places.SetData(numpy_to_vtk(np.ascontiguousarray(points, float), deep=True))
+        array.SetData(ids(np.arange(len(faces) + 1) * faces.shape[1]), ids(faces.ravel()))
+        data.SetPoints(places)
+        data.SetPolys(array)
+        yield data
+
+
+def tool_actor(data):
+    """A surface through which the bodies are seen"""
+    actor = actor_of(data, (0.55, 0.60, 0.66), 0.5)
+    actor.GetProperty().SetOpacity(0.45)
+    return actor
 
 
 def warped(grid, scale):
@@ -276,7 +301,7 @@ def displacement_scale(args, run, cells, displacement):
     nodes = np.unique(np.concatenate([run.cells[c] for c in cells]))
     if args.scale == "auto":
         largest = np.linalg.norm(displacement[nodes], axis=1).max()
-        return 0.1 * np.ptp(run.vertices[nodes], axis=0).max() / largest if largest > 0 else 1.0
+        return max(1.0, 0.1 * np.ptp(run.vertices[nodes], axis=0).max() / largest) if largest > 0 else 1.0
     try:
         return float(args.scale)
     except ValueError:
@@ -472,11 +497,16 @@ def scene_of(args, run):
         if part and part.GetNumberOfCells():
             bodies.AddActor(faces_actor(args, mirrored(args, part), colours, layer if layers else 0))
     skin = mirrored(args, skin)
+    pieces = [mirrored(args, data) for data in tool_surfaces(args, run, cells, displacement, scale)]
+    for data in pieces:
+        bodies.AddActor(tool_actor(data))
+        bodies.AddActor(actor_of(sharp_edges(data), (0.35, 0.40, 0.46), 1.2))
     for renderer in (bodies, page):
         renderer.SetBackground(1, 1, 1)
     bodies.AddActor(actor_of(outline, (0.55, 0.55, 0.55), 1.2))
     bodies.AddActor(actor_of(sharp_edges(skin), (0.1, 0.1, 0.1), 1.4))
-    corners = np.concatenate([vtk_to_numpy(data.GetPoints().GetData()).astype(float) for data in (skin, outline)])
+    corners = np.concatenate(
+        [vtk_to_numpy(data.GetPoints().GetData()).astype(float) for data in (skin, outline, *pieces)])
     if args.around_contact:
         centre, radius = contact_box(args, run, step, cells, run.vertices + scale * displacement)
         corners = centre + radius * (2.0 * np.array(list(np.ndindex(2, 2, 2))) - 1.0) / 3**0.5

@@ -105,6 +105,26 @@ def pictures(base, run):
                 yield image(stream.read(), f"{caption}, last load step")
 
 
+def results(run):
+    """The largest values of the run; each row has an id, QUANTITY.NAME"""
+    yield "<table><thead><tr>" + "".join(f"<th>{head}</th>"
+                                         for head in ("largest value of", "", "", "", "undeformed place, or components",
+                                                      "load step")) + "</tr></thead>\n"
+    for figure in run["figures"]:
+        vectors = [figure[key] for key in ("place", "components") if figure[key][0] is not None]
+        name = "-".join(figure["quantity"].replace(",", "").split()) + (f".{figure['name']}" if figure["name"] else "")
+        cells = [figure["quantity"], figure["name"], text(figure["value"]), figure["unit"]]
+        cells += [f"({text(vector)})" for vector in vectors] or [""]
+        row = "".join(f"<td>{cell if i == 2 else html.escape(str(cell))}</td>" for i, cell in enumerate(cells))
+        yield f'<tr id="{html.escape(name)}">{row}<td>{figure["step"]}</td></tr>\n'
+    yield "</table>\n"
+    if any(figure["quantity"].startswith("stress error") for figure in run["figures"]):
+        yield ("<p>The stress error is the estimated error of the stresses in the mean over the model (energy norm), "
+               "caused by the mesh. Its square is the relative error of the energy. Above 30&nbsp;% refine the mesh; "
+               "above 100&nbsp;% the stresses have no meaning. At sharp edges the largest stress grows with each "
+               "refinement.</p>\n")
+
+
 def history(base):
     """Curves over time of energy and work, of each pair's normal force, and of reactions; none for one load step"""
     import matplotlib
@@ -233,6 +253,8 @@ def page(base, run, scene, command, versions):
     yield "<h2>Warnings</h2>\n"
     warnings = "".join(f"<li>{text(warning)}</li>" for warning in run["warnings"])
     yield f"<ul>{warnings}</ul>\n" if warnings else "<p>None.</p>\n"
+    yield "<h2>Results</h2>\n"
+    yield from results(run)
     if last:
         yield "<h2>Pictures</h2>\n"
         yield from pictures(base, run)

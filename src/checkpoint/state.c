@@ -187,15 +187,16 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
 @*/
 PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, PetscInt *step)
 {
-  const Bodies bodies = SimulationBodies(sim);
-  LoadPath    *path   = sim->path;
+  const Bodies    bodies = SimulationBodies(sim);
+  LoadPath       *path   = sim->path;
+  const PetscReal unit   = SceneTimeStep(sim->scene);
 
   PetscFunctionBegin;
   PetscCall(CheckpointCheck(sim->comm, checkpoint));
   PetscCheck(checkpoint->time < (PetscReal)sim->scene->nsteps, sim->comm, PETSC_ERR_USER_INPUT,
-    "the checkpoint is at time %g and the load program ends at time %" PetscInt_FMT
-    ": the analysis is already complete",
-    (double)checkpoint->time, sim->scene->nsteps);
+    "the checkpoint is at time %g and the load program ends at time %g: the analysis is "
+    "already complete",
+    (double)(unit * checkpoint->time), (double)(unit * (PetscReal)sim->scene->nsteps));
   *step = sim->control->first_step = checkpoint->step;
   sim->control->increment          = checkpoint->increment;
   path->time                       = checkpoint->time;

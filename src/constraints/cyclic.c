@@ -63,6 +63,7 @@ static PetscErrorCode CyclicCheckPrescribed(const Constraints *c, Mat Y, const P
   const PetscScalar     *u, *v, *w;
   PetscScalar           *a;
   PetscInt               n;
+  static const PetscReal same   = 1e-4; /* rotations of nodes with coordinates of five digits agree to this fraction */
   PetscReal              worst  = 0.0, largest;
   PetscBool              differ = PETSC_FALSE;
 
@@ -90,7 +91,7 @@ static PetscErrorCode CyclicCheckPrescribed(const Constraints *c, Mat Y, const P
   PetscCall(VecRestoreArrayRead(reach, &w));
   PetscCall(VecRestoreArrayRead(image, &v));
   PetscCall(VecRestoreArrayRead(given, &u));
-  differ = (PetscBool)(differ || worst > 1e-9 * largest);
+  differ = (PetscBool)(differ || worst > same * largest);
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_PETSCBOOL, MPI_LOR, c->bodies.comm));
   PetscCheck(!differ, c->bodies.comm, PETSC_ERR_USER_INPUT,
     "cyclic symmetry: the displacements that are prescribed on a face of the cut are not the same in every sector: "

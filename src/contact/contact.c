@@ -526,6 +526,7 @@ PetscErrorCode ContactDestroy(Contact *contact)
   PetscCall(ContactSmoothReset(*contact));
   for (PetscInt p = 0; p < (*contact)->npairs; ++p) {
     PetscCall(PetscFree((*contact)->pairs[p].name));
+    PetscCall(PetscFree((*contact)->pairs[p].corners));
     PetscCall(ContactSurfaceDestroy(&(*contact)->pairs[p].mortar));
     PetscCall(ContactSurfaceDestroy(&(*contact)->pairs[p].nonmortar));
   }

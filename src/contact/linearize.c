@@ -23,6 +23,7 @@ static PetscErrorCode ContactMovePair(Contact contact, PetscInt p, Vec local)
   if (!pair->formula) PetscFunctionReturn(0);
   PetscCall(ContactSurfacePlace(contact->comm, pair));
   PetscCall(ContactSurfaceSetNormals(pair, n, rows->x + 3 * first, rows->normal + 3 * first));
+  PetscCall(ContactCornersFind(contact, p));
   PetscFunctionReturn(0);
 }
 
@@ -74,6 +75,7 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, ContactParts parts,
     PetscCall(PetscLogEventEnd(CONTACT_Search, NULL, NULL, NULL, NULL));
     pair->nfacing = 0;
     PetscCall((*ops->add)(contact, p, &candidates, &assembly));
+    PetscCall(ContactCornersAdd(pair, &assembly));
     PetscCall(ContactCandidatesDestroy(&candidates));
   }
   PetscCall(PetscLogEventBegin(CONTACT_Integrate, NULL, NULL, NULL, NULL));
@@ -119,7 +121,8 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, ContactParts parts,
   common border, mortar facets are extended beyond the border by at most a fifth of a facet.
 
   Pairs whose mortar side is a rigid surface (`ContactSetBodies()`) have as gap the distance of each nonmortar vertex
-  from that surface. J is its derivative.
+  from that surface. J is its derivative. The row of a vertex beside a convex corner of a profile that lies between two
+  vertices has the distance of the corner from the edge between them.
 
   Faces of order 2 are divided into facets at their nodes. The patches of smooth mortar pairs follow the bending of the
   faces between their nodes. The vertices of other pairs, and of plane faces, move with the mean displacement of the
@@ -253,6 +256,7 @@ PetscErrorCode ContactLinearizationDestroy(ContactLinearization *lin)
   PetscFunctionBegin;
   if (!*lin) PetscFunctionReturn(0);
   PetscCall(VecDestroy(&(*lin)->g));
+  PetscCall(VecDestroy(&(*lin)->doubt));
   PetscCall(VecDestroy(&(*lin)->mass));
   PetscCall(MatDestroy(&(*lin)->J));
   PetscCall(MatDestroy(&(*lin)->derivative));

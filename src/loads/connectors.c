@@ -5,44 +5,7 @@
    unknowns. The force of a damper is proportional to the rate of the offset.
 */
 #include "loadsimpl.h"
-#include <mesh.h>
 #include <vector3.h>
-
-/* Collective. Locates one end of a connector, and stores the nodes of its cell and their shape functions on all
-   ranks */
-static PetscErrorCode ConnectorLocate(const Bodies *bodies, const SceneConnector *here, PetscInt end, Connector *c)
-{
-  const PetscReal tolerance = 0.1;
-  const PetscInt  body      = end ? here->to : here->body;
-  MeshPlace       place;
-  PetscSection    global;
-  PetscInt        nodes[MESH_MAX_NODES], offset;
-  PetscReal       off = 0.0;
-
-  PetscFunctionBegin;
-  PetscCall(MeshLocate(bodies->dm, 1, (const PetscReal(*)[3])here->point[end], &body, &place));
-  if (place.cell >= 0) off = place.distance / place.size;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &off, 1, MPIU_REAL, MPIU_MAX, bodies->comm));
-  PetscCall(PetscArrayzero(c->node[end], MESH_MAX_NODES));
-  PetscCall(PetscArrayzero(c->N[end], MESH_MAX_NODES));
-  c->n[end] = 0;
-  if (place.cell >= 0) {
-    PetscCall(DMGetGlobalSection(bodies->dm, &global));
-    PetscCall(MeshGetCellNodes(bodies->dm, place.cell, &c->n[end], nodes));
-    for (PetscInt a = 0; a < c->n[end]; ++a) {
-      PetscCall(PetscSectionGetOffset(global, nodes[a], &offset));
-      c->node[end][a] = (offset < 0 ? -(offset + 1) : offset) / 3;
-      c->N[end][a]    = place.N[a];
-    }
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &c->n[end], 1, MPIU_INT, MPI_SUM, bodies->comm));
-  SceneCheck(c->n[end] && off <= tolerance, bodies->comm, PETSC_ERR_USER_INPUT, here,
-    "connector \"%s\": its point (%g, %g, %g) is outside of its body \"%s\"", here->name, (double)here->point[end][0],
-    (double)here->point[end][1], (double)here->point[end][2], bodies->scene->bodies[body].name);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->node[end], MESH_MAX_NODES, MPIU_INT, MPI_SUM, bodies->comm));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, c->N[end], MESH_MAX_NODES, MPIU_REAL, MPIU_SUM, bodies->comm));
-  PetscFunctionReturn(0);
-}
 
 /* Computes the 3 x 3 stiffness [force/length] and damping [force time/length] of a connector */
 static void ConnectorSetStiffness(const SceneConnector *here, Connector *c)
@@ -68,13 +31,13 @@ static PetscInt ConnectorFill(const Connector *c, PetscBool damping, PetscInt ro
 
   for (int e = 0; e < 2; ++e) {
     for (int f = 0; f < 2; ++f) {
-      for (PetscInt k = 0; k < 9 * c->n[e] * c->n[f]; ++k, ++n) {
-        const PetscInt a = k / 9 / c->n[f], b = k / 9 % c->n[f], i = k % 9 / 3, j = k % 3;
+      for (PetscInt k = 0; k < 9 * c->end[e].n * c->end[f].n; ++k, ++n) {
+        const PetscInt a = k / 9 / c->end[f].n, b = k / 9 % c->end[f].n, i = k % 9 / 3, j = k % 3;
 
         if (!row) continue;
-        row[n]    = 3 * c->node[e][a] + i;
-        column[n] = 3 * c->node[f][b] + j;
-        value[n]  = (e == f ? 1.0 : -1.0) * (damping ? c->d : c->k)[i][j] * c->N[e][a] * c->N[f][b];
+        row[n]    = 3 * c->end[e].node[a] + i;
+        column[n] = 3 * c->end[f].node[b] + j;
+        value[n]  = (e == f ? 1.0 : -1.0) * (damping ? c->d : c->k)[i][j] * c->end[e].N[a] * c->end[f].N[b];
       }
     }
   }
@@ -119,7 +82,8 @@ PetscErrorCode ConnectorsCreate(const Bodies *bodies, Springs *springs)
     const SceneConnector *here = &bodies->scene->connectors[c];
 
     for (PetscInt end = 0; end < (here->to < 0 ? 1 : 2); ++end)
-      PetscCall(ConnectorLocate(bodies, here, end, &springs->connectors[c]));
+      PetscCall(BodyPointLocate(bodies->dm, bodies->scene, "connector", (const SceneEntry *)here,
+        end ? here->to : here->body, here->point[end], &springs->connectors[c].end[end]));
     ConnectorSetStiffness(here, &springs->connectors[c]);
     damped = (PetscBool)(damped || here->damping > 0.0);
   }
@@ -143,11 +107,11 @@ static PetscErrorCode ConnectorGetOffset(const Bodies *bodies, const Connector *
   PetscCall(VecGetOwnershipRange(u, &start, &end));
   PetscCall(VecGetArrayRead(u, &v));
   for (int e = 0; e < 2; ++e) {
-    for (PetscInt a = 0; a < here->n[e]; ++a) {
-      const PetscInt row = 3 * here->node[e][a];
+    for (PetscInt a = 0; a < here->end[e].n; ++a) {
+      const PetscInt row = 3 * here->end[e].node[a];
 
       for (int d = 0; d < 3 && row >= start && row < end; ++d)
-        offset[d] += (e ? 1.0 : -1.0) * here->N[e][a] * PetscRealPart(v[row - start + d]);
+        offset[d] += (e ? 1.0 : -1.0) * here->end[e].N[a] * PetscRealPart(v[row - start + d]);
     }
   }
   PetscCall(VecRestoreArrayRead(u, &v));

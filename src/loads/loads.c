@@ -13,6 +13,26 @@ static PetscErrorCode DeadLoadsGetRamp(DM dm, DeadLoads *loads, PetscInt ramp, V
   PetscFunctionReturn(0);
 }
 
+/* Adds a force at a point of an elastic body to the load */
+static PetscErrorCode DeadLoadsAddPoint(Scene scene, DM dm, const SceneTraction *point, Vec force)
+{
+  BodyPoint place;
+  PetscInt  start, end;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetOwnershipRange(force, &start, &end));
+  PetscCall(BodyPointLocate(dm, scene, "force", (const SceneEntry *)point, point->body, point->point, &place));
+  for (PetscInt k = 0; k < 3 * place.n; ++k) {
+    const PetscInt row = 3 * place.node[k / 3] + k % 3;
+
+    if (row < start || row >= end) continue;
+    PetscCall(VecSetValue(force, row, point->value[k % 3] * place.N[k / 3], ADD_VALUES));
+  }
+  PetscCall(VecAssemblyBegin(force));
+  PetscCall(VecAssemblyEnd(force));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode DeadLoadsCreate(Scene scene, DM dm, Elasticity elasticity, DeadLoads *loads)
 {
   Vec force;
@@ -33,7 +53,8 @@ PetscErrorCode DeadLoadsCreate(Scene scene, DM dm, Elasticity elasticity, DeadLo
     const SceneTraction *traction = &scene->tractions[i];
 
     PetscCall(DeadLoadsGetRamp(dm, loads, traction->ramp, &force));
-    if (traction->resultant)
+    if (SceneForceIsAtPoint(scene, traction)) PetscCall(DeadLoadsAddPoint(scene, dm, traction, force));
+    else if (traction->resultant)
       PetscCall(ElasticityAddForce(elasticity, traction->face, traction->value, traction->moment,
         traction->placed ? traction->point : NULL, force));
     else PetscCall(ElasticityAddFaceField(elasticity, traction->face, traction->value, force));

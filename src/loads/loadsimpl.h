@@ -19,6 +19,15 @@ typedef struct {
   Vec          mass; /* lumped mass for unit density [length^3]; it also gives the layout of the unknowns */
 } Bodies;
 
+/* points.c: a point of a body, known on all ranks: number of nodes of its cell, their global numbers, and the values of
+   their shape functions. BodyPointLocate() is collective; what, entry: named in messages. */
+typedef struct {
+  PetscInt  n, node[MESH_MAX_NODES];
+  PetscReal N[MESH_MAX_NODES];
+} BodyPoint;
+PETSC_INTERN PetscErrorCode BodyPointLocate(DM, Scene, const char what[], const SceneEntry *entry, PetscInt body,
+  const PetscReal x[3], BodyPoint *);
+
 /* loads.c: dead loads at factor 1 of each ramp. A ramp without loads has NULL; force itself is NULL if there are no
    loads. */
 typedef struct {
@@ -45,11 +54,9 @@ PETSC_INTERN PetscErrorCode TemperaturesApply(Temperatures *, PetscReal time);
 PETSC_INTERN PetscErrorCode TemperaturesGetLargest(const Temperatures *, PetscReal *size);
 PETSC_INTERN PetscErrorCode TemperaturesDestroy(Temperatures *);
 
-/* connectors.c: a spring and damper between points. The nodes of the cells of both points, and the values of their
-   shape functions, are known on all ranks. */
+/* connectors.c: a spring and damper between points */
 typedef struct {
-  PetscInt  n[2], node[2][MESH_MAX_NODES]; /* numbers of nodes, and global numbers of the nodes, at both ends */
-  PetscReal N[2][MESH_MAX_NODES];
+  BodyPoint end[2];
   PetscReal k[3][3]; /* stiffness: derivative of the force with respect to the offset [force/length] */
   PetscReal d[3][3]; /* damping: derivative with respect to the rate of the offset [force time/length] */
 } Connector;

@@ -40,10 +40,10 @@ PETSC_INTERN PetscErrorCode         MaterialModuliIsotropic(const Material *, Ma
   { \
     name, 1, offsetof(Material, hardening.member), PETSC_FALSE, NULL, NULL, 0, 0 \
   }
+#define MATERIAL_YIELD MATERIAL_HARDENING_NUMBER("yield", yield)
 #define MATERIAL_HARDENING \
-  MATERIAL_HARDENING_NUMBER("yield", yield), MATERIAL_HARDENING_NUMBER("hardening", modulus), \
-    MATERIAL_HARDENING_NUMBER("kinematic", kinematic), MATERIAL_HARDENING_NUMBER("saturation", saturation), \
-    MATERIAL_HARDENING_NUMBER("saturation_rate", rate), \
+  MATERIAL_YIELD, MATERIAL_HARDENING_NUMBER("hardening", modulus), MATERIAL_HARDENING_NUMBER("kinematic", kinematic), \
+    MATERIAL_HARDENING_NUMBER("saturation", saturation), MATERIAL_HARDENING_NUMBER("saturation_rate", rate), \
     {"plastic_strains", 0, offsetof(Material, hardening.strains), PETSC_FALSE, NULL, NULL, 0, 0}, \
   { \
     "yield_stresses", 0, offsetof(Material, hardening.stresses), PETSC_FALSE, NULL, NULL, 0, 0 \

@@ -1,5 +1,7 @@
 /* Computes pressure, gap and status at the vertices of both sides of every contact pair */
 #include "pair_rows.h"
+#include <math.h>
+#include "src/elasticity/recovery/recoveryimpl.h"
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
 #include "src/state/path.h"
@@ -272,21 +274,53 @@ static PetscErrorCode PairStretchPoints(Simulation sim, PetscInt first, const Pa
   PetscFunctionReturn(0);
 }
 
-/*
-   Computes the areas of the nonmortar side's points, the normal force and the largest pressure for the report. first:
-   the pair's first point.
-*/
+/* Finds the largest pressure of the pair's points and its place. first: the pair's first point. */
+static PetscErrorCode PairReportPressure(Simulation sim, PetscInt first, PairReport *report)
+{
+  const PetscInt     n       = sim->solved->npoints - first;
+  LargestValue       largest = {.place = {NAN, NAN, NAN}};
+  LargestSample     *samples;
+  PetscSection       section;
+  Vec                coordinates;
+  const PetscScalar *x;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(n, &samples));
+  PetscCall(DMGetLocalSection(sim->dm, &section));
+  PetscCall(MeshGetNodeCoordinates(sim->dm, &coordinates));
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  for (PetscInt k = 0; k < n; ++k) {
+    const ContactPoint *point = &sim->solved->points[first + k];
+    PetscInt            i;
+
+    PetscCall(PetscSectionGetOffset(section, point->vertex, &i));
+    samples[k] = (LargestSample){0, PetscMax(point->pressure, 0.0),
+      {PetscRealPart(x[i]), PetscRealPart(x[i + 1]), PetscRealPart(x[i + 2])}};
+  }
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  PetscCall(LargestFind(sim->comm, n, samples, 1, &largest));
+  PetscCall(PetscFree(samples));
+  report->pressure = largest.value;
+  for (PetscInt d = 0; d < 3; ++d) report->pressure_place[d] = largest.value > 0.0 ? largest.place[d] : NAN;
+  PetscFunctionReturn(0);
+}
+
+/* Computes the areas of the nonmortar side's points and the normal force for the report. first: the pair's first
+   point. */
 static PetscErrorCode PairReportPoints(Simulation sim, const PairRows *rows, Vec sides, PetscInt first,
   PairReport *report)
 {
-  PetscReal          sums[3] = {0.0, 0.0, 0.0}, largest = 0.0;
-  const PetscReal    weight = rows->self ? 0.5 : 1.0;
+  PetscReal          sums[4] = {0.0};
+  const PetscReal    weight  = rows->self ? 0.5 : 1.0;
   PetscSection       global;
   const PetscScalar *side;
   PetscInt           rstart;
 
   PetscFunctionBegin;
-  for (PetscInt r = 0; r < rows->n; ++r) sums[0] += rows->area[r] * rows->pressure[r];
+  for (PetscInt r = 0; r < rows->n; ++r) {
+    sums[0] += rows->area[r] * rows->pressure[r];
+    sums[3] += weight * rows->area[r] * rows->presses[r];
+  }
   PetscCall(DMGetGlobalSection(sim->dm, &global));
   PetscCall(VecGetOwnershipRange(sides, &rstart, NULL));
   PetscCall(VecGetArrayRead(sides, &side));
@@ -295,14 +329,13 @@ static PetscErrorCode PairReportPoints(Simulation sim, const PairRows *rows, Vec
     PetscInt            i;
 
     PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
-    largest = PetscMax(largest, point->pressure);
     if (!rows->self && PetscRealPart(side[i - rstart]) > 0.0) continue;
     if (point->closed) sums[1] += weight * point->area;
     if (point->slips) sums[2] += weight * point->area;
   }
   PetscCall(VecRestoreArrayRead(sides, &side));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPIU_REAL, MPIU_SUM, sim->comm));
-  PetscCallMPI(MPI_Allreduce(&largest, &report->pressure, 1, MPIU_REAL, MPIU_MAX, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, sim->comm));
+  if (sums[1] == 0.0) sums[1] = sums[3]; /* contact within the facets around one vertex closes none of them */
   report->normal_force = sums[0];
   report->area         = sums[1];
   report->slip_area    = sums[2];
@@ -339,6 +372,7 @@ PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
     if (rows.frictional) PetscCall(PairAddFrictionPoints(sim, p, first, &vertices, alone));
     if (stretch) PetscCall(PairStretchPoints(sim, first, &vertices, alone));
     PetscCall(PairReportPoints(sim, &rows, vertices.sides, first, &report->pairs[p]));
+    PetscCall(PairReportPressure(sim, first, &report->pairs[p]));
     PetscCall(PairMeshMeasure(sim, p, &rows, first, &report->pairs[p]));
     PetscCall(VecDestroy(&alone));
     PetscCall(PairVerticesDestroy(&vertices));

@@ -111,7 +111,8 @@ static PetscReal RigidFitRound(PetscReal x, PetscReal unit)
 static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, char text[], size_t length,
   PetscBool *turns)
 {
-  const PetscReal part = 0.1; /* smallest relative part of a motion that is mentioned */
+  const PetscReal part = 0.1; /* smallest relative deformation that is mentioned */
+  const PetscReal near = 0.2; /* A cube turns if the axis is not farther from its middle than two of its edges. */
   PetscReal       axis[3], arm, radius, size;
   RigidFit        fit;
 
@@ -123,7 +124,7 @@ static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, c
     PetscFunctionReturn(0);
   }
   size   = VectorNorm(fit.w);
-  *turns = (PetscBool)(fit.turned > part * VectorNorm(fit.t));
+  *turns = (PetscBool)(fit.turned > near * VectorNorm(fit.t));
   if (*turns) {
     radius = fit.turned / size;
     VectorCross(fit.w, fit.t, axis);
@@ -132,7 +133,7 @@ static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, c
       axis[i]  = RigidFitRound(arm, 1e-2 * radius);
       fit.w[i] = RigidFitRound(fit.w[i] / size, 1e-2);
     }
-    PetscCall(PetscSNPrintf(text, length, "turns over about the axis along (%g, %g, %g) through (%g, %g, %g)",
+    PetscCall(PetscSNPrintf(text, length, "turns about the axis along (%g, %g, %g) through (%g, %g, %g)",
       (double)fit.w[0], (double)fit.w[1], (double)fit.w[2], (double)axis[0], (double)axis[1], (double)axis[2]));
   } else {
     size = VectorNorm(fit.t);
@@ -145,7 +146,7 @@ static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, c
 
 /*
    Appends a description of the body with the largest displacement, and the text `known`, to the reason of a failed
-   step; and the text `turning`, if it is not NULL and the body turns over. Collective.
+   step; and the text `turning`, if it is not NULL and the body turns. Collective.
 */
 PetscErrorCode RigidMotionReport(Simulation sim, Vec u, const char known[], const char turning[], StepReport *report)
 {

@@ -129,7 +129,8 @@ PetscErrorCode ForcesReserve(Simulation sim, StepReport *report)
   report->npairs  = scene->npairs;
   report->nbodies = scene->nbodies;
   for (PetscInt p = 0; p < scene->npairs; ++p) {
-    report->pairs[p].name       = scene->pairs[p].name;
+    report->pairs[p].name = scene->pairs[p].name;
+    for (PetscInt d = 0; d < 3; ++d) report->pairs[p].pressure_place[d] = NAN;
     report->pairs[p].frictional = SceneContactPairHasFriction(&scene->pairs[p]);
   }
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) (void)ForcesFindFace(report, scene->displacements[d].face);

@@ -11,15 +11,17 @@
 typedef struct {
   PetscInt  n;              /* number of vertices that have the mortar face within the search distance */
   PetscReal least, largest; /* smallest and largest gap; negative: overlap [length] */
+  PetscReal certain;        /* smallest gap if the uncertainty of the smooth surfaces is added to each [length] */
   PetscReal area, overlap;  /* area of these vertices; area of those that overlap [length^2] */
 } PairStart;
 
 static PetscErrorCode StartMeasureArea(ContactLinearization lin, PairStart starts[])
 {
-  const PetscScalar *g, *m;
+  const PetscScalar *g, *m, *doubt;
 
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(lin->g, &g));
+  PetscCall(VecGetArrayRead(lin->doubt, &doubt));
   PetscCall(VecGetArrayRead(lin->mass, &m));
   for (PetscInt i = 0; i < lin->nlocal; ++i) {
     PairStart      *start = &starts[lin->pair[i]];
@@ -28,19 +30,23 @@ static PetscErrorCode StartMeasureArea(ContactLinearization lin, PairStart start
     ++start->n;
     start->least   = PetscMin(start->least, gap);
     start->largest = PetscMax(start->largest, gap);
+    start->certain = PetscMin(start->certain, gap + PetscRealPart(doubt[i]));
     start->area += PetscRealPart(m[i]);
     if (gap < 0.0) start->overlap += PetscRealPart(m[i]);
   }
   PetscCall(VecRestoreArrayRead(lin->mass, &m));
+  PetscCall(VecRestoreArrayRead(lin->doubt, &doubt));
   PetscCall(VecRestoreArrayRead(lin->g, &g));
   PetscFunctionReturn(0);
 }
 
-/* Measures gaps and overlaps. Overlaps of the size of rounding errors are ignored. */
+/* Measures gaps and overlaps. Overlaps of the size of rounding errors, or of the uncertainty of the smooth surfaces,
+   are ignored. */
 static PetscErrorCode StartMeasure(MPI_Comm comm, ContactLinearization lin, PetscInt npairs, PairStart starts[])
 {
   PetscFunctionBegin;
-  for (PetscInt p = 0; p < npairs; ++p) starts[p] = (PairStart){.least = PETSC_MAX_REAL, .largest = PETSC_MIN_REAL};
+  for (PetscInt p = 0; p < npairs; ++p)
+    starts[p] = (PairStart){.least = PETSC_MAX_REAL, .largest = PETSC_MIN_REAL, .certain = PETSC_MAX_REAL};
   PetscCall(StartMeasureArea(lin, starts));
   for (PetscInt p = 0; p < npairs; ++p) {
     PetscReal sums[2] = {starts[p].area, starts[p].overlap};
@@ -48,9 +54,10 @@ static PetscErrorCode StartMeasure(MPI_Comm comm, ContactLinearization lin, Pets
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &starts[p].n, 1, MPIU_INT, MPI_SUM, comm));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &starts[p].least, 1, MPIU_REAL, MPIU_MIN, comm));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &starts[p].largest, 1, MPIU_REAL, MPIU_MAX, comm));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &starts[p].certain, 1, MPIU_REAL, MPIU_MIN, comm));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_REAL, MPIU_SUM, comm));
     starts[p].area    = sums[0];
-    starts[p].overlap = starts[p].least < -START_ROUNDING * PetscSqrtReal(sums[0]) ? sums[1] : 0.0;
+    starts[p].overlap = starts[p].certain < -START_ROUNDING * PetscSqrtReal(sums[0]) ? sums[1] : 0.0;
   }
   PetscFunctionReturn(0);
 }
@@ -154,12 +161,8 @@ static PetscErrorCode StartWarnOfFrictionless(Simulation sim, PetscInt p)
    step, so that the velocity after it depends on where in the step the bodies meet */
 static PetscErrorCode StartWarnOfRigid(Simulation sim, const SceneContactPair *pair)
 {
-  Scene scene = sim->scene;
-
   PetscFunctionBegin;
-  if (!SceneIsDynamic(scene) || SceneFaceBody(scene, pair->mortar)->material.type != MATERIAL_RIGID ||
-      SceneFaceBody(scene, pair->nonmortar)->material.type != MATERIAL_RIGID)
-    PetscFunctionReturn(0);
+  if (!SceneIsDynamic(sim->scene) || !SceneContactPairIsRigid(sim->scene, pair)) PetscFunctionReturn(0);
   PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
     "contact pair \"%s\" is between two rigid bodies, whose rebound depends on the time steps; their energy does not "
     "grow: give one of the two bodies an elastic material if the rebound matters",

@@ -76,7 +76,7 @@ static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, PetscBool mov
   PetscFunctionBegin;
   PetscCall(PetscFree(report->body_errors));
   PetscCall(PetscMalloc1(sim->scene->nbodies, &report->body_errors));
-  PetscCall(ElasticityEstimateError(sim->elasticity, u, report->body_errors, sim->run->marks ? &cells : NULL));
+  PetscCall(ResultsRecover(sim, u, report->body_errors, sim->run->marks ? &cells : NULL, report));
   if (sim->run->marks) PetscCall(MeasureAddErrors(sim, cells));
   for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
     sum += report->body_errors[b];

@@ -82,7 +82,8 @@ PETSC_INTERN PetscErrorCode WorkAdd(Simulation, Vec load, Vec u, Vec unbalanced,
 
 /* results.c */
 PETSC_INTERN PetscErrorCode ResultsComplete(const PetscReal stress[6], PetscReal values[STRESS_VALUES]);
-PETSC_INTERN PetscErrorCode ResultsMeasure(Simulation);
+PETSC_INTERN PetscErrorCode ResultsRecover(Simulation, Vec u, PetscReal errors[], PetscReal *cells[], StepReport *);
+PETSC_INTERN PetscErrorCode ResultsMeasure(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode ResultsFree(Results *);
 
 /* probes.c */

@@ -1,6 +1,7 @@
 /* Computes fields for probes and files: stress at the nodes and at the quadrature points, strain energy */
 #include "measureimpl.h"
 #include "src/elasticity/recovery/recoveryimpl.h"
+#include <math.h>
 #include "src/state/path.h"
 #include "src/state/results.h"
 
@@ -41,18 +42,52 @@ static PetscErrorCode ResultsPickOwned(Simulation sim)
   PetscFunctionReturn(0);
 }
 
+/* Copies the largest values of a body to its report */
+static PetscErrorCode ResultsReportBody(const Material *material, const LargestOfBody *largest, BodyReport *report)
+{
+  const PetscBool rigid = (PetscBool)(material->type == MATERIAL_RIGID);
+
+  PetscFunctionBegin;
+  report->displacement = largest->displacement.value;
+  report->von_mises    = rigid ? NAN : largest->von_mises.value;
+  for (PetscInt d = 0; d < 3; ++d) {
+    report->displacement_place[d] = largest->displacement.place[d];
+    report->von_mises_place[d]    = rigid ? NAN : largest->von_mises.place[d];
+  }
+  report->safety = NAN;
+  if (material->hardening.yield > 0.0 && report->von_mises > 0.0)
+    report->safety = material->hardening.yield / report->von_mises;
+  if (report->plastic_strain > 0.0) report->safety = PetscMin(report->safety, 1.0);
+  PetscFunctionReturn(0);
+}
+
+/*
+   Collective. Recovers the stress at the nodes, unless this was done, and reports the largest values of each body.
+   errors, cells: see ElasticityRecoverStress(); NULL: no errors are estimated
+*/
+PetscErrorCode ResultsRecover(Simulation sim, Vec u, PetscReal errors[], PetscReal *cells[], StepReport *report)
+{
+  LargestOfBody *largest;
+
+  PetscFunctionBegin;
+  if (sim->results->recovered) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(sim->scene->nbodies, &largest));
+  PetscCall(ElasticityRecoverStress(sim->elasticity, u, &sim->results->recovered, largest, errors, cells));
+  for (PetscInt b = 0; b < report->nbodies; ++b)
+    PetscCall(ResultsReportBody(&sim->scene->bodies[b].material, &largest[b], &report->bodies[b]));
+  PetscCall(PetscFree(largest));
+  PetscFunctionReturn(0);
+}
+
 /* Computes the requested fields at the last state */
-PetscErrorCode ResultsMeasure(Simulation sim)
+PetscErrorCode ResultsMeasure(Simulation sim, StepReport *report)
 {
   Results *results = sim->results;
 
   PetscFunctionBegin;
-  PetscCall(ResultsFree(results));
   PetscCall(ElasticityCellPlastic(sim->elasticity, &results->plastic));
-  if (!results->nodes && !results->points && !sim->results->probes.n) PetscFunctionReturn(0);
   PetscCall(PetscLogEventBegin(SIM_Results, NULL, NULL, NULL, NULL));
-  if (results->nodes || sim->results->probes.n)
-    PetscCall(ElasticityNodalStress(sim->elasticity, sim->path->u, &results->recovered));
+  PetscCall(ResultsRecover(sim, sim->path->u, NULL, NULL, report));
   if (results->nodes) {
     PetscCall(ResultsPickOwned(sim));
     PetscCall(ElasticityCellEnergy(sim->elasticity, sim->path->u, &results->density));

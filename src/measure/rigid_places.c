@@ -1,5 +1,6 @@
 /* Computes the positions of rigid bodies and their rotations since the start */
 #include "measureimpl.h"
+#include <vector3.h>
 #include "src/state/path.h"
 
 static PetscBool RigidPlacesHas(Scene scene, PetscInt body)
@@ -37,6 +38,18 @@ static const PetscReal *RigidPlacesFindPoint(Scene scene, PetscInt body, const B
   return SceneBodyIsSurface(&scene->bodies[body]) ? scene->bodies[body].own + SURFACE_POINT : pose->from;
 }
 
+/* Reports the displacement of the point `from` of a rigid surface, whose mesh is only a box around it */
+static void RigidPlacesReport(const PetscReal from[3], const PetscReal position[3], BodyReport *report)
+{
+  PetscReal moved[3];
+
+  for (PetscInt i = 0; i < 3; ++i) {
+    moved[i]                      = position[i] - from[i];
+    report->displacement_place[i] = from[i];
+  }
+  report->displacement = VectorNorm(moved);
+}
+
 /* Computes positions and rotations at the last state */
 PetscErrorCode RigidPlacesMeasure(Simulation sim, StepReport *report)
 {
@@ -56,14 +69,17 @@ PetscErrorCode RigidPlacesMeasure(Simulation sim, StepReport *report)
   PetscCall(PosesFind(&bodies, NULL, sim->path->u, poses));
   n = 0;
   for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
-    RigidReport *body = &report->rigid_bodies[n];
+    RigidReport     *body = &report->rigid_bodies[n];
+    const PetscReal *from = RigidPlacesFindPoint(sim->scene, b, &poses[b]);
 
     if (!RigidPlacesHas(sim->scene, b)) continue;
     *body = (RigidReport){.name = sim->scene->bodies[b].name};
-    PosePlace(&poses[b], RigidPlacesFindPoint(sim->scene, b, &poses[b]), body->position);
+    PosePlace(&poses[b], from, body->position);
     PoseGetVector((const PetscReal(*)[3])poses[b].Q, body->rotation);
     for (PetscInt i = 0; i < 3; ++i) body->rotation[i] *= 180.0 / PETSC_PI;
     RigidPlacesUnwind(before ? before[n].rotation : none, body->rotation);
+    if (report->nbodies && SceneBodyIsSurface(&sim->scene->bodies[b]))
+      RigidPlacesReport(from, body->position, &report->bodies[b]);
     ++n;
   }
   PetscCall(PetscFree(poses));

@@ -7,7 +7,7 @@
    Collective on the viewer
 
    Input Parameters:
-+  report - the report of the last run
++  report - the report of the last run, of a run with -accuracy
 -  viewer - an ASCII viewer
 
    Level: intermediate
@@ -24,10 +24,6 @@ PetscErrorCode ReportViewAccuracy(const RunReport *report, PetscViewer viewer)
   const Accuracy *acc = report->accuracy;
 
   PetscFunctionBegin;
-  if (!acc) {
-    PetscCall(PetscViewerASCIIPrintf(viewer, "\nNo accuracy requested: use -accuracy <target>\n"));
-    PetscFunctionReturn(0);
-  }
   PetscCall(PetscViewerASCIIPrintf(viewer, "\nRequested accuracy %g; the solver may leave an error of %g\n",
     (double)acc->target, (double)(acc->share * acc->target)));
   if (acc->contact)

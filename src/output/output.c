@@ -79,6 +79,7 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
   PetscCall(PetscStrallocpy(basename, &o->base));
   o->nbodies = nbodies;
   PetscCall(PetscMalloc1(nbodies, &o->bodynames));
+  PetscCall(PetscCalloc1(nbodies, &o->surfaces));
   for (PetscInt b = 0; b < nbodies; ++b) PetscCall(PetscStrallocpy(bodynames[b], &o->bodynames[b]));
   PetscCall(OutputGetMeshFile(o, file, sizeof(file)));
   PetscCall(OutputCheckWritable(o->comm, file));
@@ -107,6 +108,28 @@ PetscErrorCode OutputSetUnits(Output output, const char units[])
   PetscFunctionBegin;
   PetscCall(PetscFree(output->units));
   PetscCall(PetscStrallocpy(units, &output->units));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   OutputSetSurface - Writes into the XDMF file which surface a rigid body of one cell represents
+
+   Not Collective
+
+   Input Parameters:
++  output - the output, before OutputWrite()
+.  body   - number of the body
+-  text   - its shape and parameters, see SceneSurfaceWrite()
+
+   Level: intermediate
+
+.seealso: `OutputCreate()`
+@*/
+PetscErrorCode OutputSetSurface(Output output, PetscInt body, const char text[])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(output->surfaces[body]));
+  PetscCall(PetscStrallocpy(text, &output->surfaces[body]));
   PetscFunctionReturn(0);
 }
 
@@ -253,8 +276,12 @@ PetscErrorCode OutputDestroy(Output *output)
   PetscFunctionBegin;
   if (!o) PetscFunctionReturn(0);
   LockFileEnd(&o->lock);
-  for (PetscInt b = 0; b < o->nbodies; ++b) PetscCall(PetscFree(o->bodynames[b]));
+  for (PetscInt b = 0; b < o->nbodies; ++b) {
+    PetscCall(PetscFree(o->bodynames[b]));
+    PetscCall(PetscFree(o->surfaces[b]));
+  }
   PetscCall(PetscFree(o->bodynames));
+  PetscCall(PetscFree(o->surfaces));
   for (PetscInt p = 0; p < o->npairs; ++p) PetscCall(PetscFree(o->pairnames[p]));
   PetscCall(PetscFree(o->pairnames));
   PetscCall(PetscFree(o->units));

@@ -23,8 +23,9 @@ struct _n_Output {
   int      lock; /* descriptor of the lock on the mesh file, see LockFileBegin() */
   PetscInt nbodies;
   char   **bodynames;
-  char    *units;  /* units of the scene; NULL if the scene does not state them */
-  PetscInt npairs; /* number of contact pairs that have fields of their own; 0 if there are fewer than two pairs */
+  char   **surfaces; /* of each body: the rigid surface that its cell represents, see OutputSetSurface(); NULL: none */
+  char    *units;    /* units of the scene; NULL if the scene does not state them */
+  PetscInt npairs;   /* number of contact pairs that have fields of their own; 0 if there are fewer than two pairs */
   char   **pairnames;
   PetscInt nvertices, ncells; /* number of nodes and of cells on all ranks */
   PetscInt nowned, ncellslocal,

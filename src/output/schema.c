@@ -53,6 +53,7 @@ static const ReportField pair_fields[] = {
   FIELD(PairReport, area, FIELD_REAL, "length^2", .columns = {COLUMN(TABLE_PAIRS, "area", "", 10, .format = "%.4e")}),
   FIELD(PairReport, pressure, FIELD_REAL, "force/length^2",
     .columns = {COLUMN(TABLE_PAIRS, "pressure", "", 10, .format = "%.4e")}),
+  FIELD(PairReport, pressure_place, FIELD_VECTOR, "length"),
   FIELD(PairReport, penetration, FIELD_REAL, "length",
     .columns = {COLUMN(TABLE_PAIRS, "penetration", "", 11, .format = "%.4e")}),
   FIELD(PairReport, shear_force, FIELD_REAL, "force"),
@@ -136,6 +137,11 @@ static const ReportField body_fields[] = {
   FIELD(BodyReport, residual, FIELD_VECTOR, "force"),
   FIELD(BodyReport, balance, FIELD_REAL, ""),
   FIELD(BodyReport, plastic_strain, FIELD_REAL, ""),
+  FIELD(BodyReport, displacement, FIELD_REAL, "length"),
+  FIELD(BodyReport, displacement_place, FIELD_VECTOR, "length"),
+  FIELD(BodyReport, von_mises, FIELD_REAL, "force/length^2"),
+  FIELD(BodyReport, von_mises_place, FIELD_VECTOR, "length"),
+  FIELD(BodyReport, safety, FIELD_REAL, ""),
   END,
 };
 static const ReportRecord SchemaBodies = {sizeof(BodyReport), PETSC_TRUE, body_fields};
@@ -308,6 +314,18 @@ static const ReportField effect_fields[] = {
 };
 const ReportRecord SchemaEffects = {sizeof(RunEffect), PETSC_TRUE, effect_fields};
 
+static const ReportField figure_fields[] = {
+  FIELD(RunFigure, quantity, FIELD_TEXT, ""),
+  FIELD(RunFigure, name, FIELD_TEXT, ""),
+  FIELD(RunFigure, value, FIELD_REAL, ""),
+  FIELD(RunFigure, unit, FIELD_CHARS, ""),
+  FIELD(RunFigure, place, FIELD_VECTOR, "length"),
+  FIELD(RunFigure, components, FIELD_VECTOR, "force"),
+  FIELD(RunFigure, step, FIELD_INT, ""),
+  END,
+};
+static const ReportRecord SchemaFigures = {sizeof(RunFigure), PETSC_TRUE, figure_fields};
+
 static const ReportField contact_free_fields[] = {
   FIELD(RunContactFree, iterations, FIELD_INT, ""),
   FIELD(RunContactFree, condition, FIELD_REAL, ""),
@@ -335,6 +353,7 @@ static const ReportField run_fields[] = {
   FIELD(RunReport, reason, FIELD_TEXT, ""),
   FIELD(RunReport, exit_code, FIELD_INT, ""),
   FIELD(RunReport, warnings, FIELD_TEXTS, "", .count = offsetof(RunReport, nwarnings)),
+  FIELD(RunReport, figures, FIELD_LIST, "", .count = offsetof(RunReport, nfigures), .record = &SchemaFigures),
   FIELD(RunReport, steps, FIELD_LIST, "", .count = offsetof(RunReport, nsteps), .record = &SchemaSteps),
   FIELD(RunReport, time, FIELD_RECORD, "", .record = &SchemaTimes),
   FIELD(RunReport, assemblies, FIELD_BODY_INTS, ""),

@@ -210,24 +210,11 @@ static PetscErrorCode ViewMemory(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/*@C
-   ReportViewEffects - Prints which effects the scene uses and which not, why, and their share of the run time
-
-   Collective on the viewer
-
-   Input Parameters:
-+  report - the report
--  viewer - an ASCII viewer
-
-   Level: intermediate
-
-   Note:
-   An effect without a share has no phase of its own: its time is part of other phases (for example, the element's
-   formulation is part of the assembly).
-
-.seealso: `ReportView()`
-@*/
-PetscErrorCode ReportViewEffects(const RunReport *report, PetscViewer viewer)
+/*
+   Prints which effects the scene uses and which not, why, and their share of the run time. An effect without a share
+   has no phase of its own: its time is part of other phases (for example, the element's formulation of the assembly).
+*/
+static PetscErrorCode ViewEffects(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
@@ -236,8 +223,37 @@ PetscErrorCode ReportViewEffects(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+/* Writes a place or the components of a force. Components below 1e-9 of the largest one are written as 0. */
+static void ViewVector(const char before[], const PetscReal v[3], char text[], size_t length)
+{
+  const PetscReal tiny = 1e-9 * PetscMax(PetscAbsReal(v[0]), PetscMax(PetscAbsReal(v[1]), PetscAbsReal(v[2])));
+  double          clean[3];
+
+  for (PetscInt d = 0; d < 3; ++d) clean[d] = PetscAbsReal(v[d]) <= tiny ? 0.0 : (double)v[d];
+  (void)snprintf(text, length, "%s(%.5g, %.5g, %.5g)", before, clean[0], clean[1], clean[2]);
+}
+
+/* Prints a figure; also its load step if there are several */
+static PetscErrorCode ViewFigure(const RunFigure *figure, PetscInt nsteps, PetscViewer viewer)
+{
+  char value[32], vector[96] = ""; /* snprintf() is used because PETSc's formatting would print 0. for 0 */
+
+  PetscFunctionBegin;
+  (void)snprintf(value, sizeof(value), "%.5g", (double)figure->value);
+  if (!PetscIsNanReal(figure->place[0])) ViewVector("at ", figure->place, vector, sizeof(vector));
+  else if (!PetscIsNanReal(figure->components[0])) ViewVector("", figure->components, vector, sizeof(vector));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-22s %-20s %10s", figure->quantity, figure->name, value));
+  if (nsteps > 1)
+    PetscCall(PetscViewerASCIIPrintf(viewer, " %-6s %-36s %" PetscInt_FMT, figure->unit, vector, figure->step));
+  else if (vector[0]) PetscCall(PetscViewerASCIIPrintf(viewer, " %-6s %s", figure->unit, vector));
+  else if (figure->unit[0]) PetscCall(PetscViewerASCIIPrintf(viewer, " %s", figure->unit));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  PetscFunctionReturn(0);
+}
+
 /*@C
-   ReportView - Prints the report of a run: steps, forces, times, memory
+   ReportView - Prints the largest values of a run: displacement, stress, plastic strain and safety factor of each body,
+   force, pressure and area of each contact pair, reactions, the estimated error, time and memory
 
    Collective on the viewer
 
@@ -247,9 +263,43 @@ PetscErrorCode ReportViewEffects(const RunReport *report, PetscViewer viewer)
 
    Level: beginner
 
-.seealso: `ReportWriteJSON()`
+   Note:
+   The values are those of the load steps that converged, at their ends. Places are undeformed.
+
+.seealso: `ReportViewTables()`, `ReportWriteJSON()`
 @*/
 PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
+{
+  PetscInt n = 0;
+
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < report->nsteps; ++s) n += report->steps[s].converged;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\nProblem %s: %s\n", report->problem, report->reason));
+  if (report->units && report->units[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "Units: %s\n", report->units));
+  if (n > 1) PetscCall(PetscViewerASCIIPrintf(viewer, "%-98s%s\n", "Largest values", "in load step"));
+  for (PetscInt f = 0; f < report->nfigures; ++f) PetscCall(ViewFigure(&report->figures[f], n, viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer,
+    "  %-22s %.3g s, %.0f MB, %" PetscInt_FMT " unknowns, %" PetscInt_FMT " load step%s, %" PetscInt_FMT " rank%s\n",
+    "time and size", (double)report->time.total, report->peak_memory_bytes / 1e6, report->dofs, report->nsteps,
+    report->nsteps == 1 ? "" : "s", report->ranks, report->ranks == 1 ? "" : "s"));
+  PetscCall(ViewContactFree(report, viewer));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   ReportViewTables - Prints tables of a run: load steps, solver, forces, energy, errors, times, memory, effects
+
+   Collective on the viewer
+
+   Input Parameters:
++  report - the report
+-  viewer - an ASCII viewer
+
+   Level: intermediate
+
+.seealso: `ReportView()`, `ReportWriteJSON()`
+@*/
+PetscErrorCode ReportViewTables(const RunReport *report, PetscViewer viewer)
 {
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer,
@@ -271,7 +321,7 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
   if (report->accuracy) PetscCall(ReportViewAccuracy(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewTimes(report, viewer));
-  PetscCall(ViewContactFree(report, viewer));
   PetscCall(ViewMemory(report, viewer));
+  PetscCall(ViewEffects(report, viewer));
   PetscFunctionReturn(0);
 }

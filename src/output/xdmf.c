@@ -122,6 +122,9 @@ static PetscErrorCode XDMFWriteDocument(FILE *stream, const void *ctx)
 
     PetscCall(PetscSNPrintf(name, sizeof(name), "body %" PetscInt_FMT, b));
     XDMFWriteNote(stream, name, output->bodynames[b]);
+    if (!output->surfaces[b]) continue;
+    PetscCall(PetscSNPrintf(name, sizeof(name), "surface %" PetscInt_FMT, b));
+    XDMFWriteNote(stream, name, output->surfaces[b]);
   }
   if (output->units) XDMFWriteNote(stream, "units", output->units);
   fputs("    <Grid Name=\"load steps\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", stream);

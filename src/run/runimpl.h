@@ -22,6 +22,12 @@ PETSC_INTERN PetscErrorCode AdaptMarkContact(Simulation);
 PETSC_INTERN PetscErrorCode EffectsCreate(Simulation, RunReport *);
 PETSC_INTERN PetscErrorCode EffectsSetTimes(Simulation, RunReport *);
 
+/* plausible.c */
+PETSC_INTERN PetscErrorCode PlausibleTest(Simulation);
+
+/* figures.c */
+PETSC_INTERN PetscErrorCode FiguresCollect(RunReport *);
+
 /* simulation.c, setup.c, contact_free.c, adapt.c, accuracy.c: their functions are declared in step.h and accuracy.h */
 
 #endif

@@ -126,6 +126,47 @@ static PetscErrorCode SimulationReportRotations(Simulation sim)
   PetscFunctionReturn(0);
 }
 
+/* Creates mesh, elastic bodies, dead loads, ties and contact pairs, and refuses what is wrong with them */
+static PetscErrorCode SimulationSetUpMesh(Simulation sim)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(SIM_Mesh, NULL, NULL, NULL, NULL));
+  PetscCall(PlausibleTest(sim));
+  PetscCall(MeshCreateScene(sim->comm, sim->scene, sim->run->marks, &sim->dm));
+  PetscCall(MeshCheckScene(sim->dm, sim->scene));
+  PetscCall(ProbesCreate(sim->dm, sim->scene, &sim->results->probes));
+  PetscCall(PetscLogEventEnd(SIM_Mesh, NULL, NULL, NULL, NULL));
+  PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.mesh));
+  PetscCall(PetscLogEventBegin(SIM_SetUp, NULL, NULL, NULL, NULL));
+  PetscCall(DMCreateGlobalVector(sim->dm, &sim->path->u));
+  PetscCall(VecSet(sim->path->u, 0.0));
+  PetscCall(VecDuplicate(sim->path->u, &sim->path->previous_u));
+  PetscCall(VecSet(sim->path->previous_u, 0.0));
+  PetscCall(SimulationSetUpElasticity(sim));
+  PetscCall(SimulationSetUpContact(sim));
+  PetscCall(PetscLogEventEnd(SIM_SetUp, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   SimulationCheck - Refuses what SimulationSetUp() refuses, without the cost of a tangent
+
+   Collective
+
+   Input Parameter:
+.  sim - the simulation. Afterwards only its mesh may be used
+
+   Level: intermediate
+
+.seealso: `SimulationSetUp()`, `SimulationGetDM()`
+@*/
+PetscErrorCode SimulationCheck(Simulation sim)
+{
+  PetscFunctionBegin;
+  PetscCall(SimulationSetUpMesh(sim));
+  PetscFunctionReturn(0);
+}
+
 /*@C
    SimulationSetUp - Creates the mesh, the elastic bodies and their tangent, dead loads and contact pairs of the scene,
    at time 0 with zero displacement
@@ -141,28 +182,13 @@ static PetscErrorCode SimulationReportRotations(Simulation sim)
 @*/
 PetscErrorCode SimulationSetUp(Simulation sim)
 {
-  Scene scene = sim->scene;
-
   PetscFunctionBegin;
   PetscCall(EventsRead(&sim->run->start));
   PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.start));
-  PetscCall(PetscLogEventBegin(SIM_Mesh, NULL, NULL, NULL, NULL));
-  PetscCall(MeshCreateScene(sim->comm, scene, sim->run->marks, &sim->dm));
-  PetscCall(MeshCheckScene(sim->dm, scene));
-  PetscCall(ProbesCreate(sim->dm, scene, &sim->results->probes));
-  PetscCall(PetscLogEventEnd(SIM_Mesh, NULL, NULL, NULL, NULL));
-  PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.mesh));
-  PetscCall(PetscLogEventBegin(SIM_SetUp, NULL, NULL, NULL, NULL));
-  PetscCall(DMCreateGlobalVector(sim->dm, &sim->path->u));
-  PetscCall(VecSet(sim->path->u, 0.0));
-  PetscCall(VecDuplicate(sim->path->u, &sim->path->previous_u));
-  PetscCall(VecSet(sim->path->previous_u, 0.0));
-  PetscCall(SimulationSetUpElasticity(sim));
-  PetscCall(PetscLogEventEnd(SIM_SetUp, NULL, NULL, NULL, NULL));
+  PetscCall(SimulationSetUpMesh(sim));
   PetscCall(SimulationSetUpTangent(sim));
   PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.assembly));
   PetscCall(PetscLogEventBegin(SIM_SetUp, NULL, NULL, NULL, NULL));
-  PetscCall(SimulationSetUpContact(sim));
   PetscCall(ForecastSetUp(sim));
   PetscCall(SimulationSetUpReport(sim));
   PetscCall(SimulationReportRotations(sim));

@@ -261,6 +261,7 @@ PetscErrorCode SimulationGetReport(Simulation sim, RunReport *report)
   for (PetscInt b = 0; b < sim->report.nbodies; ++b)
     PetscCall(ElasticityGetAssemblies(sim->elasticity, b, &sim->report.assemblies[b]));
   PetscCall(EffectsSetTimes(sim, &sim->report));
+  PetscCall(FiguresCollect(&sim->report));
   PetscCall(MemoryUsageGetPeak(sim->comm, &sim->report.peak_memory_bytes));
   *report = sim->report;
   PetscFunctionReturn(0);
@@ -287,6 +288,7 @@ static PetscErrorCode SimulationFreeReport(RunReport *report)
   PetscCall(PetscFree(report->steps));
   PetscCall(PetscFree2(report->bodies, report->assemblies));
   PetscCall(PetscFree(report->effects));
+  PetscCall(PetscFree(report->figures));
   for (PetscInt i = 0; i < report->nwarnings; ++i) PetscCall(PetscFree(*(char **)&report->warnings[i]));
   PetscCall(PetscFree(report->warnings));
   PetscFunctionReturn(0);

@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Keys of the top level that may differ, since they determine how a simulation continues and how it is solved. */
+/* Keys of the top level that may differ, since they determine how a simulation continues and how it is solved. So may
+   the end time of `dynamics`. */
 static const char *const free_keys[] = {"problem", "units", "probes", "load", "ramps", "refine", "refinements", "model",
   "contact_updates", "displacement_bounds", "solver"};
 
@@ -56,6 +57,7 @@ static PetscBool SceneLinesAdvance(SceneLines *lines)
         (int)PetscMin(strcspn(lines->line + indent + 2, ":"), sizeof(lines->entry) - 2), lines->line + indent + 2);
     for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(free_keys); ++i)
       counts = (PetscBool)(counts && strcmp(lines->top, free_keys[i]));
+    if (!strcmp(lines->top, "dynamics") && !strncmp(lines->line + indent, "end_time:", 9)) counts = PETSC_FALSE;
     if (counts) return PETSC_TRUE;
   }
   return PETSC_FALSE;
@@ -68,8 +70,8 @@ static const char *SceneLinesSay(const SceneLines *lines, PetscBool there)
 
 /*
    Compares a scene with the text of another scene, which SceneGetText() has returned. difference: description of the
-   first difference; "" if there is none; length: size of `difference`. Load programs, refinement, probes, model and
-   solver options are not compared.
+   first difference; "" if there is none; length: size of `difference`. Load programs, end times, refinement, probes,
+   model and solver options are not compared.
 */
 PetscErrorCode SceneCompare(Scene scene, const char text[], char difference[], size_t length)
 {

@@ -129,7 +129,8 @@ static PetscErrorCode DescribeBodies(Scene scene, DM dm, const BodyChoice choice
       (double)mesh->upper[1], (double)mesh->lower[2], (double)mesh->upper[2]));
     if (body->material.type == MATERIAL_RIGID) PetscCall(PetscViewerASCIIPrintf(viewer, "    rigid\n"));
     else {
-      PetscCall(PetscViewerASCIIPrintf(viewer, "    material %s", MaterialTypes[body->material.type]));
+      PetscCall(PetscViewerASCIIPrintf(viewer, "    material %s%s%s%s", body->material_name ? body->material_name : "",
+        body->material_name ? " (" : "", MaterialTypes[body->material.type], body->material_name ? ")" : ""));
       PetscCall(SceneDescribeConstants(&body->material, viewer));
       PetscCall(PetscViewerASCIIPrintf(viewer, "; element %s", ElementTypes[choices[b].element]));
       if (choices[b].reason) PetscCall(PetscViewerASCIIPrintf(viewer, " (chosen: %s)", choices[b].reason));
@@ -139,6 +140,7 @@ static PetscErrorCode DescribeBodies(Scene scene, DM dm, const BodyChoice choice
       PetscViewerASCIIPrintf(viewer, "    %" PetscInt_FMT " %s%s, %" PetscInt_FMT " %s, %" PetscInt_FMT " unknowns\n",
         mesh->ncells, mesh->ntetrahedra ? "tetrahedra" : "cells", choices[b].order > 1 ? " of order 2" : "",
         mesh->nnodes, choices[b].order > 1 ? "nodes" : "vertices", 3 * mesh->nnodes));
+    PetscCall(SceneDescribeVelocity(body, viewer));
     order = PetscMax(order, choices[b].order);
     ncells += mesh->ncells;
     nnodes += mesh->nnodes;
@@ -166,12 +168,13 @@ static PetscErrorCode DescribeMeasureFace(DM dm, const char face[], PetscInt *nf
   PetscFunctionReturn(0);
 }
 
-/* Prints the faces sorted by name. Faces are the labels of the DM whose names contain a dot. */
+/* Prints a line per body with its faces, sorted by name. Faces are the labels of the DM whose names contain a dot. */
 static PetscErrorCode DescribeFaces(DM dm, PetscViewer viewer)
 {
-  PetscInt     nlabels, n = 0, nfacets, *order;
-  const char **faces;
+  PetscInt     nlabels, n   = 0, nfacets, *order;
+  const char **faces, *body = "";
   PetscReal    area;
+  size_t       length = 0;
 
   PetscFunctionBegin;
   PetscCall(DMGetNumLabels(dm, &nlabels));
@@ -182,13 +185,20 @@ static PetscErrorCode DescribeFaces(DM dm, PetscViewer viewer)
     if (strchr(faces[n], '.')) ++n;
   }
   PetscCall(PetscSortStrWithPermutation(n, faces, order));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "Faces\n"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "Faces, with area and number of facets"));
   for (PetscInt i = 0; i < n; ++i) {
-    PetscCall(DescribeMeasureFace(dm, faces[order[i]], &nfacets, &area));
-    if (nfacets)
-      PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %" PetscInt_FMT " facets, area %.5g\n", faces[order[i]], nfacets,
-        (double)area));
+    const char *face = faces[order[i]], *own = strchr(face, '.');
+
+    PetscCall(DescribeMeasureFace(dm, face, &nfacets, &area));
+    if (!nfacets) continue;
+    if (length != (size_t)(own - face) || strncmp(body, face, length))
+      PetscCall(PetscViewerASCIIPrintf(viewer, "\n  %.*s:", (int)(own - face), face));
+    else PetscCall(PetscViewerASCIIPrintf(viewer, ","));
+    body   = face;
+    length = (size_t)(own - face);
+    PetscCall(PetscViewerASCIIPrintf(viewer, " %s %.5g (%" PetscInt_FMT ")", own + 1, (double)area, nfacets));
   }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(PetscFree2(faces, order));
   PetscFunctionReturn(0);
 }
@@ -206,6 +216,29 @@ static PetscErrorCode DescribeSides(DM dm, const SceneContactPair *pair, PetscVi
   PetscCall(PetscViewerASCIIPrintf(viewer,
     "    facets of mean area %.3g on the mortar side, %.3g on the nonmortar side%s\n", (double)size[0], (double)size[1],
     size[1] > 4.0 * size[0] ? ": the nonmortar side is the coarser one; swap the two sides" : ""));
+  PetscFunctionReturn(0);
+}
+
+/* Prints friction and interference of a pair */
+static PetscErrorCode DescribeLaw(Scene scene, const SceneContactPair *pair, PetscViewer viewer)
+{
+  const PetscBool sticks = (PetscBool)(pair->friction == PETSC_INFINITY);
+
+  PetscFunctionBegin;
+  if (!SceneContactPairHasFriction(pair)) PetscCall(PetscViewerASCIIPrintf(viewer, "    without friction"));
+  else if (sticks && pair->shear_limit == PETSC_INFINITY) PetscCall(PetscViewerASCIIPrintf(viewer, "    sticks"));
+  else if (!sticks) PetscCall(PetscViewerASCIIPrintf(viewer, "    friction %.6g", (double)pair->friction));
+  else PetscCall(PetscViewerASCIIPrintf(viewer, "    friction"));
+  if (pair->friction_ramp >= 0)
+    PetscCall(PetscViewerASCIIPrintf(viewer, " times %s", scene->ramps[pair->friction_ramp].name));
+  if (SceneContactPairHasFriction(pair) && pair->shear_limit < PETSC_INFINITY)
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", at most %.6g per area", (double)pair->shear_limit));
+  if (pair->interference == PETSC_INFINITY) PetscCall(PetscViewerASCIIPrintf(viewer, "; interference: any"));
+  else if (pair->interference > 0.0)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "; interference of at most %.6g", (double)pair->interference));
+  if (pair->interference_ramp >= 0)
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", follows %s", scene->ramps[pair->interference_ramp].name));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", pair->smooth ? "" : "; facets are not smoothed"));
   PetscFunctionReturn(0);
 }
 
@@ -233,6 +266,7 @@ static PetscErrorCode DescribePairs(Scene scene, DM dm, PetscViewer viewer)
         PetscCall(PetscViewerASCIIPrintf(viewer, "smallest distance at the start %.4g\n", (double)here->apart));
       else PetscCall(PetscViewerASCIIPrintf(viewer, "the faces meet during the run\n"));
     }
+    PetscCall(DescribeLaw(scene, here, viewer));
     if (!here->self) PetscCall(DescribeSides(dm, here, viewer));
   }
   PetscFunctionReturn(0);
@@ -306,19 +340,67 @@ static PetscErrorCode DescribeProbes(Scene scene, DM dm, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Prints the load program with a row per load step and a column per ramp. */
+#define DESCRIBE_ROWS 20 /* largest number of rows of the load program */
+
+/* Returns whether a load step's factors are not on the straight lines through those of the steps before and after */
+static PetscBool DescribeIsCorner(Scene scene, PetscInt step)
+{
+  if (step == 0 || step + 1 == scene->nsteps) return PETSC_TRUE;
+  for (PetscInt r = 0; r < scene->nramps; ++r) {
+    const PetscReal *factor = scene->ramps[r].factor + step;
+    const PetscReal  size   = PetscAbsReal(factor[-1]) + PetscAbsReal(factor[0]) + PetscAbsReal(factor[1]);
+
+    if (PetscAbsReal(factor[-1] - 2.0 * factor[0] + factor[1]) > 1e-9 * size) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+/*
+   Prints the load program with a row per load step and a column per ramp. Rows between which all factors are linear are
+   left out. If more than DESCRIBE_ROWS remain, rows are picked at equal intervals.
+*/
 static PetscErrorCode DescribeSteps(Scene scene, PetscViewer viewer)
 {
+  PetscInt ncorners = 0, every;
+
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "Load steps, and the factors at the end of each\n  step"));
+  for (PetscInt i = 0; i < scene->nsteps; ++i) ncorners += DescribeIsCorner(scene, i);
+  every = ncorners > DESCRIBE_ROWS ? (scene->nsteps + DESCRIBE_ROWS - 1) / DESCRIBE_ROWS : 0;
+  PetscCall(
+    PetscViewerASCIIPrintf(viewer, "Load steps: %" PetscInt_FMT "; factors at their ends%s\n  step", scene->nsteps,
+      every                      ? "; some of them"
+      : ncorners < scene->nsteps ? "; linear between the rows"
+                                 : ""));
   for (PetscInt r = 0; r < scene->nramps; ++r) PetscCall(PetscViewerASCIIPrintf(viewer, " %12s", scene->ramps[r].name));
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   for (PetscInt i = 0; i < scene->nsteps; ++i) {
+    if (every ? (i + 1) % every && i + 1 < scene->nsteps : !DescribeIsCorner(scene, i)) continue;
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %4" PetscInt_FMT, i + 1));
     for (PetscInt r = 0; r < scene->nramps; ++r)
       PetscCall(PetscViewerASCIIPrintf(viewer, " %12.6g", (double)scene->ramps[r].factor[i]));
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   }
+  PetscFunctionReturn(0);
+}
+
+/* Prints the time integration of a dynamic analysis */
+static PetscErrorCode DescribeDynamics(Scene scene, PetscViewer viewer)
+{
+  const SceneDynamics *d = &scene->dynamics;
+
+  PetscFunctionBegin;
+  if (!SceneIsDynamic(scene)) PetscFunctionReturn(0);
+  PetscCall(
+    PetscViewerASCIIPrintf(viewer, "Dynamics\n  scheme %s, %" PetscInt_FMT " time steps of %.6g, end time %.6g, ",
+      DynamicsSchemes[d->scheme], scene->nsteps, (double)d->time_step, (double)d->end_time));
+  if (d->tolerance > 0.0) PetscCall(PetscViewerASCIIPrintf(viewer, "controlled to %.3g, ", (double)d->tolerance));
+  if (d->scheme == SCHEME_GENERALIZED_ALPHA)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "spectral radius %.6g, ", (double)d->spectral_radius));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "mass %s", MassTypes[d->mass]));
+  if (d->damping_mass > 0.0 || d->damping_stiffness > 0.0)
+    PetscCall(PetscViewerASCIIPrintf(viewer, ", damping %.6g of the mass and %.6g of the stiffness",
+      (double)d->damping_mass, (double)d->damping_stiffness));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscFunctionReturn(0);
 }
 
@@ -331,66 +413,77 @@ static PetscBool DescribeUses(BodyEffect effect, const SceneBody *body, const Bo
   return (PetscBool)(choice->element == (effect == USES_BBAR ? ELEMENT_BBAR : ELEMENT_INCOMPATIBLE));
 }
 
-/*
-   Prints whether an effect is used and the bodies that use it, for example: on, in slab, block. off: text that is
-   printed if no body uses it.
-*/
+/* Names of the effects that are off, for one line */
+typedef struct {
+  char text[512];
+} DescribeOff;
+
+static PetscErrorCode DescribeAddOff(DescribeOff *off, const char effect[])
+{
+  PetscFunctionBegin;
+  if (off->text[0]) PetscCall(PetscStrlcat(off->text, ", ", sizeof(off->text)));
+  PetscCall(PetscStrlcat(off->text, effect, sizeof(off->text)));
+  PetscFunctionReturn(0);
+}
+
+/* Prints the bodies that use an effect, for example: on, in slab, block. If there are none, the effect is off. */
 static PetscErrorCode DescribeBodyEffect(Scene scene, PetscViewer viewer, const char name[], BodyEffect effect,
-  const BodyChoice choices[], const char off[])
+  const BodyChoice choices[], DescribeOff *off)
 {
   PetscBool on = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s", name));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     if (!DescribeUses(effect, &scene->bodies[b], &choices[b])) continue;
-    PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s", on ? ", " : "on, in ", scene->bodies[b].name));
+    if (!on) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24son, in ", name));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s", on ? ", " : "", scene->bodies[b].name));
     on = PETSC_TRUE;
   }
-  PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s\n", on ? "" : "off: ", on ? "" : off));
+  if (on) PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  else PetscCall(DescribeAddOff(off, name));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode DescribeListEffect(PetscViewer viewer, const char effect[], PetscInt n, const char off[])
+static PetscErrorCode DescribeListEffect(PetscViewer viewer, const char effect[], PetscInt n, DescribeOff *off)
 {
   PetscFunctionBegin;
   if (n) PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24son, %" PetscInt_FMT "\n", effect, n));
-  else PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24soff: %s\n", effect, off));
+  else PetscCall(DescribeAddOff(off, effect));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode DescribeEffects(Scene scene, const BodyChoice choices[], PetscViewer viewer)
 {
-  PetscInt  rubbing = 0;
-  PetscBool finite  = PETSC_FALSE;
+  PetscInt    rubbing = 0;
+  PetscBool   finite  = PETSC_FALSE;
+  DescribeOff off     = {""};
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b)
     if (MaterialIsFinite(&scene->bodies[b].material)) finite = PETSC_TRUE;
   PetscCall(PetscViewerASCIIPrintf(viewer, "Effects\n"));
-  PetscCall(DescribeListEffect(viewer, "contact pairs", scene->npairs,
-    "no contact; one linear solve per load step if every body is linear"));
+  PetscCall(DescribeListEffect(viewer, "contact pairs", scene->npairs, &off));
   if (scene->npairs)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24sat most %" PetscInt_FMT " per load step\n", "contact updates",
       scene->contact_updates));
   for (PetscInt p = 0; p < scene->npairs; ++p) rubbing += SceneContactPairHasFriction(&scene->pairs[p]);
-  PetscCall(DescribeListEffect(viewer, "friction", rubbing, "no pair has friction, shear_limit or stick"));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "AMG filter",
-    scene->npairs ? "on, if the constraints are stiff enough to need it" : "off: no constraints"));
-  PetscCall(
-    DescribeBodyEffect(scene, viewer, "finite strain", USES_FINITE_STRAIN, choices, "every material is linear"));
+  PetscCall(DescribeListEffect(viewer, "friction", rubbing, &off));
+  if (scene->npairs)
+    PetscCall(
+      PetscViewerASCIIPrintf(viewer, "  %-24son, if the constraints are stiff enough to need it\n", "AMG filter"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "finite strain", USES_FINITE_STRAIN, choices, &off));
   if (finite)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24s%s\n", "model of a load step", StepModels[scene->model]));
-  PetscCall(DescribeBodyEffect(scene, viewer, "mean dilatation", USES_BBAR, choices, "no element is bbar"));
-  PetscCall(
-    DescribeBodyEffect(scene, viewer, "incompatible modes", USES_INCOMPATIBLE, choices, "no element is incompatible"));
-  PetscCall(DescribeBodyEffect(scene, viewer, "order 2", USES_ORDER2, choices, "every body has order 1"));
-  PetscCall(DescribeListEffect(viewer, "pressures", scene->npressures, "no pressures"));
-  PetscCall(DescribeListEffect(viewer, "body forces", scene->nforces, "no body_forces"));
+  PetscCall(DescribeBodyEffect(scene, viewer, "mean dilatation", USES_BBAR, choices, &off));
+  PetscCall(DescribeBodyEffect(scene, viewer, "incompatible modes", USES_INCOMPATIBLE, choices, &off));
+  PetscCall(DescribeBodyEffect(scene, viewer, "order 2", USES_ORDER2, choices, &off));
+  PetscCall(DescribeListEffect(viewer, "pressures", scene->npressures, &off));
+  PetscCall(DescribeListEffect(viewer, "body forces", scene->nforces, &off));
   if (scene->displacement_bounds)
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24son, from load step %" PetscInt_FMT "\n", "displacement bounds",
       scene->displacement_bounds));
-  else PetscCall(PetscViewerASCIIPrintf(viewer, "  %-24soff: no displacement_bounds\n", "displacement bounds"));
+  else PetscCall(DescribeAddOff(&off, "displacement bounds"));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  off: %s\n", off.text));
   for (PetscInt o = 0; o < scene->noptions; ++o)
     PetscCall(PetscViewerASCIIPrintf(viewer, "%s  -%s %s%s\n", o ? "" : "Solver options\n", scene->options[o].name,
       scene->options[o].value, scene->options[o].set ? "" : " (the command line or an options file takes precedence)"));
@@ -429,6 +522,7 @@ PetscErrorCode SceneDescribe(Scene scene, DM dm, PetscViewer viewer)
   PetscCall(DescribeRefinements(scene, dm, viewer));
   PetscCall(DescribeProbes(scene, dm, viewer));
   PetscCall(DescribeSteps(scene, viewer));
+  PetscCall(DescribeDynamics(scene, viewer));
   PetscCall(DescribeEffects(scene, choices, viewer));
   PetscCall(PetscFree(choices));
   PetscFunctionReturn(0);

@@ -1,5 +1,6 @@
 /* Describes the loads of a scene: prescribed displacements, forces, springs, bolts, temperatures */
 #include "sceneimpl.h"
+#include <vector3.h>
 #include <petscviewer.h>
 
 /* Prints `before` and a vector in parentheses */
@@ -84,6 +85,20 @@ static PetscErrorCode DescribeJoints(Scene scene, PetscViewer viewer)
     if (here->lock) PetscCall(PetscViewerASCIIPrintf(viewer, ", locked after load step %" PetscInt_FMT, here->lock));
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   }
+  PetscFunctionReturn(0);
+}
+
+/* Prints the velocities of a body at time 0, unless they are 0 */
+PetscErrorCode SceneDescribeVelocity(const SceneBody *body, PetscViewer viewer)
+{
+  const PetscBool moves = (PetscBool)(VectorNorm(body->velocity) > 0.0),
+                  turns = (PetscBool)(VectorNorm(body->spin) > 0.0);
+
+  PetscFunctionBegin;
+  if (moves) PetscCall(DescribeVector(viewer, "    initial velocity ", body->velocity));
+  if (turns)
+    PetscCall(DescribeVector(viewer, moves ? ", angular velocity " : "    initial angular velocity ", body->spin));
+  if (moves || turns) PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscFunctionReturn(0);
 }
 

@@ -175,6 +175,7 @@ PetscErrorCode SceneDestroy(Scene *scene)
       PetscCall(PetscFree(s->bodies[b].subfaces[f].of));
     }
     PetscCall(PetscFree(s->bodies[b].subfaces));
+    PetscCall(PetscFree(s->bodies[b].material_name));
     PetscCall(GmshRemoveConverted(&s->bodies[b]));
     PetscCall(PetscFree(s->bodies[b].gmsh.file));
     PetscCall(SceneStlDestroy(&s->bodies[b].stl));

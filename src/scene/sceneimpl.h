@@ -16,6 +16,7 @@ PETSC_INTERN PetscErrorCode SceneViewShapeKeys(PetscViewer), SceneViewConstantKe
 
 /* describe_loads.c: prints the loads of a scene */
 PETSC_INTERN PetscErrorCode SceneDescribeLoads(Scene, PetscViewer);
+PETSC_INTERN PetscErrorCode SceneDescribeVelocity(const SceneBody *, PetscViewer);
 
 /* view.c, describe.c, scene.c: their functions are declared in the public header */
 

@@ -148,7 +148,7 @@ static PetscErrorCode SceneValidatePressures(MPI_Comm comm, Scene scene)
       pressure->name);
   }
   for (PetscInt t = 0; t < scene->ntractions; ++t) {
-    if (!SceneIsWholeBody(scene->tractions[t].face))
+    if (scene->tractions[t].body < 0)
       PetscCall(SceneValidateFace(comm, scene, scene->tractions[t].resultant ? "force" : "traction",
         &scene->tractions[t], scene->tractions[t].face));
   }

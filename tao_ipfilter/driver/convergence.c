@@ -291,7 +291,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   const IPKKT  *k  = ip->kkt;
   PetscBool     own, stationary = PETSC_FALSE, fritz_john, unbounded;
-  PetscReal     lowest;
+  PetscReal     lowest, fmin;
 
   PetscFunctionBegin;
   (void)ctx;
@@ -299,6 +299,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   PetscCall(PetscObjectTypeCompare((PetscObject)tao, TAOIPFILTER, &own));
   PetscCheck(own, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONG,
     "The convergence test of TAOIPFILTER cannot be used by a solver of type %s", ((PetscObject)tao)->type_name);
+  PetscCall(TaoGetFunctionLowerBound(tao, &fmin));
   if (!Converged(ip)) PetscCall(TestWithoutMultipliers(tao, &stationary));
   PetscCall(IPDegenerateFritzJohn(tao, &fritz_john));
   PetscCall(IPTestUnbounded(tao, &lowest, &unbounded));
@@ -314,10 +315,10 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
       "%s: KKT error %g; gradients of the constraints vanish where the constraints are met, and the multipliers grow "
       "without limit: bounded multipliers may not exist",
       acceptable ? "acceptable" : "no multipliers", (double)IPBothErrors(ip)));
-  } else if (ip->at.f <= tao->fmin && k->primal <= ip->tol) {
+  } else if (ip->at.f <= fmin && k->primal <= ip->tol) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_MINF,
       "converged: the point is feasible and its objective %g is below the given minimum %g", (double)ip->at.f,
-      (double)tao->fmin));
+      (double)fmin));
   } else if (unbounded) {
     PetscCall(IPSetUnbounded(tao, lowest));
   } else if (ip->rec->nacceptable >= IP_ACCEPTABLE_IT && IPConstraintsMet(tao)) {
@@ -338,9 +339,11 @@ PetscErrorCode IPTestLimits(Tao tao)
   const IPKKT    *k        = ip->kkt;
   const PetscReal error    = IPBothErrors(ip);
   const PetscInt  max_tiny = 3;
-  PetscInt        nfuncs;
+  PetscInt        nfuncs, max_it, max_funcs;
 
   PetscFunctionBegin;
+  PetscCall(TaoGetMaximumIterations(tao, &max_it));
+  PetscCall(TaoGetMaximumFunctionEvaluations(tao, &max_funcs));
   PetscCall(TaoGetCurrentFunctionEvaluations(tao, &nfuncs));
   if (ip->rec->ntiny >= max_tiny) {
     if (!IPConstraintsMet(tao))
@@ -358,12 +361,12 @@ PetscErrorCode IPTestLimits(Tao tao)
     else
       PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE,
         "steps are as small as rounding errors at KKT error %g: multipliers may not exist", (double)error));
-  } else if (tao->niter - ip->rec->ndirections >= tao->max_it) {
+  } else if (tao->niter - ip->rec->ndirections >= max_it) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXITS, "iteration limit %" PetscInt_FMT " reached with KKT error %g",
-      tao->max_it, (double)error));
-  } else if (tao->max_funcs >= 0 && nfuncs > tao->max_funcs) {
+      max_it, (double)error));
+  } else if (max_funcs >= 0 && nfuncs > max_funcs) {
     PetscCall(IPSetReason(tao, TAO_DIVERGED_MAXFCN,
-      "limit of %" PetscInt_FMT " function evaluations reached with KKT error %g", tao->max_funcs, (double)error));
+      "limit of %" PetscInt_FMT " function evaluations reached with KKT error %g", max_funcs, (double)error));
   }
   PetscFunctionReturn(0);
 }

@@ -110,10 +110,13 @@ static PetscErrorCode SetUpHessian(Tao tao)
 {
   TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
   const PetscInt large = 1000;
+  PetscBool      differences, quasinewton;
   PetscInt       n;
 
   PetscFunctionBegin;
-  if (tao->hessian && !IPDifferenceInUse(tao) && !IPQuasiNewtonInUse(tao)) PetscFunctionReturn(0);
+  PetscCall(IPDifferenceInUse(tao, &differences));
+  PetscCall(IPQuasiNewtonInUse(tao, &quasinewton));
+  if (tao->hessian && !differences && !quasinewton) PetscFunctionReturn(0);
   PetscCall(VecGetSize(tao->solution, &n));
   PetscCheck(n <= large || !ip->me, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE,
     "TAOIPFILTER needs TaoSetHessian() for a problem with equality constraints and %" PetscInt_FMT
@@ -235,11 +238,12 @@ static PetscErrorCode FitPreconditioner(Tao tao)
 PetscErrorCode IPSetUpSizes(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
-  PetscBool     same = PETSC_TRUE;
+  PetscBool     same = PETSC_TRUE, quasinewton;
 
   PetscFunctionBegin;
   PetscCall(IPGivenCheck(tao));
-  if (!IPQuasiNewtonInUse(tao)) PetscCall(IPQuasiNewtonDestroy(ip->qn)); /* the caller may have set a Hessian since */
+  PetscCall(IPQuasiNewtonInUse(tao, &quasinewton));
+  if (!quasinewton) PetscCall(IPQuasiNewtonDestroy(ip->qn)); /* the caller may have set a Hessian since */
   PetscCall(SetUpSides(tao));
   PetscCall(FitPreconditioner(tao));
   PetscCall(SameLayout(tao, ip->rx, tao->solution, 0, &same));

@@ -291,7 +291,7 @@ static PetscErrorCode ConesSetLaws(Cones s, PetscBool matrix, PetscBool *ready)
   for (PetscInt i = 0; i < s->c->n; i++) {
     PetscCall(ConeLaw(&s->cone[i], &s->c->D[9 * i], &s->c->s[3 * i]));
     if (s->c->held[i]) ContactsSetNoSlip(s->c, i);
-    ContactsHold(s->c, i);
+    ContactsProjectLaw(s->c, i);
   }
   if (matrix) PetscCall(s->bodies->prepare(s->bodies->data, s->c->D, ready));
   PetscFunctionReturn(0);
@@ -314,7 +314,7 @@ static PetscErrorCode ConesFindSizes(Cones s, PetscBool *found)
       c->D[9 * i + 4 * r] = PetscSqr(s->cone[i].scale[r > 0]);
       c->s[3 * i + r]     = -c->D[9 * i + 4 * r] * c->u[3 * i + r];
     }
-    ContactsHold(c, i);
+    ContactsProjectLaw(c, i);
   }
   PetscCall(s->bodies->residual(s->bodies->data, c->f, sizes));
   s->force = sizes[0];

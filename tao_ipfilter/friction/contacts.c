@@ -71,7 +71,7 @@ void ContactsSetNoSlip(const Contacts *c, PetscInt i)
 }
 
 /* Projects D and s of a contact such that they leave out the direction in which it cannot slip */
-void ContactsHold(const Contacts *c, PetscInt i)
+void ContactsProjectLaw(const Contacts *c, PetscInt i)
 {
   const PetscReal *rigid = &c->rigid[2 * i];
   PetscReal       *D     = &c->D[9 * i];

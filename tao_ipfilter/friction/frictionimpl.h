@@ -89,7 +89,7 @@ PETSC_INTERN PetscErrorCode ContactsDestroy(Contacts *);
 PETSC_INTERN void           ContactsSetLaw(Contacts *, PetscInt i, PetscReal limit, PetscReal coefficient);
 PETSC_INTERN PetscReal      ContactsBound(const Contacts *, PetscInt i, PetscReal normal_force);
 PETSC_INTERN void           ContactsRemoveRigid(const Contacts *, PetscInt i, PetscReal u[3]);
-PETSC_INTERN void           ContactsHold(const Contacts *, PetscInt i);
+PETSC_INTERN void           ContactsProjectLaw(const Contacts *, PetscInt i);
 PETSC_INTERN void           ContactsSetNoSlip(const Contacts *, PetscInt i);
 PETSC_INTERN PetscErrorCode ContactsViolation(const Contacts *, const PetscReal force[], const PetscReal motion[],
   PetscReal *violation, PetscReal *rounding);

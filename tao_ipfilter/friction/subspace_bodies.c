@@ -41,7 +41,7 @@ struct _p_SubspaceBodies {
   PetscInt   nX, generation; /* number of columns of X; generation of the directions that it belongs to */
   PetscReal  enough;         /* residual [2-norm] that any solve may leave */
   PetscBLASInt *pivots;
-  PetscInt      relaxation; /* work space of MUMPS beyond its estimate [per cent]; 0: its default */
+  PetscInt      relaxation; /* work space of MUMPS beyond its estimate [per cent] */
 };
 
 PetscErrorCode SubspaceBodiesDestroy(SubspaceBodies *bodies)
@@ -179,10 +179,11 @@ PetscErrorCode SubspaceBodiesCreate(Tao tao, IPRecycle *recycle, IS W, PetscInt 
 
   PetscFunctionBegin;
   PetscCall(PetscNew(bodies));
-  b          = *bodies;
-  b->tao     = tao;
-  b->recycle = recycle;
-  b->K       = ip->hess->H;
+  b             = *bodies;
+  b->tao        = tao;
+  b->recycle    = recycle;
+  b->relaxation = AMGF_MUMPS_RELAXATION;
+  b->K          = ip->hess->H;
   PetscCall(PetscObjectReference((PetscObject)W));
   b->W = W;
   PetscCall(BodiesCreateRows(ip->jac->inequality, ip->terms->T, n, &b->R));
@@ -350,48 +351,17 @@ static PetscErrorCode BodiesAssemble(SubspaceBodies b, const PetscReal D[])
   PetscFunctionReturn(0);
 }
 
-/* Creates the factors of A_WW, with the work space that earlier factorizations have needed */
-static PetscErrorCode BodiesCreateFactors(SubspaceBodies b, const MatFactorInfo *info)
-{
-  MatType   type;
-  PetscBool mumps;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetType(b->A, &type));
-  PetscCall(AMGFMumpsFactors(type, MAT_FACTOR_LU, &mumps));
-  PetscCall(MatGetFactor(b->A, mumps ? MATSOLVERMUMPS : MATSOLVERPETSC, MAT_FACTOR_LU, &b->F));
-  if (mumps && b->relaxation) PetscCall(AMGFMumpsSetIcntl(b->F, 14, b->relaxation));
-  PetscCall(MatLUFactorSymbolic(b->F, b->A, NULL, NULL, info));
-  PetscFunctionReturn(0);
-}
-
-/* Factors A_WW, again with more work space while MUMPS needs it. *factored: false if A_WW is singular */
-static PetscErrorCode BodiesFactor(SubspaceBodies b, PetscBool *factored)
-{
-  MatFactorInfo  info;
-  MatFactorError error;
-
-  PetscFunctionBegin;
-  PetscCall(MatFactorInfoInitialize(&info));
-  do {
-    if (!b->F) PetscCall(BodiesCreateFactors(b, &info));
-    PetscCall(MatLUFactorNumeric(b->F, b->A, &info));
-    PetscCall(MatFactorGetError(b->F, &error));
-    if (error != MAT_FACTOR_NOERROR) PetscCall(MatDestroy(&b->F)); /* MUMPS cannot use it again */
-  } while (error == MAT_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, &b->relaxation));
-  *factored = (PetscBool)(error == MAT_FACTOR_NOERROR);
-  b->nX     = 0;
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode BodiesPrepare(void *data, const PetscReal D[], PetscBool *prepared)
 {
   const SubspaceBodies b = (SubspaceBodies)data;
+  MatFactorError       error;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
   PetscCall(BodiesAssemble(b, D));
-  PetscCall(BodiesFactor(b, prepared));
+  PetscCall(AMGFMumpsFactorLU(b->A, &b->relaxation, &b->F, &error));
+  *prepared = (PetscBool)(error == MAT_FACTOR_NOERROR);
+  b->nX     = 0;
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

@@ -82,10 +82,15 @@ static PetscErrorCode DifferenceHessian(Tao tao, Vec x, Mat H, Mat Hpre, void *c
   PetscFunctionReturn(0);
 }
 
-/* Returns whether the Hessian is computed by differences */
-PetscBool IPDifferenceInUse(Tao tao)
+/* Tells whether the Hessian is computed by differences */
+PetscErrorCode IPDifferenceInUse(Tao tao, PetscBool *used)
 {
-  return (PetscBool)(tao->ops->computehessian == DifferenceHessian);
+  PetscErrorCode (*hessian)(Tao, Vec, Mat, Mat, void *);
+
+  PetscFunctionBegin;
+  PetscCall(TaoGetHessian(tao, NULL, NULL, &hessian, NULL));
+  *used = (PetscBool)(hessian == DifferenceHessian);
+  PetscFunctionReturn(0);
 }
 
 /*

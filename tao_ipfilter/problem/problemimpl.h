@@ -119,11 +119,11 @@ PETSC_INTERN PetscErrorCode IPEvaluateDerivatives(Tao);
 PETSC_INTERN PetscErrorCode IPSetMultipliers(Tao);
 
 /* difference.c */
-PETSC_INTERN PetscBool      IPDifferenceInUse(Tao);
+PETSC_INTERN PetscErrorCode IPDifferenceInUse(Tao, PetscBool *);
 PETSC_INTERN PetscErrorCode IPDifferenceHessian(Tao);
 
 /* quasinewton.c */
-PETSC_INTERN PetscBool      IPQuasiNewtonInUse(Tao);
+PETSC_INTERN PetscErrorCode IPQuasiNewtonInUse(Tao, PetscBool *);
 PETSC_INTERN PetscErrorCode IPQuasiNewtonSetUp(Tao);
 PETSC_INTERN void           IPQuasiNewtonReset(IPQuasiNewton *);
 PETSC_INTERN PetscErrorCode IPQuasiNewtonAdd(Tao, Vec, Vec);

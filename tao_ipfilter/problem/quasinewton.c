@@ -234,10 +234,15 @@ void IPQuasiNewtonReset(IPQuasiNewton *qn)
   qn->npairs = 0;
 }
 
-/* Returns whether the Hessian is B */
-PetscBool IPQuasiNewtonInUse(Tao tao)
+/* Tells whether the Hessian is B */
+PetscErrorCode IPQuasiNewtonInUse(Tao tao, PetscBool *used)
 {
-  return (PetscBool)(tao->ops->computehessian == QuasiNewtonHessian);
+  PetscErrorCode (*hessian)(Tao, Vec, Mat, Mat, void *);
+
+  PetscFunctionBegin;
+  PetscCall(TaoGetHessian(tao, NULL, NULL, &hessian, NULL));
+  *used = (PetscBool)(hessian == QuasiNewtonHessian);
+  PetscFunctionReturn(0);
 }
 
 /*

@@ -121,8 +121,9 @@ struct _n_TAO_IPFILTER {
   IPIterate   at, best, trial; /* at: the present iterate, where at.x is tao->solution and at.s, at.z are vectors of
                                   the pairs; best: the iterate with the smallest KKT error; trial: a trial point */
   IPDirection dir;
-  Vec         rx, rc;              /* residuals: grad f - J^T M lambda + J_E^T y - bound multipliers; c_I - s */
-  const struct _n_IPLawsOps *laws; /* friction laws of norm terms; NULL: not registered */
+  Vec         rx, rc;                     /* residuals: grad f - J^T M lambda + J_E^T y - bound multipliers; c_I - s */
+  const struct _n_IPLawsOps    *laws;     /* friction laws of norm terms; NULL: not registered */
+  const struct _n_IPContactOps *contacts; /* the same for many terms */
 
   /* The parts of the solver, with the header in this folder that declares each of them */
   IPOptions     *opt;   /* options.h: parameters that the user sets */

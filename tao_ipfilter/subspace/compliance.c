@@ -47,20 +47,22 @@ PetscErrorCode IPComplianceSetUp(IPCompliance *c, Mat K, PetscBool *definite)
 }
 
 /*
-   Finds whether K, which is not positive definite, has a negative eigenvalue beyond rounding. K is otherwise singular,
-   and positive definite after its diagonal is increased by the square root of the rounding unit.
+   Finds whether K, which is not positive definite, has a clearly negative eigenvalue: it is not positive definite
+   either after its diagonal is increased by a small part. K is otherwise singular, or has motions that stresses
+   destabilize a little, as rotations of bodies that only contact holds.
 */
 PetscErrorCode IPComplianceIsNegative(Mat K, PetscBool *negative)
 {
-  Mat       shifted, F = NULL;
-  Vec       diagonal;
-  PetscBool definite = PETSC_FALSE;
+  const PetscReal clearly = 1e-3;
+  Mat             shifted, F = NULL;
+  Vec             diagonal;
+  PetscBool       definite = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(MatDuplicate(K, MAT_COPY_VALUES, &shifted));
   PetscCall(MatCreateVecs(K, &diagonal, NULL));
   PetscCall(MatGetDiagonal(K, diagonal));
-  PetscCall(VecScale(diagonal, PETSC_SQRT_MACHINE_EPSILON));
+  PetscCall(VecScale(diagonal, clearly));
   PetscCall(VecAbs(diagonal));
   PetscCall(MatDiagonalSet(shifted, diagonal, ADD_VALUES));
   PetscCall(ComplianceFactor(shifted, &F, &definite));

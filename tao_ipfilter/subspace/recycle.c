@@ -3,6 +3,7 @@
    the Hessian K, and the directions
 */
 #include "subspaceimpl.h"
+#include "pc_amgf/amgfimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
 #include "tao_ipfilter/solver/condensed.h"
 #include "tao_ipfilter/solver/matrices.h"
@@ -64,6 +65,7 @@ static PetscErrorCode RecycleReadsRows(PC pc, PetscBool *rows)
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCAMGF, &amgf));
   if (!amgf) PetscFunctionReturn(0);
   PetscCall(PCAMGFGetFactored(pc, &factored));
+  PetscCall(PCAMGFConfigureInner_Private(pc)); /* the type of its AMG depends on the operator */
   PetscCall(PCAMGFGetAMGPC(pc, &amg));
   PetscCall(PetscObjectTypeCompare((PetscObject)amg, PCBLOCKAMG, &block));
   *rows = (PetscBool)(!factored && !block);

@@ -90,9 +90,9 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec centre, Vec g
 */
 static PetscErrorCode FilteredKeepStart(Tao tao, Vec values, Vec force)
 {
-  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f     = IPFilteredOf(tao);
-  const Vec     now[] = {ip->terms->t, ip->at.c, values, force};
+  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  IPFiltered   *f      = IPFilteredOf(tao);
+  const Vec     now[]  = {ip->terms->t, ip->at.c, values, force};
   Vec *const    kept[] = {&f->start_t, &f->start_c, &f->start_values, &f->start_force};
 
   PetscFunctionBegin;

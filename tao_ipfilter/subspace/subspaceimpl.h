@@ -129,19 +129,19 @@ typedef struct {
   IS               W;       /* unknowns that the reduced problem has: those of the constraints, and their neighbours */
   IPReduced       *reduced; /* the reduced problem in `recycle`; NULL: not set up */
   const IPLawsOps *lawsops;
-  IPLaws           laws;                /* with norm terms, in place of the reduced problem; NULL: not set up */
-  PetscInt         nclosed;             /* with norm terms: number of closed contacts */
+  IPLaws           laws;    /* with norm terms, in place of the reduced problem; NULL: not set up */
+  PetscInt         nclosed; /* with norm terms: number of closed contacts */
   Vec start_t, start_c, start_values, start_force; /* with norm terms: offsets of the terms, values of constraints and
                                                       terms, and forces of the constraints when the solve began */
-  Vec              centre, gradient, c; /* the point to which the reduced problem is relative; grad f and c_I there */
-  PetscReal        f;                   /* f at that point */
-  PetscReal       *pg, *y;              /* P^T grad f at that point; coefficients of the directions */
-  PetscBool        renewed;             /* whether all directions were removed in this solve */
-  PetscBool        ready;               /* false if the Hessian was indefinite at the first point */
-  PetscInt         ncentred;            /* number of consecutive steps without a new direction */
-  PetscInt         nfutile;             /* number of steps since the KKT error was last halved */
-  PetscReal        halved;              /* KKT error when it was last halved */
-  PetscReal        residual, promised;  /* Newton's method: residual before the last step, 0: none; and of its model */
+  Vec centre, gradient, c;       /* the point to which the reduced problem is relative; grad f and c_I there */
+  PetscReal  f;                  /* f at that point */
+  PetscReal *pg, *y;             /* P^T grad f at that point; coefficients of the directions */
+  PetscBool  renewed;            /* whether all directions were removed in this solve */
+  PetscBool  ready;              /* false if the Hessian was indefinite at the first point */
+  PetscInt   ncentred;           /* number of consecutive steps without a new direction */
+  PetscInt   nfutile;            /* number of steps since the KKT error was last halved */
+  PetscReal  halved;             /* KKT error when it was last halved */
+  PetscReal  residual, promised; /* Newton's method: residual before the last step, 0: none; and of its model */
 } IPFiltered;
 
 #define IPFilteredOf(tao) ((IPFiltered *)((TAO_IPFILTER *)(tao)->data)->method->data)

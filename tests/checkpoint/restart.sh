@@ -220,3 +220,31 @@ YAML
 for from in '-checkpoint_every 1 -checkpoint' -restart; do
   "$contact" fails.yaml -quiet -load_max_cuts 0 $from fails.h5 2>&1 | grep -o 'load step . failed'
 done
+
+# A dynamic run goes on to a later end time as if it had had that from the start; an end time before that of the
+# checkpoint is an error
+cat > fall.yaml <<'YAML'
+bodies:
+  - block: {lower: [0, 0, 0.01], upper: [1, 1, 1], cells: [2, 2, 2], young: 1e6, poisson: 0.3, density: 1000,
+            initial_velocity: [0, 0, -1]}
+  - floor: {shape: rigid_plane, point: [0, 0, 0], normal: [0, 0, 1]}
+displacements:
+  - fix: {body: floor, value: [0, 0, 0]}
+contact:
+  - hit: {mortar: floor.surface, nonmortar: block.zmin}
+dynamics: {time_step: 2e-3, end_time: 0.01}
+YAML
+sed 's/end_time: 0.01/end_time: 0.04/' fall.yaml > later.yaml
+sed 's/end_time: 0.01/end_time: 0.004/' fall.yaml > sooner.yaml
+"$contact" fall.yaml -quiet -checkpoint fall.h5 -checkpoint_every 5 2> /dev/null || echo "exit code $?"
+"$contact" later.yaml -quiet -restart fall.h5 -summary part.json || echo "exit code $?"
+"$contact" later.yaml -quiet -summary whole.json || echo "exit code $?"
+"$PYTHON" - <<'CHECK'
+from summaries import load, say
+
+whole, part = [load(name)["steps"][-1] for name in ("whole", "part")]
+energy = [step["motions"][0]["momentum"][2] for step in (whole, part)]
+say("a later end time: the same as from the start",
+    part["step"] == whole["step"] == 20 and abs(energy[1] - energy[0]) < 1e-6 * abs(energy[0]), energy)
+CHECK
+"$contact" sooner.yaml -quiet -restart fall.h5 2>&1 || echo "exit code $?"

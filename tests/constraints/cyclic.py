@@ -126,7 +126,28 @@ SCENES = {
     "unlike": unlike(),
     "one": twist("0, 60", 2, LINEAR).replace("value: [0, 0, 0]}", "value: [0, free, 0]}"),
     "same": twist("0, 60", 2, LINEAR).replace("to: tube.amax", "to: tube.amin"),
+    "digits": twist("0, 60", 2, LINEAR).replace(
+        "shape: tube_arc, axis: z, center: [3, -1, 0], radii: [1, 2], angles: [0, 60], extent: [0, 3],\n"
+        "      cells: [2, 2, 3]", "mesh: digits.inp, volume: tube, curved: false"),
 }
+
+
+def write_digits():
+    """The mesh of the scene sector with coordinates of five digits"""
+    places = [(r, a, z) for z in range(4) for a in (0, 30, 60) for r in (1, 1.5, 2)]
+    with open("digits.inp", "w") as deck:
+        deck.write("*NODE\n")
+        for number, (r, a, z) in enumerate(places, 1):
+            x, y = 3 + r * math.cos(math.radians(a)), -1 + r * math.sin(math.radians(a))
+            deck.write(f"{number}, {x:.5g}, {y:.5g}, {z}\n")
+        deck.write("*ELEMENT, TYPE=C3D8, ELSET=tube\n")
+        cells = [9 * k + 3 * j + i for k in range(3) for j in range(2) for i in (1, 2)]
+        for number, first in enumerate(cells, 1):
+            base = [first, first + 1, first + 4, first + 3]
+            deck.write(", ".join(map(str, [number, *base, *(node + 9 for node in base)])) + "\n")
+        for name, inside in (("amin", lambda p: p[1] == 0), ("amax", lambda p: p[1] == 60),
+                             ("lmin", lambda p: p[2] == 0), ("lmax", lambda p: p[2] == 3)):
+            deck.write(f"*NSET, NSET={name}\n" + "".join(f"{n}\n" for n, p in enumerate(places, 1) if inside(p)))
 
 
 def energy(name):
@@ -142,6 +163,8 @@ def judge():
                                                                               6), ("half", "quarter", 0.5):
         say(f"{name}: {n} of its energy are that of {whole}", within(n * energy(name), energy(whole), 1e-9),
             (n * energy(name), energy(whole)))
+    say("coordinates with five digits: the energy of sector", within(energy("digits"), energy("sector"), 1e-4),
+        energy("digits"))
     say("the same on three ranks", within(energy("finite_3"), energy("finite"), 1e-9), energy("finite_3"))
     say("pulled bar with nodes on the axis: a uniform stress",
         within(energy("pull"), 0.5 * 1000 * 0.01**2 * math.sqrt(3) * 3, 1e-9), energy("pull"))
@@ -163,6 +186,7 @@ if sys.argv[1] == "scenes":
     for key, text in SCENES.items():
         with open(key + ".yaml", "w") as file:
             file.write(text)
+    write_digits()
 elif sys.argv[1] == "judge":
     judge()
 else:

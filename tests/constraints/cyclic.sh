@@ -1,7 +1,7 @@
 # Cyclic symmetry: a sector against the whole body, on one and three ranks; with contact across the cut; what is refused
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" -B "$AMGF_DIR/tests/constraints/cyclic.py" scenes
-for scene in whole sector backwards finite_whole finite pull half quarter fit_whole fit disc_whole disc; do
+for scene in whole sector digits backwards finite_whole finite pull half quarter fit_whole fit disc_whole disc; do
   "$contact" $scene.yaml -quiet -error_estimate 0 -summary $scene.json || echo "$scene: exit code $?"
 done
 for scene in finite fit; do

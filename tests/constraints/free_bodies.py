@@ -100,13 +100,10 @@ load: {steps: 2}
 FACETS = 20, 24, 32
 SCENES = {
     **{f"springback_{law}": SPRINGBACK % law
-       for law in ("linear", "neohookean")}, **{f"logs_{n}{end}": logs(n, bool(end))
-       for n in FACETS for end in ("", "_swapped")}, "bracket": BRACKET,
-    "cantilever_60": BEAM % (60, 30, -2, 60),
-    "cantilever_100": BEAM % (100, 50, -0.9, 100),
-    "pressed": BEAM % (100, 50, -4, 100),
-    "leaf": LEAVES,
-    "lever": LEVER
+       for law in ("linear", "neohookean")},
+    **{f"logs_{n}{end}": logs(n, bool(end))
+       for n in FACETS for end in ("", "_swapped")}, "bracket": BRACKET, "cantilever_60": BEAM % (60, 30, -2, 60),
+    "cantilever_100": BEAM % (100, 50, -0.9, 100), "pressed": BEAM % (100, 50, -4, 100), "leaf": LEAVES, "lever": LEVER
 }
 
 if sys.argv[1] == "write":

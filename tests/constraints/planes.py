@@ -85,15 +85,16 @@ def judge_forces(title, steps):
     tubes, planes = faces["tubes"], {15: "amin", 105: "amax"}
     along = [
         np.dot(tubes[body + planes[angle]],
-               [math.cos(math.radians(angle)), math.sin(math.radians(angle)), 0]) for body in ("i.", "o.")
+               [math.cos(math.radians(angle)), math.sin(math.radians(angle)), 0])
+        for body in ("i.", "o.")
         for angle in planes
     ]
     say(title + "tubes: no force of a plane along it", max(map(abs, along)) < 1e-9, along)
     sizes = [np.linalg.norm(tubes["i." + face]) + np.linalg.norm(tubes["o." + face]) for face in ("amin", "amax")]
     say(title + "tubes: the forces across the planes are the pressure's", near(sizes, [1.5, 1.5], 1.5, 1e-9), sizes)
     sizes = [np.linalg.norm(faces["clamped_%d" % a]["arc." + face]) for a in (0, 20) for face in ("amin", "amax")]
-    say(title + "clamped: the forces of both ends are equal, in any direction",
-        near(sizes, sizes[0], sizes[0], 1e-9), sizes)
+    say(title + "clamped: the forces of both ends are equal, in any direction", near(sizes, sizes[0], sizes[0], 1e-9),
+        sizes)
     say(title + "oblique, tubes, clamped: in balance",
         all(steps[name]["balance"] < 1e-8 for name in ("oblique", "tubes", "clamped_0", "clamped_20")),
         [steps[name]["balance"] for name in ("oblique", "tubes", "clamped_0", "clamped_20")])

@@ -15,5 +15,5 @@ sed 's/arc.amin, //; s/^pressures:/displacements:\n  - push: {face: arc.outer, v
 sed 's/, arc.amin//; s/\[arc.amin, /[/' one.yaml > loose.yaml
 "$contact" loose.yaml -quiet 2>&1 || echo "exit code $?"
 for scene in one quarter; do
-  "$contact" $scene.yaml -quiet -effects_view | grep '^inclined' | cut -c1-24 | sed 's/ *$//'
+  "$contact" $scene.yaml -quiet -tables_view | grep '^inclined' | cut -c1-24 | sed 's/ *$//'
 done

@@ -19,7 +19,7 @@ for unit in e-15 e-11 e14; do
 done
 "$PYTHON" "$AMGF_DIR/tests/constraints/ties.py" judge
 for scene in pull whole; do
-  "$contact" $scene.yaml -quiet -effects_view | grep '^ties' | cut -c1-24 | sed 's/ *$//'
+  "$contact" $scene.yaml -quiet -tables_view | grep '^ties' | cut -c1-24 | sed 's/ *$//'
 done
 # try NAME FROM TO: the sentence where a scene has something else
 try() {

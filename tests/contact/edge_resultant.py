@@ -37,7 +37,7 @@ else:
                 [run["converged"] for run in runs] == [True, True, False], [run["reason"] for run in runs])
             say(
                 f"{gap}, {cells} cells: the sentence",
-                'body "block" turns over about the axis along (0., 1., 0.) through (1., 0.5, 0.): nothing stops it'
+                'body "block" turns about the axis along (0., 1., 0.) through (1., 0.5, 0.): nothing stops it'
                 in runs[2]["reason"], runs[2]["reason"])
             pair = runs[1]["steps"][-1]["pairs"][0]
             middle = pair["moment"][1] / -pair["force"][2]

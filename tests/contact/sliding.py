@@ -53,8 +53,8 @@ def write():
     times = [i / STEPS for i in range(STEPS + 1)]
     angles = [math.radians(50 * t - 25) for t in times]
     sides = ("flat.zmax", "die.outer")
-    for name, around, pair, gap in (("die", 16, sides, ""), ("flat", 24, sides[::-1], ""),
-                                    ("dual", 24, sides[::-1], ", gap: dual")):
+    for name, around, pair, gap in (("die", 16, sides, ""), ("flat", 24, sides[::-1], ""), ("dual", 24, sides[::-1],
+                                                                                            ", gap: dual")):
         with open(name + ".yaml", "w") as file:
             file.write(
                 FLAT.format(radius=DIE, inner=DIE - 1.5, around=around, press=-PRESS, slide=SLIDE, sides=pair, gap=gap,

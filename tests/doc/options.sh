@@ -27,7 +27,7 @@ export PETSC_OPTIONS='-outptu results'
 try -refine 0
 unset PETSC_OPTIONS
 try -elasticity_ksp_rtoll 1e-8 -options_left 0 -elasticity_pc_amgf_cycle fbf \
-  -tao_ipfilter_amgf_amg_pc_hypre_boomeramg_agg_nl 0 -no_effects_view -malloc_dump 0 -Refine 0
+  -tao_ipfilter_amgf_amg_pc_hypre_boomeramg_agg_nl 0 -no_tables_view -malloc_dump 0 -Refine 0
 mpiexec --oversubscribe -n 3 "$contact" "$scene" -quiet -outptu results 2>&1 | grep '^contact'
 # Options of ours without the value that they need, or with one of another kind
 for option in refine output restart summary accuracy model contact_gap_tol tao_ipfilter_tol checkpoint_every; do

@@ -41,7 +41,7 @@ for scene in loose tight alpha fine swing swing_tight swing_fine; do run $scene.
 run loose.yaml -checkpoint loose.h5 -checkpoint_every 4
 run loose.yaml -restart loose.h5 -summary restart.json
 mpiexec --oversubscribe -n 2 "$contact" loose.yaml -quiet -error_estimate 0 -summary ranks.json
-"$contact" loose.yaml -error_estimate 0 | grep -c '^time steps: .* were repeated$'
+"$contact" loose.yaml -error_estimate 0 -tables_view | grep -c '^time steps: .* were repeated$'
 "$PYTHON" - <<'PY'
 from summaries import load, say, within
 

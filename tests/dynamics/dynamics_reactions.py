@@ -7,21 +7,18 @@ import numpy as np
 from summaries import load, say
 
 SCENES = {
-    "block":
-    """bodies:
+    "block": """bodies:
   - b: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [1, 1, 2], young: 1e6, poisson: 0, element: full, density: 1000}
 displacements: [f: {face: b.zmin, value: [0, 0, 0]}]
 body_forces: [g: {body: b, value: [100, 200, -9810]}]
 dynamics: {time_step: 0.02, end_time: 1.2, damping_mass: 40, scheme: SCHEME}
-""", "sector":
-    """bodies:
+""", "sector": """bodies:
   - b: {shape: tube_arc, axis: z, radii: [1, 2], angles: [20, 60], extent: [0, 1], cells: [1, 2, 1], young: 1e6,
         poisson: 0.3, density: 1000}
 symmetry: [b.amin, b.amax, b.lmin, b.lmax]
 pressures: [p: {face: b.inner, value: 1000}]
 dynamics: {time_step: 0.03, end_time: 2.4, damping_mass: 40, scheme: SCHEME}
-""", "pendulum":
-    """bodies:
+""", "pendulum": """bodies:
   - b: {lower: [0, -0.1, -0.1], upper: [2, 0.1, 0.1], cells: [1, 1, 1], material: rigid, density: 1000}
 displacements: [f: {body: b, value: [0, 0, 0], rotation: [0, free, 0], center: [0, 0, 0]}]
 body_forces: [g: {body: b, value: [0, 0, -9810]}]

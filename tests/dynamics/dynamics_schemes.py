@@ -70,7 +70,7 @@ REFUSED = {
                                                                        "time_step: 1, end_time: 2, scheme: newmark"),
     "radius": (", density: 1", "time_step: 1, end_time: 2, scheme: generalized_alpha, spectral_radius: 1.5"),
     "radius_impact": (", density: 1", "time_step: 1, end_time: 2, spectral_radius: 0.5"), "no_end": (", density: 1",
-                                                                                              "time_step: 1"),
+                                                                                                     "time_step: 1"),
     "synonym": (", density: 1", "dt: 1, end_time: 2"), "many": (", density: 1", "time_step: 1e-9, end_time: 2"),
     "damping": (", density: 1", "time_step: 1, end_time: 2, damping_mass: -1"),
     "viscosity": (", density: 1", "time_step: 1, end_time: 2, damping_stiffness: -1"),

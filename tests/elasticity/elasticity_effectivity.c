@@ -219,7 +219,7 @@ static PetscErrorCode Run(const Context *context, PetscInt level)
     PetscCall(ElasticityAddPressure(body.e, "body.inner", pressure, body.load));
   else PetscCall(ElasticityAddBodyForce(body.e, 0, weight, body.load));
   PetscCall(ProblemNewton(body.e, rows, body.load, body.K, body.u));
-  PetscCall(ElasticityEstimateError(body.e, body.u, &estimate, NULL));
+  PetscCall(ElasticityRecoverStress(body.e, body.u, NULL, NULL, &estimate, NULL));
   PetscCall(Truth(context, dm, body.e, body.u, body.load, potential, &truth));
   PetscCall(ReportEffectivity(level, estimate, truth, level < LEVELS - 1 ? 2 : 1.2));
   PetscCall(ProblemBodyDestroy(&body));

@@ -94,7 +94,7 @@ static PetscErrorCode Estimate(DM dm, MaterialType type, ElementType element, Fi
   PetscCall(ProblemInterpolate(dm, field, &u));
   PetscCall(VecScale(u, scale));
   PetscCall(ElasticityEnergy(e, u, energy));
-  PetscCall(ElasticityEstimateError(e, u, bodies, &cells));
+  PetscCall(ElasticityRecoverStress(e, u, NULL, NULL, bodies, &cells));
   PetscCall(DMPlexGetHeightStratum(dm, 0, &start, &end));
   for (PetscInt c = 0; c < end - start; ++c) sum += cells[c];
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));

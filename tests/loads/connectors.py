@@ -43,6 +43,17 @@ connectors:
 dynamics: {time_step: 0.001, end_time: 0.1}
 """
 
+# a bar under a uniform stress of 10: nodal forces at its end, or one force in the middle of its only facet there
+PULLED = """bodies:
+  - bar: {lower: [0, 0, 0], upper: [2, 1, 1], cells: [2, 1, 1], young: 1000, poisson: 0}
+displacements:
+  - ground: {face: bar.xmin, value: [0, 0, 0]}
+forces:
+"""
+CORNERS = "".join(f"  - at{y}{z}: {{body: bar, point: [2, {y}, {z}], value: [2.5, 0, 0]}}\n" for y in (0, 1)
+                  for z in (0, 1))
+MIDDLE = "  - middle: {body: bar, point: [2, 0.5, 0.5], value: [10, 0, 0]}\n"
+
 
 def load(name):
     with open(name + ".json") as file:
@@ -94,13 +105,18 @@ def judge():
         judge_damped(name)
     # all four springs along z have the same stiffness, and stand around the middle of the cube
     say("hung: each carries a quarter", max(abs(c["force"][2] - 4) for c in load("hung")["connectors"]), 1e-6)
+    for name in ("pulled", "pulled_3", "middle", "middle_3"):
+        step = load(name)
+        say(f"{name}: energy of a uniform stress", step["energy"] - 0.5 * 10**2 / 1000 * 2, 1e-9)
+        say(f"{name}: load of the body", step["bodies"][0]["load"][0] - 10, 1e-9)
     with open("lever.csv") as file:
         row = list(csv.DictReader(file))[-1]
     say("history has the force", float(row["rod.force_z"]) - 0.5, 1e-5)
 
 
 if sys.argv[1] == "write":
-    for scene, text in (("lever", LEVER), ("hung", HUNG), ("damped", DAMPED)):
+    for scene, text in (("lever", LEVER), ("hung", HUNG), ("damped", DAMPED), ("pulled", PULLED + CORNERS),
+                        ("middle", PULLED + MIDDLE)):
         with open(scene + ".yaml", "w") as out:
             out.write(text)
 else:

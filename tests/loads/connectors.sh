@@ -1,8 +1,9 @@
 # Springs between points: a rigid lever on a hinge of two connectors and a rod to an elastic block, a body that hangs on
-# springs, two bodies with a spring and a damper between them; on one rank and on three; what is refused.
+# springs, two bodies with a spring and a damper between them; on one rank and on three; forces at points of elastic
+# bodies; what is refused.
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/loads/connectors.py" write
-for scene in lever hung damped; do
+for scene in lever hung damped pulled middle; do
   "$contact" $scene.yaml -quiet -summary $scene.json -output $scene || echo "$scene: exit code $?"
   mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json -output ${scene}_3 ||
     echo "$scene, three ranks: exit code $?"
@@ -10,6 +11,11 @@ done
 "$PYTHON" "$AMGF_DIR/tests/loads/connectors.py" judge
 "$contact" lever.yaml -scene_check | grep '^  connector '
 "$contact" damped.yaml -scene_check | grep '^  connector '
+"$contact" middle.yaml -scene_check | grep '^  force '
+sed 's/point: .2, 0.5/point: [3, 0.5/' middle.yaml > tried.yaml
+"$contact" tried.yaml -quiet 2>&1 || echo "exit code $?"
+sed 's/value: .10/moment: [10/' middle.yaml > tried.yaml
+"$contact" tried.yaml -quiet 2>&1 || echo "exit code $?"
 
 try() {
   sed "$1" lever.yaml > tried.yaml

@@ -152,5 +152,38 @@ def judge():
     print(len(energies), "scenes compared")
 
 
+TOUCHING = """problem: touching
+bodies:
+  - lower: {{mesh: touching.inp, volume: {lower}, young: 1000, poisson: 0}}
+{upper}displacements:
+  - ground: {{face: lower.bottom, value: [0, 0, 0]}}
+pressures:
+  - load: {{face: {top}, value: 10}}
+{contact}"""
+
+
+def touching():
+    """Two cubes of one element set whose nodes at z = 1 coincide, listed upper cell first. Under a pressure of 10, with
+    E = 1000 and no lateral strain, each stores 10^2 / (2 E) = 0.05"""
+    with open("touching.inp", "w") as file:
+        file.write("*NODE\n")
+        for number, x in enumerate([*CORNERS, *(CORNERS + (0, 0, 1))], 1):
+            file.write(f"{number}, {x[0]}, {x[1]}, {x[2]}\n")
+        file.write("*ELEMENT, TYPE=C3D8, ELSET=all\n2, 9, 10, 11, 12, 13, 14, 15, 16\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
+                   "*SURFACE, NAME=bottom\n1, S1\n*SURFACE, NAME=top\n2, S2\n"
+                   "*SURFACE, NAME=under\n1, S2\n*SURFACE, NAME=over\n2, S1\n")
+    upper = "  - upper: {mesh: touching.inp, volume: all.part_1, young: 1000, poisson: 0}\n"
+    contact = "contact:\n  - touch: {mortar: lower.under, nonmortar: upper.over, stick: true}\n"
+    for name, text in (("touching", TOUCHING.format(lower="all.part_2", upper=upper, top="upper.top", contact=contact)),
+                       ("whole", TOUCHING.format(lower="all", upper="", top="lower.top", contact=""))):
+        with open(name + ".yaml", "w") as out:
+            out.write(text)
+
+
+def pressed():
+    energy = load("touching")["steps"][-1]["energy"]
+    say("two cubes in contact: energy 0.1", abs(energy - 0.1) < 1e-6, energy)
+
+
 if __name__ == "__main__":
-    {"write": write, "judge": judge}[sys.argv[1]]()
+    {"write": write, "judge": judge, "touching": touching, "pressed": pressed}[sys.argv[1]]()

@@ -47,6 +47,8 @@ refused damaged.vtu "<VTKFile>"
 refused damaged.med "no HDF5"
 refused unknown.stl "solid"
 mesh nothing.inp -check
+sed 's/^107, .*/107, 0.5, 0.5, -3.0/' hexahedron.inp > inverted.inp
+mesh inverted.inp -check -quiet && echo "inverted: exit code 0"
 mesh hexahedron.inp out.xyz
 mesh hexahedron.inp out.msh -scale -1
 mesh hexahedron.inp
@@ -54,3 +56,11 @@ sed 's/hexahedron.inp/word.inp/' hexahedron.yaml > word.yaml
 "$AMGF_DIR/bin/contact" word.yaml -quiet 2>&1 || echo "exit code $?"
 sed 's/scale: 1.0/scale: -2/' hexahedron.yaml > negative.yaml
 "$AMGF_DIR/bin/contact" negative.yaml -quiet 2>&1 || echo "exit code $?"
+
+# two cubes whose nodes coincide, in one element set: a volume for each part, in contact as bodies
+"$PYTHON" -B "$AMGF_DIR/tests/mesh/mesh_convert.py" touching
+mesh touching.inp -check
+for scene in touching whole; do
+  "$AMGF_DIR/bin/contact" $scene.yaml -quiet -summary $scene.json 2>&1 || echo "$scene: exit code $?"
+done
+"$PYTHON" -B "$AMGF_DIR/tests/mesh/mesh_convert.py" pressed

@@ -76,6 +76,11 @@ int main(int argc, char **argv)
       .error_estimate = NAN,
       .reason         = "line \"search\" failed\\\n\tat once"},
   };
+  RunFigure figures[] = {
+    {"von Mises stress", "slab", 12.5, "MPa", {1e-20, 0.5, 2}, {NAN, NAN, NAN}, 1},
+    {"reaction", "slab.zmin", 1e300, "N", {NAN, NAN, NAN}, {-1e300, 0, 1e280}, 1},
+    {"stress error, estimate", "", 160, "%", {NAN, NAN, NAN}, {NAN, NAN, NAN}, 2},
+  };
   const char *bodies[]     = {"slab", "block"};
   PetscInt    assemblies[] = {1, 12};
   RunEffect   effects[]    = {
@@ -121,6 +126,8 @@ int main(int argc, char **argv)
                         .converged                 = PETSC_FALSE,
                         .nsteps                    = 2,
                         .steps                     = steps,
+                        .nfigures                  = 3,
+                        .figures                   = figures,
                         .peak_memory_bytes         = 1.5e9,
                         .accuracy                  = &accuracy};
   const char *warnings[]               = {"the \"lid\" never met"};
@@ -140,7 +147,10 @@ int main(int argc, char **argv)
   PetscCall(ReportWriteJSON(PETSC_COMM_WORLD, &report, file));
   PetscCall(ReportWriteJSON(PETSC_COMM_WORLD, &report, file));
   PetscCall(ReportView(&report, PETSC_VIEWER_STDOUT_WORLD));
-  PetscCall(ReportViewEffects(&report, PETSC_VIEWER_STDOUT_WORLD));
+  report.steps[1].converged = PETSC_TRUE;
+  PetscCall(ReportView(&report, PETSC_VIEWER_STDOUT_WORLD));
+  report.steps[1].converged = PETSC_FALSE;
+  PetscCall(ReportViewTables(&report, PETSC_VIEWER_STDOUT_WORLD));
   PetscCall(PetscFinalize());
   return 0;
 }

@@ -44,4 +44,10 @@ last = run["steps"][-1]
 wanted = [run["problem"], f"{run['dofs']:,} unknowns", *run["warnings"], *(step["reason"] for step in run["steps"])]
 wanted += [item["name"] for key in ("pairs", "faces", "bodies") for item in last[key]]
 wanted += [f"{pair['normal_force']:.5g}" for pair in last["pairs"]] + [f"{last['energy']:.5g}", "Petsc"]
+ids = re.findall(r' id="([^"]*)"', content)
+for figure in run["figures"]:
+    name = "-".join(figure["quantity"].replace(",", "").split()) + "." * bool(figure["name"]) + figure["name"]
+    wanted.append(f"{figure['value']:.5g}")
+    if ids.count(name) != 1:
+        print("ids of", name, ids.count(name))
 print("not in the page:", [word for word in wanted if word not in words] or "nothing")

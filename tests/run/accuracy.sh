@@ -90,4 +90,3 @@ for wrong in '-accuracy nan' '-accuracy -0.1' '-accuracy 0.1 -accuracy_order 3' 
   # shellcheck disable=SC2086
   "$contact" cantilever.yaml -quiet $wrong 2>&1 | grep -a '^contact: error' | head -n 1
 done
-"$contact" cantilever.yaml -quiet -accuracy_view

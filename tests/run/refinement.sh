@@ -63,3 +63,24 @@ sed 's/near: top.zmin/near: top.zmin, levels: 1}\n  - spot: {lower: [0, 0, 1], u
   s/near: top.zmin, levels: 1/near: top.zmax, levels: 1/' tied.yaml > other.yaml
 echo "tied where it hangs: $("$contact" other.yaml -quiet 2>&1 || echo "exit code $?")"
 mpiexec --oversubscribe -n 3 "$contact" other.yaml -quiet 2>&1 | grep -c "contact: error"
+# near a rigid surface: the cells of 0.5 whose distance from it is at most 0.2, counted by hand. Each becomes eight.
+surface() {
+  cat > surface.yaml <<END
+bodies:
+  - block: {lower: [-2, -2, -4], upper: [2, 2, 0], cells: [8, 8, 8], young: 1000, poisson: 0.3}
+  - tool: {$2}
+displacements:
+  - bottom: {face: block.zmin, value: [0, 0, 0]}
+  - press: {body: tool, value: [0, 0, -0.05]}
+contact:
+  - touch: {mortar: tool.surface, nonmortar: block.zmax}
+refinements:
+  - fine: {near: touch, levels: 1, distance: 0.2}
+END
+  "$contact" surface.yaml -scene_check > surface.txt 2>&1
+  grep -q " $((512 + 7 * $3)) cells" surface.txt && grep -q " 1 cells" surface.txt && echo "near a rigid $1: yes" ||
+    { echo "near a rigid $1: NO"; cat surface.txt; }
+}
+surface sphere "shape: rigid_sphere, center: [0, 0, 3], radius: 3" 24
+surface cone "shape: rigid_cone, tip: [0, 0, 0], direction: [0, 0, 1], half_angle: 60" 4
+surface torus "shape: rigid_torus, center: [0, 0, 0.5], direction: [0, 0, 1], radius: 1, section_radius: 0.5" 36

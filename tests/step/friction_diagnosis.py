@@ -64,11 +64,24 @@ body_forces:
 
 
 PUSH = "tractions:\n  - push: {face: b2.xmin, value: [0.1, 0, 0]}\n"
+# A plate that is pushed beside its middle slides, and turns a little about an axis far away
+BESIDE = """bodies:
+  - base: {lower: [-2, -2, -1], upper: [4, 3, 0], cells: [3, 2, 1], young: 1e5, poisson: 0.3}
+  - plate: {lower: [0, 0, 0], upper: [1, 1, 0.2], cells: [2, 2, 1], young: 1e5, poisson: 0.3}
+displacements:
+  - fix: {face: base.zmin, value: [0, 0, 0]}
+forces:
+  - down: {face: plate.zmax, value: [0, 0, -10]}
+  - push: {face: plate.xmin, value: [5, 1, 0]}
+contact:
+  - touch: {mortar: base.zmax, nonmortar: plate.zmin, friction: 0.3}
+"""
 SCENES = {
     **{name: stack(blocks, 0.3)
        for name, blocks in STACKS.items()}, "slides": stack(SLIDES, 0.05, PUSH), "held": stack(SLIDES, 0.3, PUSH),
     "tips": stack(SLIDES, 1,
-                  PUSH.replace("0.1", "1.5").replace("xmin", "xmax")), "clamp": CLAMP, "driven": DRIVEN
+                  PUSH.replace("0.1", "1.5").replace("xmin",
+                                                     "xmax")), "clamp": CLAMP, "driven": DRIVEN, "beside": BESIDE
 }
 
 
@@ -87,8 +100,9 @@ else:
             or "nothing stops it" not in run["reason"], run["reason"])
     say("held: converged", load("held")["converged"], load("held")["reason"])
     for name, body, how in ("slides", "b2", "moves away along (1., 0., 0.)"), (
-            "tips", "b", "turns over about the axis along (0., 1., 0.)"), (
-                "clamp", "bar", "moves away along (-1., 0., 0.)"), ("clamp_3", "bar", "moves away along (-1., 0., 0.)"):
+            "tips", "b",
+            "turns about the axis along (0., 1., 0.)"), ("clamp", "bar", "moves away along (-1., 0., 0.)"), (
+                "beside", "plate", "moves away along (0.9"), ("clamp_3", "bar", "moves away along (-1., 0., 0.)"):
         step = load(name)["steps"][-1]
         named = body if body != "b" else next((b for b in ("b0", "b1", "b2") if f'"{b}"' in step["reason"]), "none")
         say(

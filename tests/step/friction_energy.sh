@@ -15,7 +15,8 @@ timeout 1200 "$contact" pin.yaml -quiet -checkpoint_every 4 -checkpoint pin.h5 -
 timeout 1200 "$contact" pin.yaml -quiet -restart pin.h5 -summary pin_restarted.json
 "$PYTHON" "$AMGF_DIR/tests/step/friction_energy.py"
 # The table has the balance where there is friction
-"$contact" pin.yaml | sed -n '/stored/,/^$/p' | awk 'NR == 1 || $1 == 6 { print NR == 1 ? $0 : $1 " " $(NF - 1) " %" }'
+"$contact" pin.yaml -tables_view | sed -n '/stored/,/^$/p' |
+  awk 'NR == 1 || $1 == 6 { print NR == 1 ? $0 : $1 " " $(NF - 1) " %" }'
 # A load step from rest to a large pressure: the trapezoidal rule for the work of contact forces is too coarse, and a
 # warning says so
 cat > press.yaml <<'YAML'

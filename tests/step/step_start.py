@@ -16,8 +16,8 @@ for way, ranks in (("free", (1, 2)), ("held", (1, ))):
     say(f"block {way}: starts without penetration", all(gap < 1e-9 for _, gap in starts), starts)
     say("  at the same place", all(within(f, starts[0][0], 1e-5) for f, _ in starts), starts)
     steps = [load(run)["steps"] for run in runs]
-    say("  without a cut, to the same energy", all(
-        step[0]["cuts"] == 0 and within(step[0]["energy"], steps[0][0]["energy"], 1e-8) for step in steps), steps)
+    say("  without a cut, to the same energy",
+        all(step[0]["cuts"] == 0 and within(step[0]["energy"], steps[0][0]["energy"], 1e-8) for step in steps), steps)
     forces = [abs(step[0]["reaction"][0]) for step in steps]
     exact = uniaxial(0.8, 10, 0.3)[1]
     if way == "free":

@@ -271,8 +271,7 @@ def main():
     args = parse()
     sets = {
         "The first set": [*shipped(args.folder), *PROBLEMS], "The second set, of other kinds": KINDS,
-        "The third set, from textbooks": TEXTBOOK,
-        "The fourth set, degenerate and badly scaled": DEGENERATES
+        "The third set, from textbooks": TEXTBOOK, "The fourth set, degenerate and badly scaled": DEGENERATES
     }
     problems, results = list(itertools.chain(*sets.values())), {}
     for solver in solvers(args.folder):

@@ -83,12 +83,12 @@ add("double root", "0", 0.0, "5", eq=["(x1-2)^2"], end=DEGENERATE)
 add("cubic with one real root", "0", 0.0, "-3", eq=["x1^3-2*x1-5"])
 add("point of a box in a shell", "0", 0.0, "0 0 0", ge=["x1^2+x2^2+x3^2-2", "3-x1^2-x2^2-x3^2"], bounds="3*-1:1.5")
 add("point of a ring from its centre", "0", 0.0, "0 0", ge=["x1^2+x2^2-1", "4-x1^2-x2^2"])
-add("quadratic system in ten unknowns", "0", 0.0, "10*2",
-    eq=[f"x{i}^2+0.1*x{i % 10 + 1}-1.1" for i in range(1, 11)])
-add("Broyden's tridiagonal equations", "0", 0.0, "8*-1", eq=[
-    f"(3-2*x{i})*x{i}" + (f"-x{i - 1}" if i > 1 else "") + (f"-2*x{i + 1}" if i < 8 else "") + "+1"
-    for i in range(1, 9)
-])
+add("quadratic system in ten unknowns", "0", 0.0, "10*2", eq=[f"x{i}^2+0.1*x{i % 10 + 1}-1.1" for i in range(1, 11)])
+add(
+    "Broyden's tridiagonal equations", "0", 0.0, "8*-1", eq=[
+        f"(3-2*x{i})*x{i}" + (f"-x{i - 1}" if i > 1 else "") + (f"-2*x{i + 1}" if i < 8 else "") + "+1"
+        for i in range(1, 9)
+    ])
 add("product system from afar", "0", 0.0, "1e3 1e3", eq=["x1*x2-1", "x1-4*x2"])
 
 # ---- Infeasible ----

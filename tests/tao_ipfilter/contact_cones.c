@@ -69,7 +69,6 @@ static PetscErrorCode SpringsSolve(void *data, const PetscReal load[], PetscReal
 
   PetscFunctionBeginUser;
   (void)fraction;
-  (void)target;
   *solved = PETSC_TRUE;
   for (PetscInt i = 0; i < N; i++) {
     PetscReal A[9], inverse[9], b[3];
@@ -106,6 +105,35 @@ static PetscErrorCode SpringsInterrupted(void *data, PetscBool *stop)
   PetscFunctionBeginUser;
   (void)data;
   *stop = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+static ContactBodies SpringsBodies(Springs *s)
+{
+  const ContactBodies bodies = {
+    .data        = s,
+    .residual    = SpringsResidual,
+    .prepare     = SpringsPrepare,
+    .solve       = SpringsSolve,
+    .advance     = SpringsAdvance,
+    .keep        = SpringsKeep,
+    .interrupted = SpringsInterrupted,
+  };
+
+  return bodies;
+}
+
+/* Creates N contacts as compliant as the springs */
+static PetscErrorCode CreateContacts(const Springs *s, const PetscReal limit[], const PetscReal coefficient[],
+  Contacts *c)
+{
+  PetscFunctionBeginUser;
+  PetscCall(ContactsCreate(PETSC_COMM_SELF, N, c));
+  for (PetscInt i = 0; i < N; i++) {
+    c->normal[i]         = PETSC_TRUE;
+    c->compliance[2 * i] = c->compliance[2 * i + 1] = 1.0 / s->k;
+    ContactsSetLaw(c, i, limit ? limit[i] : PETSC_INFINITY, coefficient ? coefficient[i] : 0.5);
+  }
   PetscFunctionReturn(0);
 }
 
@@ -155,28 +183,19 @@ static PetscErrorCode TestBlocks(PetscReal k, PetscReal unit)
                   friction[N][2] = {{-1.0, -2.0}, {-1.8, -2.4}, {0.0, 0.0}, {0.0, -2.0}, {0.0, 0.0}, {-1.0, 0.0}};
   Springs          s             = {.k = k};
   ContactIteration it            = {0};
-  ContactBodies    bodies        = {.data = &s,
-              .residual                   = SpringsResidual,
-              .prepare                    = SpringsPrepare,
-              .solve                      = SpringsSolve,
-              .advance                    = SpringsAdvance,
-              .keep                       = SpringsKeep,
-              .interrupted                = SpringsInterrupted};
+  ContactBodies    bodies        = SpringsBodies(&s);
   Contacts         c;
   PetscReal        worst   = 0.0;
   PetscInt         systems = 0;
   PetscBool        done    = PETSC_TRUE;
 
   PetscFunctionBeginUser;
-  PetscCall(ContactsCreate(PETSC_COMM_SELF, N, &c));
+  PetscCall(CreateContacts(&s, limit, coefficient, &c));
   for (PetscInt i = 0; i < N; i++) {
-    c.normal[i]         = PETSC_TRUE;
-    c.compliance[2 * i] = c.compliance[2 * i + 1] = 1.0 / k;
-    ContactsSetLaw(&c, i, limit[i], coefficient[i]);
     s.g[3 * i] = press[i] * unit; /* downwards: towards negative gaps */
     for (PetscInt a = 0; a < 2; a++) s.g[3 * i + 1 + a] = -push[i][a] * unit;
   }
-  PetscCall(ContactIterationBegin(&c, bodies, &it));
+  PetscCall(ContactIterationBegin(&c, bodies, PETSC_TRUE, &it));
   do {
     PetscCall(ContactIterate(&it, &done));
     systems++;
@@ -192,6 +211,32 @@ static PetscErrorCode TestBlocks(PetscReal k, PetscReal unit)
   PetscFunctionReturn(0);
 }
 
+/* Cones that start again inside an iteration: the components of the last iterate must not remain */
+static PetscErrorCode TestRestart(void)
+{
+  Springs       s      = {.k = 10.0};
+  ContactBodies bodies = SpringsBodies(&s);
+  Contacts      c;
+  Cones         cones;
+  PetscReal     error  = 0.0;
+  PetscBool     solved = PETSC_TRUE;
+
+  PetscFunctionBeginUser;
+  PetscCall(CreateContacts(&s, NULL, NULL, &c));
+  for (PetscInt i = 0; i < N; i++) s.g[3 * i] = s.g[3 * i + 1] = 1e3;
+  PetscCall(ConesCreate(&c, &bodies, &cones));
+  for (PetscInt round = 0; round < 3 && solved; round++) {
+    PetscCall(ConesStart(cones, &solved));
+    for (PetscInt k = 0; k < 4 && solved; k++) PetscCall(ConesIterate(cones, 1e-12, &error, &solved));
+    for (PetscInt i = 0; i < 3 * N; i++) s.g[i] = 1e-3 - s.k * s.x[i]; /* the next start is at much smaller forces */
+  }
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "cones that start again: %s\n",
+    solved && PetscIsNormalReal(error) ? "inside" : "OUTSIDE"));
+  PetscCall(ConesDestroy(&cones));
+  PetscCall(ContactsDestroy(&c));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   PetscFunctionBeginUser;
@@ -200,6 +245,7 @@ int main(int argc, char **argv)
   PetscCall(TestBlocks(100.0, 1.0));
   PetscCall(TestBlocks(2.1e11, 1e3));
   PetscCall(TestBlocks(1e-3, 1e-6));
+  PetscCall(TestRestart());
   PetscCall(PetscFinalize());
   return 0;
 }

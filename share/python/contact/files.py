@@ -33,6 +33,7 @@ class Files:
         notes = {item.get("Name"): item.get("Value") for item in root.iter("Information")}
         self.bodies = [notes[f"body {b}"] for b in range(len(notes)) if f"body {b}" in notes]
         self.units = notes.get("units", "")
+        self.surfaces = {b: notes[f"surface {b}"] for b in range(len(self.bodies)) if f"surface {b}" in notes}
         folder = os.path.dirname(base)
         self.files, self.times = {}, {}
         for grid in root.iterfind(".//Grid/Grid"):

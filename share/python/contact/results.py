@@ -10,6 +10,7 @@ import numpy as np
 
 from . import vtu
 from .files import ContactError, Files
+from .places import script
 
 FIELDS = {"pressure": "contact_pressure", "gap": "contact_gap", "status": "contact_status", "slip": "contact_slip"}
 
@@ -161,9 +162,8 @@ class Run:
         words = [word for key, value in options.items() for word in (f"--{key.replace('_', '-')}", str(value))]
         if step is not None:
             words += ["--step", str(step)]
-        script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "plot", "draw.py")
         done = subprocess.run(
-            [sys.executable, "-B", script, self.base, picture, "--field",
+            [sys.executable, "-B", script("plot/draw.py"), self.base, picture, "--field",
              FIELDS.get(field, field), *words], capture_output=True, text=True)
         if done.returncode:
             raise ContactError((done.stderr.strip().splitlines() or ["the picture failed"])[-1])

@@ -1,24 +1,11 @@
 """Runs the program on a scene."""
 import os
-import shutil
 import subprocess
 import tempfile
 
 from .files import ContactError
+from .places import program
 from .results import Run
-
-
-def program():
-    """$CONTACT, else the program beside this package, in the sources or installed, else the one in the path"""
-    here = os.path.dirname(os.path.abspath(__file__))
-    places = [
-        os.environ.get("CONTACT"), *(os.path.join(here, *[".."] * up, "bin", "contact") for up in (3, 4)),
-        shutil.which("contact")
-    ]
-    for place in places:
-        if place and os.access(place, os.X_OK):
-            return os.path.normpath(place)
-    raise ContactError("there is no program contact: set CONTACT to its path")
 
 
 def words_of(options):

@@ -28,6 +28,8 @@ PetscErrorCode ContactAssemblyCreate(Contact contact, ContactParts parts, Contac
   PetscCall(VecZeroEntries(as->gap));
   PetscCall(VecDuplicate(as->gap, &as->cover));
   PetscCall(VecZeroEntries(as->cover));
+  PetscCall(VecDuplicate(as->gap, &as->doubt));
+  PetscCall(VecZeroEntries(as->doubt));
   PetscFunctionReturn(0);
 }
 
@@ -75,6 +77,7 @@ PetscErrorCode ContactAssemblyDestroy(ContactAssembly *as)
   PetscCall(ContactEntriesDestroy(&as->by_normal));
   for (PetscInt c = 0; c < as->dim; ++c) PetscCall(ContactEntriesDestroy(&as->coupling[c]));
   PetscCall(VecDestroy(&as->cover));
+  PetscCall(VecDestroy(&as->doubt));
   PetscCall(VecDestroy(&as->gap));
   PetscFunctionReturn(0);
 }
@@ -384,18 +387,21 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
   ContactLinearization lin)
 {
   const ContactRows *rows = &contact->rows;
-  const PetscScalar *mass, *gap;
-  PetscScalar       *m, *g;
+  const PetscScalar *mass, *gap, *doubt;
+  PetscScalar       *m, *g, *d;
   PetscInt           pair = 0;
 
   PetscFunctionBegin;
   PetscCall(MatCreateVecs(lin->J, NULL, &lin->g));
   PetscCall(VecDuplicate(lin->g, &lin->mass));
+  PetscCall(VecDuplicate(lin->g, &lin->doubt));
   PetscCall(PetscMalloc1(lin->nlocal, &lin->vertex));
   PetscCall(PetscMalloc1(lin->nlocal, &lin->pair));
   PetscCall(PetscMalloc1(3 * lin->nlocal, &lin->normal));
   PetscCall(VecGetArrayRead(rows->weight, &mass));
   PetscCall(VecGetArrayRead(as->gap, &gap));
+  PetscCall(VecGetArrayRead(as->doubt, &doubt));
+  PetscCall(VecGetArray(lin->doubt, &d));
   PetscCall(VecGetArray(lin->mass, &m));
   PetscCall(VecGetArray(lin->g, &g));
   for (PetscInt k = 0; k < lin->nlocal; ++k) {
@@ -404,12 +410,15 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
     while (i >= rows->first[pair + 1]) ++pair;
     m[k]           = mass[i];
     g[k]           = gap[i] / mass[i];
+    d[k]           = doubt[i] / mass[i];
     lin->vertex[k] = rows->vertex[i];
     lin->pair[k]   = pair;
     PetscCall(PetscArraycpy(&lin->normal[3 * k], &rows->normal[3 * i], 3));
   }
   PetscCall(VecRestoreArray(lin->g, &g));
   PetscCall(VecRestoreArray(lin->mass, &m));
+  PetscCall(VecRestoreArray(lin->doubt, &d));
+  PetscCall(VecRestoreArrayRead(as->doubt, &doubt));
   PetscCall(VecRestoreArrayRead(as->gap, &gap));
   PetscCall(VecRestoreArrayRead(rows->weight, &mass));
   PetscFunctionReturn(0);
@@ -487,8 +496,11 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   PetscCall(VecAssemblyEnd(as->gap));
   PetscCall(VecAssemblyBegin(as->cover));
   PetscCall(VecAssemblyEnd(as->cover));
+  PetscCall(VecAssemblyBegin(as->doubt));
+  PetscCall(VecAssemblyEnd(as->doubt));
   PetscCall(ContactHangingRowsVector(contact, as->gap));
   PetscCall(ContactHangingRowsVector(contact, as->cover));
+  PetscCall(ContactHangingRowsVector(contact, as->doubt));
   PetscCall(CouplingCreate(contact, as, &coupling));
   PetscCall(PetscNew(lin));
   PetscCall(PetscMalloc1(contact->rows.nlocal, &kept));

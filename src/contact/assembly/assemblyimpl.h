@@ -4,6 +4,17 @@
 
 #include "src/contact/smooth/smoothimpl.h"
 
+/* An edge of a nonmortar facet with a convex corner of a rigid profile opposite it (rigid_corner.c) */
+typedef struct {
+  PetscInt  row, vertex; /* global number of the row, and local number of its vertex */
+  PetscInt  node[2];     /* global numbers of the edge's vertices */
+  PetscReal phi[2];      /* their shape functions opposite the corner */
+  PetscReal gap;         /* height of the corner above the edge [length] */
+  PetscReal normal[3];   /* unit normal of the nonmortar face */
+  PetscReal weight[4];   /* weights of the rigid body's four corners */
+  PetscReal share;       /* mass of the row, divided by the number of its edges with corners [length^2] */
+} ContactProfileCorner;
+
 /* A contact pair */
 typedef struct {
   char          *name;              /* name of the pair, for messages */
@@ -33,6 +44,8 @@ typedef struct {
   PetscInt         corner[4]; /* global numbers of four corners of the cube that represents the rigid surface in the
                                  mesh */
   PetscReal        corner_at[4][3]; /* current coordinates of these corners [length] */
+  PetscInt         ncorners;        /* number of edges of this rank's facets with a corner of a profile opposite */
+  ContactProfileCorner *corners;
 } ContactPairData;
 
 /* Returns whether the smooth surfaces of a pair include the bending of order-2 facets between their nodes. For other
@@ -58,6 +71,8 @@ typedef struct {
                       displacement) for an inclined symmetry plane; NULL until ContactFindNoSlip() has computed them */
   PetscReal *normal;         /* [3 nlocal] averaged unit normals of the deformed nonmortar faces */
   PetscReal *x;              /* [3 nlocal] coordinates of the deformed vertices [length] */
+  PetscBool *at_corner;      /* [nlocal] whether the row has the gap of a corner of a rigid profile instead of that of
+                                its vertex */
   Vec        mass;        /* lumped mass of each row: int phi_A over the whole undeformed nonmortar face [length^2] */
   Vec        weight;      /* masses after those of hanging and prescribed vertices were distributed to other rows
                         [length^2] */
@@ -185,6 +200,7 @@ typedef struct _n_ContactAssembly {
   ContactParts parts;
   Vec          gap;   /* weighted gap of each row: int phi_A gap [length^3] */
   Vec          cover; /* int phi_A over the covered part, for smooth mortar pairs [length^2] */
+  Vec          doubt; /* int phi_A times the uncertainty of the smooth surfaces [length^3] */
   PetscInt     dim;   /* 1: a coupling is one value per vertex, which multiplies the row's normal; 3: a coupling is a
                          vector per vertex */
   /* [dim] couplings of rows with vertices: int phi_A (N2 - N1) [length^2]. Multiplied by the normal and divided by the

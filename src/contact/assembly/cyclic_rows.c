@@ -399,13 +399,28 @@ static void CyclicMoveRows(PetscInt nkept, const PetscInt kept[], ContactLineari
   lin->nlocal = nkept;
 }
 
+/* Replaces means of the old rows by those of the merged rows, weighted by the masses */
+static PetscErrorCode CyclicMergeMeans(Mat merge, Vec oldmass, Vec mass, Vec *mean)
+{
+  Vec merged;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(mass, &merged));
+  PetscCall(VecPointwiseMult(*mean, *mean, oldmass));
+  PetscCall(MatMultTranspose(merge, *mean, merged));
+  PetscCall(VecPointwiseDivide(merged, merged, mass));
+  PetscCall(VecDestroy(mean));
+  *mean = merged;
+  PetscFunctionReturn(0);
+}
+
 /* Collective. Replaces the rows of a vertex and of its image by one row */
 PetscErrorCode ContactCyclicMerge(Contact contact, ContactLinearization lin)
 {
   PetscInt    nkept, *kept;
   CyclicGoal *goals;
   Mat         merge;
-  Vec         mass, gap;
+  Vec         mass;
 
   PetscFunctionBegin;
   if (!contact->cyclic) PetscFunctionReturn(0);
@@ -413,20 +428,16 @@ PetscErrorCode ContactCyclicMerge(Contact contact, ContactLinearization lin)
   PetscCall(CyclicSetGoals(contact, lin, goals, &nkept, kept));
   PetscCall(CyclicCreateMerge(contact, 1, lin->nlocal, goals, nkept, &merge));
   PetscCall(MatCreateVecs(merge, &mass, NULL));
-  PetscCall(VecDuplicate(mass, &gap));
   PetscCall(MatMultTranspose(merge, lin->mass, mass));
   PetscCall(CyclicSetSums(contact, goals, nkept, mass, lin));
-  PetscCall(VecPointwiseMult(lin->g, lin->g, lin->mass));
-  PetscCall(MatMultTranspose(merge, lin->g, gap));
-  PetscCall(VecPointwiseDivide(gap, gap, mass));
+  PetscCall(CyclicMergeMeans(merge, lin->mass, mass, &lin->g));
+  PetscCall(CyclicMergeMeans(merge, lin->mass, mass, &lin->doubt));
   PetscCall(CyclicMergeMatrix(merge, lin->mass, mass, &lin->J));
   PetscCall(CyclicMergeMatrix(merge, lin->mass, mass, &lin->derivative));
   PetscCall(CyclicMergeMatrix(merge, lin->mass, mass, &lin->cover));
   PetscCall(CyclicMergeSlip(contact, merge, goals, nkept, lin->mass, mass, lin));
   CyclicMoveRows(nkept, kept, lin);
-  PetscCall(VecDestroy(&lin->g));
   PetscCall(VecDestroy(&lin->mass));
-  lin->g    = gap;
   lin->mass = mass;
   PetscCall(MatDestroy(&merge));
   PetscCall(PetscFree2(goals, kept));

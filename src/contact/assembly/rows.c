@@ -125,6 +125,7 @@ PetscErrorCode ContactRowsCreate(Contact contact)
     PetscCall(RowsShare(sf, parallel, rstart, rows, p, &contact->pairs[p], npoints, number));
   PetscCall(PetscFree(number));
   PetscCall(PetscMalloc2(3 * rows->nlocal, &rows->normal, 3 * rows->nlocal, &rows->x));
+  PetscCall(PetscCalloc1(rows->nlocal, &rows->at_corner));
   PetscCall(RowsCreateMass(contact));
   PetscFunctionReturn(0);
 }
@@ -139,6 +140,7 @@ PetscErrorCode ContactRowsDestroy(Contact contact)
   PetscCall(PetscFree(rows->vertex));
   PetscCall(PetscFree(rows->no_slip));
   PetscCall(PetscFree2(rows->normal, rows->x));
+  PetscCall(PetscFree(rows->at_corner));
   PetscCall(VecDestroy(&rows->mass));
   PetscCall(VecDestroy(&rows->weight));
   PetscCall(MatDestroy(&rows->hanging));

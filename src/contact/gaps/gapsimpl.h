@@ -43,7 +43,13 @@ PETSC_INTERN void ContactDualTransformSlopes(PetscReal (*dual)[4], ContactSlopes
 PETSC_INTERN PetscErrorCode ContactSurfacePlace(MPI_Comm, ContactPairData *);
 PETSC_INTERN PetscReal      ContactSurfaceDistance(const ContactPairData *, const PetscReal x[3], PetscReal gradient[3],
        PetscReal weight[4]);
+PETSC_INTERN PetscInt       ContactSurfaceFindCorners(const ContactPairData *, const PetscReal ends[6],
+        const PetscReal normals[6], SceneSurfaceCorner[2], PetscReal weight[2][4]);
 PETSC_INTERN PetscErrorCode ContactSurfaceSetNormals(const ContactPairData *, PetscInt n, const PetscReal x[],
   PetscReal normal[]);
+
+/* rigid_corner.c: corners of rigid profiles between the vertices of the nonmortar face */
+PETSC_INTERN PetscErrorCode ContactCornersFind(Contact, PetscInt p);
+PETSC_INTERN PetscErrorCode ContactCornersAdd(ContactPairData *, ContactAssembly *);
 
 #endif

@@ -39,7 +39,7 @@ typedef struct {
   PetscReal       gap[4], D[4][4]; /* weighted gaps [length^3], and -int phi_A N1_B [length^2] */
   ContactPatch    patch;           /* smooth surface over the facet; smooth pairs only */
   /* int phi_A over the covered part [length^2], and derivatives; smooth pairs only */
-  PetscReal     cover[4];
+  PetscReal     cover[4], doubt[4]; /* doubt: int phi_A times the uncertainty of the smooth surfaces [length^3] */
   ContactSlopes slopes;
   PetscBool     self;   /* whether the face is in contact with itself */
   PetscReal (*dual)[4]; /* dual functions; NULL if the pair has none, or if too small a part of the facet is covered */
@@ -51,7 +51,7 @@ static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverl
 {
   const PetscBool  sloped = (PetscBool)(assembly->parts != CONTACT_GAPS);
   const PetscReal *x      = &mortar->x[12 * k];
-  PetscReal        cover[4];
+  PetscReal        cover[4], doubt;
   ContactPatch     patch;
   ContactSlopes    slopes;
 
@@ -59,6 +59,8 @@ static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverl
   ContactPatchCreate(x, &mortar->patch[12 * k], &patch);
   ContactOverlapSlopes(overlap, rule, facet->x, x, &facet->patch, &patch, gap, cover, sloped ? &facet->slopes : NULL,
     sloped ? &slopes : NULL);
+  doubt = ContactPatchDoubt(&facet->patch) + ContactPatchDoubt(&patch);
+  for (PetscInt a = 0; a < 4; ++a) facet->doubt[a] += doubt * cover[a];
   if (facet->dual) {
     ContactDualTransform(facet->dual, 1, gap);
     ContactDualTransform(facet->dual, 1, cover);
@@ -179,7 +181,7 @@ static PetscErrorCode MortarAddFacet(const ContactRule *rule, const ContactPairD
          .node                 = &pair->nonmortar.node[4 * f],
          .self                 = pair->nonmortar.self};
   PetscReal       dual[4][4];
-  PetscScalar     gap[4], cover[4];
+  PetscScalar     gap[4], cover[4], doubt[4];
 
   PetscFunctionBegin;
   if (!list->n) PetscFunctionReturn(0);
@@ -193,6 +195,7 @@ static PetscErrorCode MortarAddFacet(const ContactRule *rule, const ContactPairD
   for (PetscInt a = 0; a < 4; ++a) {
     gap[a]   = facet.gap[a];
     cover[a] = facet.cover[a];
+    doubt[a] = facet.doubt[a];
     PetscCall(ContactAssemblyAdd(assembly, facet.row[a], 4, facet.node, facet.D[a], &normal[3 * a]));
   }
   if (smooth && assembly->parts != CONTACT_GAPS)
@@ -200,6 +203,7 @@ static PetscErrorCode MortarAddFacet(const ContactRule *rule, const ContactPairD
       ContactAssemblyAddSlopes(assembly, facet.row, facet.node, &pair->nonmortar.normal_id[4 * f], &facet.slopes));
   PetscCall(VecSetValues(assembly->gap, 4, facet.row, gap, ADD_VALUES));
   PetscCall(VecSetValues(assembly->cover, 4, facet.row, cover, ADD_VALUES));
+  PetscCall(VecSetValues(assembly->doubt, 4, facet.row, doubt, ADD_VALUES));
   PetscFunctionReturn(0);
 }
 

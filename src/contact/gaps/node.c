@@ -71,7 +71,7 @@ static PetscErrorCode ContactBox_Node(Contact contact, PetscInt p, PetscReal box
 /* The gap of a smooth pair [length], and its derivatives with respect to the coordinates of the vertex, the facet's
    vertices and the normals there */
 typedef struct {
-  PetscReal gap, vertex[3], facet[12], normal[12];
+  PetscReal gap, doubt, vertex[3], facet[12], normal[12];
   PetscReal rigid[12]; /* derivatives with respect to the facet's vertices if the patch rotates with the facet and
                           keeps its shape */
 } NodeGap;
@@ -133,7 +133,8 @@ static void NodeMeasure(const PetscReal facet[12], const PetscReal normals[12], 
     r[c] = x[c] - nearest->y[c] - r[c];
     if (!(length > 0.0)) m[c] = -n[c];
   }
-  gap->gap = VectorDot(r, m);
+  gap->gap   = VectorDot(r, m);
+  gap->doubt = ContactPatchDoubt(&patch);
   for (PetscInt c = 0; c < 3; ++c) {
     by_normal[c]   = length > 0.0 ? (r[c] - gap->gap * m[c]) / length : 0.0;
     gap->vertex[c] = m[c];
@@ -206,6 +207,7 @@ static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, P
   if (mortar->normal_id && assembly->parts != CONTACT_GAPS)
     PetscCall(NodeAddSlopes(row, offset, mass, mortar, nearest->facet, gap, assembly));
   PetscCall(VecSetValue(assembly->gap, row, weighted, ADD_VALUES));
+  PetscCall(VecSetValue(assembly->doubt, row, mass * gap->doubt, ADD_VALUES));
   PetscFunctionReturn(0);
 }
 
@@ -235,7 +237,10 @@ static PetscErrorCode ContactAdd_Node(Contact contact, PetscInt p, const Contact
     if (nearest.facet < 0 || NodeIsBesideFace(mortar, &nearest, x, margin)) continue;
     if (pair->mortar.patched)
       NodeMeasure(&mortar->x[12 * nearest.facet], &mortar->patch[12 * nearest.facet], &nearest, x, n, &gap);
-    else gap.gap = NodeFacetGap(&nearest, x, n);
+    else {
+      gap.gap   = NodeFacetGap(&nearest, x, n);
+      gap.doubt = 0.0;
+    }
     if (gap.gap > pair->distance || gap.gap < -pair->depth) continue;
     PetscCall(NodeAddVertex(contact, i, rstart + i, PetscRealPart(mass[i]), mortar, &nearest, &gap, assembly));
     ++pair->nfacing;

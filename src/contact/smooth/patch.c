@@ -66,6 +66,19 @@ PetscReal ContactPatchBulge(const ContactPatch *p)
   return bulge;
 }
 
+/*
+   Returns the uncertainty of the patch's height [length]. The slopes at the ends of an arc are opposite. Where the
+   curvature changes, for example where a plane meets a fillet, the mean of the facets' normals is not the normal of the
+   surface; the sum of the two slopes is the error of one of them, whose height is at most 4/27 of it.
+*/
+PetscReal ContactPatchDoubt(const ContactPatch *p)
+{
+  PetscReal sum[4];
+
+  for (PetscInt e = 0; e < 4; ++e) sum[e] = PetscAbsReal(p->slope[e][0] + p->slope[e][1]);
+  return 4.0 / 27.0 * (PetscMax(sum[0], sum[2]) + PetscMax(sum[1], sum[3]));
+}
+
 /* Computes offset, the vector from the facet's point xi to the patch's point [length], and the normal of the patch
    there, which is not scaled to length 1 */
 void ContactPatchEvaluate(const ContactPatch *p, const PetscReal xi[2], PetscReal offset[3], PetscReal normal[3])

@@ -18,6 +18,7 @@ typedef struct {
 PETSC_INTERN void      ContactPatchCreate(const PetscReal x[12], const PetscReal normal[12], ContactPatch *);
 PETSC_INTERN PetscBool ContactPatchIsBent(const ContactPatch *, PetscInt edge);
 PETSC_INTERN PetscReal ContactPatchBulge(const ContactPatch *);
+PETSC_INTERN PetscReal ContactPatchDoubt(const ContactPatch *);
 PETSC_INTERN void      ContactPatchEvaluate(const ContactPatch *, const PetscReal xi[2], PetscReal offset[3],
        PetscReal normal[3]);
 

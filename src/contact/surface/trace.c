@@ -8,8 +8,8 @@
 
    At the centre of a facet this is applied in both directions. Bilinear interpolation of T u on the four parts has the
    same integral as the quadratic u, and equals u where u is linear. Hence T^T maps nodal forces of bilinear facets to
-   nodal forces of the quadratic face. They are exact if the facets are plane and fully covered. The resultant is
-   always exact.
+   nodal forces of the quadratic face. They are exact if the facets are plane, with straight edges, and fully
+   covered. The resultant is always exact.
 */
 #include <petscsf.h>
 #include <mesh.h>

@@ -3,7 +3,6 @@
    energy norm
 */
 #include "recoveryimpl.h"
-#include "src/report/events.h"
 
 /*
    Returns the second derivative of the law's energy W = W_iso + kappa/2 theta^2 in the direction of a strain error;
@@ -44,17 +43,10 @@ static PetscReal EstimateCellSquared(CellState *cell, const RecoveredNode recove
   return sum;
 }
 
-/* Squared errors of the bodies, and of the cells unless this is NULL */
-typedef struct {
-  PetscReal *bodies, *cells;
-} EstimateSquares;
-
 /* Adds the squared errors of the selected bodies' cells */
-static PetscErrorCode EstimateAdd(Elasticity e, const PetscBool selected[], const PetscScalar x[],
-  const PetscScalar u[], const RecoveredNode recovered[], void *ctx)
+PetscErrorCode EstimateAdd(Elasticity e, const PetscBool selected[], const PetscScalar x[], const PetscScalar u[],
+  const RecoveredNode recovered[], const EstimateSquares *squares)
 {
-  EstimateSquares *squares = (EstimateSquares *)ctx;
-
   PetscFunctionBegin;
   for (PetscInt c = 0; c < e->ncells; ++c) {
     const PetscInt b = e->cellbody[c];
@@ -67,57 +59,5 @@ static PetscErrorCode EstimateAdd(Elasticity e, const PetscBool selected[], cons
     squares->bodies[b] += error;
     if (squares->cells) squares->cells[c] = error;
   }
-  PetscFunctionReturn(0);
-}
-
-/*@
-  ElasticityEstimateError - Estimates the discretization error of a displacement in the energy norm
-
-  Collective
-
-  Input Parameters:
-+ e - the context
-- u - displacement, global, 3 components per vertex [length]
-
-  Output Parameters:
-+ bodies - squared energy norm of the error of each body, nbodies values, the same on every rank [force length]
-- cells  - the part of each local cell, in the order of the mesh's cells [force length]; free with `PetscFree()`.
-           `NULL` if not wanted
-
-  Level: intermediate
-
-  Notes:
-  For linear bodies the norm is |e|^2 = int (s - s_h) : C^(-1) : (s - s_h) with the true stress s and the elements' own
-  stress s_h, and |e|^2/(2 E) is the relative error of the energy E. At finite strain it is the norm of the energy's
-  second derivative at u. The true stress is replaced by one recovered from the cells around each vertex, never across
-  the border of a body.
-
-  For smooth solutions (manufactured ones, and Lame's sphere) with at least 8 cells across the body, the ratio of
-  estimate to true norm is 0.9 to 1.3, and tends to 1 as the mesh is refined. An element that locks has a too small
-  energy E; |e|/sqrt(2 E) shows its error even though |e| misses a part of it. Errors of the solver, of the loads and of
-  the geometry are not included. In bodies with one layer of cells the estimate is rough.
-
-  If a cell is inverted, the estimate is infinite.
-
-  References:
-  Zienkiewicz and Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2, 1992.
-
-.seealso: `ElasticityEnergy()`, `ElasticityCellStress()`
-@*/
-PetscErrorCode ElasticityEstimateError(Elasticity e, Vec u, PetscReal bodies[], PetscReal *cells[])
-{
-  EstimateSquares squares = {bodies, NULL};
-
-  PetscFunctionBegin;
-  PetscCall(PetscLogEventBegin(ELASTICITY_Error, u, 0, 0, 0));
-  if (cells) {
-    PetscCall(PetscMalloc1(e->ncells, cells));
-    squares.cells = *cells;
-  }
-  for (PetscInt b = 0; b < e->nbodies; ++b) bodies[b] = 0;
-  PetscCall(ElasticityRecoverBodies(e, u, EstimateAdd, &squares));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bodies, (PetscMPIInt)e->nbodies, MPIU_REAL, MPIU_SUM,
-    PetscObjectComm((PetscObject)e->dm)));
-  PetscCall(PetscLogEventEnd(ELASTICITY_Error, u, 0, 0, 0));
   PetscFunctionReturn(0);
 }

@@ -18,7 +18,7 @@
   Notes:
   Uses Jacobi's method, which is as accurate for equal values as for distinct ones.
 
-.seealso: `ElasticityCellStress()`, `ElasticityNodalStress()`
+.seealso: `ElasticityCellStress()`, `ElasticityRecoverStress()`
 @*/
 PetscErrorCode ElasticityPrincipal(const PetscReal stress[6], PetscReal principal[3])
 {

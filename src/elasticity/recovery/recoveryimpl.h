@@ -33,6 +33,23 @@ typedef PetscErrorCode (*RecoveredAdd)(Elasticity, const PetscBool selected[], c
   const PetscScalar u[], const RecoveredNode recovered[], void *ctx);
 PETSC_INTERN PetscErrorCode ElasticityRecoverBodies(Elasticity, Vec u, RecoveredAdd add, void *ctx);
 
-/* estimate.c: only the public error estimate */
+/* estimate.c: adds the squared errors of the selected bodies, and of their cells unless NULL [force length] */
+typedef struct {
+  PetscReal *bodies, *cells;
+} EstimateSquares;
+PETSC_INTERN PetscErrorCode EstimateAdd(Elasticity, const PetscBool selected[], const PetscScalar x[],
+  const PetscScalar u[], const RecoveredNode recovered[], const EstimateSquares *);
+
+/*
+   largest.c: the largest value of each class of samples on all ranks, and its place. Classes without samples are
+   unchanged.
+*/
+typedef struct {
+  PetscInt  of;    /* number of the class */
+  PetscReal value; /* not negative */
+  PetscReal place[3];
+} LargestSample;
+PETSC_INTERN PetscErrorCode LargestFind(MPI_Comm, PetscInt n, const LargestSample[], PetscInt nclasses,
+  LargestValue largest[]);
 
 #endif

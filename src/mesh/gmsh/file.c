@@ -259,7 +259,8 @@ static PetscErrorCode GmshCheckVertices(const SceneBody *body, const ShapeGrid *
                    PetscAbsReal(a[2] - b[2]) > near,
         PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
         "the volume \"%s\" of %s has two nodes with the position (%g, %g, %g), so that its cells are not connected "
-        "there: merge the nodes in the mesh file",
+        "there: merge the nodes in the mesh file if the cells are joined; if they are separate bodies that touch, make "
+        "a body of each connected part, which contact-mesh -check lists as NAME.part_1, NAME.part_2, ...",
         body->gmsh.volume, body->gmsh.file, (double)a[0], (double)a[1], (double)a[2]);
     }
   }

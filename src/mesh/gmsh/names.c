@@ -60,7 +60,10 @@ static PetscErrorCode GmshReadPhysicalNames(const SceneBody *body, PetscInt dim,
   gmsh = GmshIsGmsh(stream);
   if (gmsh) PetscCall(GmshScanPhysicalNames(stream, dim, length, entries));
   (void)fclose(stream);
-  PetscCheck(gmsh, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, "%s is not a Gmsh mesh (no $MeshFormat)", body->gmsh.file);
+  PetscCheck(gmsh, PETSC_COMM_SELF, PETSC_ERR_USER_INPUT,
+    "%s is not a Gmsh mesh (no $MeshFormat): give a mesh with the ending .msh, .inp, .med, .e, .exo or .vtu; mesh a "
+    "geometry such as a STEP file first, for example by gmsh -3",
+    body->gmsh.file);
   PetscFunctionReturn(0);
 }
 

@@ -6,8 +6,9 @@
 #include <stdlib.h>
 #include <vector3.h>
 
-/* Two positions closer than this count as equal, relative to the size of the faces */
-static const PetscReal cyclic_same = 1e-6;
+/* Two positions closer than this count as equal, relative to the size of the faces: coordinates in mesh files may have
+   five digits only. Of several nodes that are so close the nearest one counts. */
+static const PetscReal cyclic_same = 1e-4;
 
 /* A node of the first face, at its position after the rotation */
 typedef struct {
@@ -113,10 +114,12 @@ static PetscErrorCode CyclicFindTurn(MPI_Comm comm, const SceneCyclic *cut, cons
   PetscFunctionReturn(0);
 }
 
-/* Returns the number of the turned first face's node at the position x; PETSC_DECIDE if there is none */
+/* Returns the number of the turned first face's node that is nearest to the position x; PETSC_DECIDE if none is within
+   the distance `same` in each coordinate */
 static PetscInt CyclicFind(const CyclicFace *face, const PetscReal x[3], PetscReal same)
 {
-  PetscInt low = 0, high = face->n;
+  PetscInt  low = 0, high = face->n, found = PETSC_DECIDE;
+  PetscReal least = same;
 
   while (low < high) {
     const PetscInt middle = (low + high) / 2;
@@ -128,9 +131,11 @@ static PetscInt CyclicFind(const CyclicFace *face, const PetscReal x[3], PetscRe
     PetscReal off = 0.0;
 
     for (PetscInt d = 0; d < 3; ++d) off = PetscMax(off, PetscAbsReal(face->nodes[low].x[d] - x[d]));
-    if (off <= same) return (PetscInt)face->nodes[low].node;
+    if (off > least) continue;
+    least = off;
+    found = (PetscInt)face->nodes[low].node;
   }
-  return PETSC_DECIDE;
+  return found;
 }
 
 /* Finds the images of all nodes. *lost: 1 if a node has no image, otherwise 0 */

@@ -4,9 +4,10 @@
 
 /* The geometry of a zone: up to two faces, or a box if nfaces is 0 */
 typedef struct {
-  PetscInt   nfaces, n[2]; /* number of faces, and number of facets of each face */
-  PetscReal  all[2][6];    /* box around each whole face, or the box of the zone [length] */
-  PetscReal *facets[2];    /* boxes around the facets of each face, 6 numbers per box [length] */
+  PetscInt         nfaces, n[2]; /* number of faces, and number of facets of each face */
+  const SceneBody *surface[2];   /* the rigid surface that a face belongs to; NULL: it has facets */
+  PetscReal        all[2][6];    /* box around each whole face, or the box of the zone [length] */
+  PetscReal       *facets[2];    /* boxes around the facets of each face, 6 numbers per box [length] */
 } Zone;
 
 static void ZoneBoxClear(PetscReal box[6])
@@ -35,6 +36,25 @@ static PetscBool ZoneBoxesMeet(const PetscReal a[6], const PetscReal b[6], Petsc
     size += a[3 + d] - a[d];
   }
   return (PetscBool)(PetscSqrtReal(square) <= distance + 1e-9 * size);
+}
+
+/* Returns whether a box is within the distance of a rigid surface. The point of the box that is nearest to the surface
+   is found by steps to the surface and back into the box. */
+static PetscBool ZoneSurfaceMeets(const SceneBody *surface, const PetscReal box[6], PetscReal distance)
+{
+  const PetscInt steps = 20; /* a plane needs two */
+  PetscReal      x[3], slope[3], size = 0.0, away;
+
+  for (PetscInt d = 0; d < 3; ++d) {
+    x[d] = 0.5 * (box[d] + box[3 + d]);
+    size += box[3 + d] - box[d];
+  }
+  away = SceneSurfaceDistance(surface, x, slope);
+  for (PetscInt k = 0; k < steps && away > distance; ++k) {
+    for (PetscInt d = 0; d < 3; ++d) x[d] = PetscClipInterval(x[d] - away * slope[d], box[d], box[3 + d]);
+    away = SceneSurfaceDistance(surface, x, slope);
+  }
+  return (PetscBool)(away <= distance + 1e-9 * size);
 }
 
 /* Computes the position of a vertex of a body. The coordinates of curved shapes are still parameters here. */
@@ -70,6 +90,7 @@ static PetscErrorCode ZoneAddFace(DM dm, const SceneBody bodies[], const char fa
     PetscCall(MeshGetVertexCoordinates(dm, 4, vertices, x));
     PetscCall(DMPlexGetSupport(dm, f[i], &cells));
     PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, cells[0], &body));
+    if (SceneBodyIsSurface(&bodies[body])) zone->surface[k] = &bodies[body];
     ZoneBoxClear(&zone->facets[k][6 * i]);
     for (PetscInt a = 0; a < 4; ++a) {
       PetscCall(ZonePlaceVertex(&bodies[body], x[a], x[a]));
@@ -108,6 +129,10 @@ static PetscBool ZoneHolds(const Zone *zone, PetscReal distance, const PetscReal
   for (PetscInt k = 0; k < zone->nfaces; ++k) {
     PetscInt i = ZoneBoxesMeet(zone->all[k], box, distance) ? 0 : zone->n[k];
 
+    if (zone->surface[k]) {
+      if (!ZoneSurfaceMeets(zone->surface[k], box, distance)) return PETSC_FALSE;
+      continue;
+    }
     while (i < zone->n[k] && !ZoneBoxesMeet(&zone->facets[k][6 * i], box, distance)) ++i;
     if (i == zone->n[k]) return PETSC_FALSE;
   }
@@ -158,6 +183,7 @@ static PetscErrorCode ZoneMark(const SceneBody bodies[], const SceneRefinement *
   PetscFunctionBegin;
   for (PetscInt c = 0; c < hexes->ncells; ++c) {
     if (refinement->body >= 0 && body[c] != refinement->body) continue;
+    if (SceneBodyIsSurface(&bodies[body[c]])) continue; /* its cell is only for pictures */
     if (!ZoneHolds(zone, refinement->distance, &box[6 * c])) continue;
     ++n;
     if (hexes->place[4 * c + 3] >= refinement->levels) continue;

@@ -1,5 +1,6 @@
 /* Checks that every body is held, and that the faces of the scene have facets */
 #include "supportsimpl.h"
+#include <string.h>
 
 /* Selects a free mode of a body for the message: a mode that is entirely free; otherwise a rotation, about an axis that
    is then not known; otherwise a translation. Returns PETSC_DECIDE if no mode is free. */
@@ -18,25 +19,48 @@ static PetscInt SupportFindFreest(const PetscReal outside[6])
   return mode;
 }
 
-/* Collective. Reports the first body that has a free mode */
-static PetscErrorCode SupportRaise(const Support *support, Scene scene, const PetscReal outside[])
+/* Appends to `text` how a body is not held, for example: body "b" is not held against a translation along x. Returns
+   whether it is not held. */
+static PetscBool SupportDescribe(const char name[], const PetscReal outside[6], char text[], size_t length)
 {
   static const char *const modes[] = {"a translation along x", "a translation along y", "a translation along z",
     "a rotation about x", "a rotation about y", "a rotation about z"};
-  MPI_Comm                 comm    = PetscObjectComm((PetscObject)support->dm);
+  const PetscInt           freest  = SupportFindFreest(outside);
+  PetscInt                 nfree = 0, n = 0;
+  size_t                   used = 0;
+
+  if (freest < 0) return PETSC_FALSE;
+  for (PetscInt k = 0; k < 6; ++k) nfree += outside[k] > 1 - 1e-6;
+  if (nfree == 6) (void)snprintf(text, length, "nothing holds body \"%s\"", name);
+  else (void)snprintf(text, length, "body \"%s\" is not held against ", name);
+  for (PetscInt k = 0; k < 6 && nfree < 6; ++k) {
+    if (nfree ? !(outside[k] > 1 - 1e-6) : k != freest) continue;
+    ++n;
+    used = strlen(text);
+    (void)snprintf(text + used, length - used, "%s%s", n == 1 ? "" : n < nfree ? ", " : " and ", modes[k]);
+  }
+  return PETSC_TRUE;
+}
+
+/* Collective. Reports the bodies that have free modes */
+static PetscErrorCode SupportRaise(const Support *support, Scene scene, const PetscReal outside[])
+{
+  const PetscInt most  = 4; /* number of bodies in the message */
+  PetscInt       first = PETSC_DECIDE, n = 0;
+  char           text[1600] = "", body[400];
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    const PetscInt mode  = SupportFindFreest(outside + 6 * b);
-    PetscInt       nfree = 0;
-
-    for (PetscInt k = 0; k < 6; ++k) nfree += outside[6 * b + k] > 1 - 1e-6;
-    SceneCheck(nfree < 6, comm, PETSC_ERR_USER_INPUT, &scene->bodies[b],
-      "nothing holds body \"%s\": prescribe a displacement on one of its faces", scene->bodies[b].name);
-    SceneCheck(mode < 0, comm, PETSC_ERR_USER_INPUT, &scene->bodies[b],
-      "body \"%s\" is not held against %s: prescribe a displacement, or add springs, a tie or a contact pair",
-      scene->bodies[b].name, modes[mode]);
+    if (!SupportDescribe(scene->bodies[b].name, outside + 6 * b, body, sizeof(body))) continue;
+    if (first < 0) first = b;
+    if (n && n < most) PetscCall(PetscStrlcat(text, "; ", sizeof(text)));
+    if (n++ < most) PetscCall(PetscStrlcat(text, body, sizeof(text)));
   }
+  if (first < 0) PetscFunctionReturn(0);
+  (void)snprintf(body, sizeof(body), "; and %" PetscInt_FMT " more bodies", n - most);
+  if (n > most) PetscCall(PetscStrlcat(text, body, sizeof(text)));
+  SceneCheck(PETSC_FALSE, PetscObjectComm((PetscObject)support->dm), PETSC_ERR_USER_INPUT, &scene->bodies[first],
+    "%s: prescribe a displacement, or add springs, a tie or a contact pair", text);
   PetscFunctionReturn(0);
 }
 
@@ -82,7 +106,7 @@ static PetscErrorCode SupportDestroy(Support *support)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Reports the first body with a free mode as an error */
+/* Collective. Reports the bodies with free modes as an error */
 static PetscErrorCode SupportCheckBodies(DM dm, Scene scene)
 {
   Support    support;
@@ -165,8 +189,10 @@ PetscErrorCode MeshCheckScene(DM dm, Scene scene)
   }
   for (PetscInt p = 0; p < scene->npressures; ++p)
     PetscCall(SupportCheckFacets(dm, "Pressure", &scene->pressures[p], scene->pressures[p].face));
-  for (PetscInt t = 0; t < scene->ntractions; ++t)
-    PetscCall(SupportCheckFacets(dm, "Load", &scene->tractions[t], scene->tractions[t].face));
+  for (PetscInt t = 0; t < scene->ntractions; ++t) {
+    if (!SceneForceIsAtPoint(scene, &scene->tractions[t]))
+      PetscCall(SupportCheckFacets(dm, "Load", &scene->tractions[t], scene->tractions[t].face));
+  }
   for (PetscInt s = 0; s < scene->nsprings; ++s) {
     PetscCall(SupportCheckFacets(dm, "Spring", &scene->springs[s], scene->springs[s].face));
     if (scene->springs[s].to) PetscCall(SupportCheckFacets(dm, "Spring", &scene->springs[s], scene->springs[s].to));

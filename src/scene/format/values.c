@@ -123,7 +123,9 @@ static PetscErrorCode ValuesReadMapping(SceneValues *v, yaml_document_t *doc, co
   PetscCheck(depth < VALUES_DEPTH, PETSC_COMM_SELF, PETSC_ERR_SUP, "more than %d mappings are nested", VALUES_DEPTH);
   if (node->type == YAML_SCALAR_NODE && !ValuesText(node)[0]) PetscFunctionReturn(0);
   PetscCheck(node->type == YAML_MAPPING_NODE, PETSC_COMM_SELF, PETSC_ERR_SUP,
-    "line %zu: keys with values are expected here, as in problem: name", node->start_mark.line + 1);
+    "line %zu: keys with values are expected here, as in problem: name; a mesh is read by a body with "
+    "shape: gmsh, mesh: FILE in a scene",
+    node->start_mark.line + 1);
   for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top; ++p) {
     const yaml_node_t *key = yaml_document_get_node(doc, p->key), *value = yaml_document_get_node(doc, p->value);
 

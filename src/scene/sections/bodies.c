@@ -29,6 +29,7 @@ PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], 
   PetscCall(SceneKeysGet(keys, PETSC_FALSE, &text, "%s", key));
   if (text) PetscCall(SceneFindMaterial(keys, key, text, &listed, &body->material));
   else if (SceneBodyIsSurface(body)) body->material.type = MATERIAL_RIGID;
+  if (listed) PetscCall(PetscStrallocpy(text, &body->material_name));
   if (body->material.type == MATERIAL_RIGID) {
     body->order = 1;
     PetscCall(SceneRefuseOfRigid(keys, owner));

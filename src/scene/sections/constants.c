@@ -61,7 +61,7 @@ static PetscErrorCode SceneReadConstantList(SceneKeys keys, const char key[], co
   PetscFunctionReturn(0);
 }
 
-/* Checks the constants of hardening together, if the law yields. */
+/* Checks the constants of hardening together; elastic laws may have a yield stress. */
 static PetscErrorCode SceneCheckHardening(SceneKeys keys, const char owner[], Material *material)
 {
   MaterialHardening *h = &material->hardening;
@@ -70,12 +70,12 @@ static PetscErrorCode SceneCheckHardening(SceneKeys keys, const char owner[], Ma
   PetscBool          has;
 
   PetscFunctionBegin;
-  if (!MaterialYields(material)) PetscFunctionReturn(0);
+  PetscCall(SceneHasKey(keys, owner, "yield", &has));
+  if (!MaterialYields(material) && !has) PetscFunctionReturn(0);
   if (h->stresses.n && h->yield != 0.0 && h->yield != h->stresses.value[0])
     PetscCall(SceneKeysError(keys, owner, "yield", "is %g, but is not the first of yield_stresses, %g: omit it",
       (double)h->yield, (double)h->stresses.value[0]));
   if (h->stresses.n) h->yield = h->stresses.value[0];
-  PetscCall(SceneHasKey(keys, owner, "yield", &has));
   if (!has && h->yield == 0.0)
     PetscCall(
       SceneKeysError(keys, owner, "yield", "is missing; a table of plastic_strains and yield_stresses may replace it"));

@@ -141,11 +141,12 @@ static const SceneKey traction_rows[] = {TEXT("face", NULL, SceneTraction, face,
     "force per undeformed area at load factor 1"),
   NUMBER_OF("ramp", RAMP, SceneTraction, ramp, "`load`", "a ramp that the value follows"), {NULL}};
 
-static const SceneKey force_rows[] = {NUMBER_OF("body", BODY, SceneTraction, body, "", "a rigid body"),
+static const SceneKey force_rows[] = {NUMBER_OF("body", BODY, SceneTraction, body, "",
+                                        "a rigid body; or an elastic body, on which the force acts at `point`"),
   TEXT("face", NULL, SceneTraction, face, OPTIONAL, "", "a face; required without `body`"),
   REALS("value", NULL, 3, SceneTraction, value, SHOWN, ANY, "F", "0 with `moment`", "resultant force at load factor 1"),
   REALS("point", NULL, 3, SceneTraction, point, SHOWN, ANY, "L", "the face's centroid",
-    "point of action, inside or outside of the body"),
+    "point of action; of a rigid body or a face also outside of the body, of an elastic body usually a node"),
   REALS("moment", NULL, 3, SceneTraction, moment, OPTIONAL, ANY, "F L", "0",
     "moment about that point at load factor 1"),
   NUMBER_OF("ramp", RAMP, SceneTraction, ramp, "`load`", "a ramp that the value follows"), {NULL}};

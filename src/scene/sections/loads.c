@@ -17,8 +17,22 @@ PetscBool SceneForceHides(const void *entry, const char key[])
 {
   const SceneTraction *force = entry;
 
-  if (!strcmp(key, "face")) return SceneIsWholeBody(force->face);
+  if (!strcmp(key, "face")) return (PetscBool)(force->body >= 0);
   return (PetscBool)(!strcmp(key, "point") && !force->placed);
+}
+
+/* Sets a force at a point of an elastic body. moment: whether the entry has this key */
+static PetscErrorCode ForceSetPoint(SceneKeys keys, Scene scene, const char owner[], PetscBool moment,
+  SceneTraction *force)
+{
+  PetscFunctionBegin;
+  if (!force->placed || moment)
+    PetscCall(SceneKeysError(keys, owner, "body",
+      "is \"%s\", which is not rigid: forces on elastic bodies act on a face, or at a point: {body, point, value}",
+      scene->bodies[force->body].name));
+  PetscCall(PetscFree(force->face));
+  PetscCall(PetscStrallocpy(scene->bodies[force->body].name, &force->face));
+  PetscFunctionReturn(0);
 }
 
 /* Finishes a force, which acts on a face or a rigid body and has a value, a moment or both. */
@@ -35,8 +49,11 @@ PetscErrorCode SceneFinishForce(SceneKeys keys, Scene scene, const char owner[],
   PetscCall(SceneKeysGet(keys, (PetscBool)!turns, &text, "%s_value", owner));
   PetscCall(SceneKeysGet(keys, (PetscBool)!body, &text, "%s_face", owner));
   if (body && text) PetscCall(SceneKeysError(keys, owner, NULL, "names a face and a body; give only one of the two"));
-  PetscCall(SceneSetWholeBody(keys, scene, owner, "forces act on a face of an elastic body: use the key face",
-    force->body, &force->face));
+  if (force->body >= 0 && scene->bodies[force->body].material.type != MATERIAL_RIGID) {
+    PetscCall(ForceSetPoint(keys, scene, owner, turns, force));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(SceneSetWholeBody(keys, scene, owner, "", force->body, &force->face));
   PetscFunctionReturn(0);
 }
 

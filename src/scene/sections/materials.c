@@ -71,8 +71,10 @@ static PetscErrorCode MaterialsReadLibrary(SceneKeys keys, const SceneList *rows
   PetscCall(MaterialsReadList(library, rows, PETSC_TRUE, keys));
   if (units && scene->units) PetscCall(PetscStrcmp(units, scene->units, &same));
   if (!same)
-    PetscCall(
-      SceneKeysError(keys, "units", NULL, "are \"%s\", those of the library %s are \"%s\"", scene->units, file, units));
+    PetscCall(SceneKeysError(keys, "units", NULL,
+      "are \"%s\", those of the library %s are \"%s\": take the library in the units of the scene, or write units: %s "
+      "and give all numbers of the scene in these units",
+      scene->units, file, units, units));
   if (units && !scene->units) PetscCall(PetscStrallocpy(units, &scene->units));
   PetscCall(SceneKeysCheck(library));
   PetscCall(SceneKeysDestroy(&library));

@@ -1,5 +1,6 @@
 """contact-mesh IN OUT converts a mesh, or results BASE.xmf to VTK files OUT.pvd. contact-mesh IN -check lists the
-volumes and faces of a mesh, and -picture FILE.png draws it."""
+volumes and faces of a mesh, and -picture FILE.png draws it. contact-mesh DECK.inp -scene SCENE.yaml translates a deck
+of Abaqus or CalculiX."""
 import argparse
 import os
 import sys
@@ -7,7 +8,9 @@ import sys
 import numpy as np
 
 from contact import ContactError, load
+from contact.places import script
 
+from ..decks.translate import translate
 from . import formats
 from .model import FACETS, KINDS, MeshError
 from .quality import cell_volumes, facet_areas, scaled_jacobian
@@ -46,9 +49,20 @@ def check(mesh):
         raise MeshError("a coordinate is not a number")
 
 
+def inverted(mesh):
+    """The volumes with inverted or flat cells, how many they are, and the middle of the first"""
+    for name, rows in mesh.volumes.items():
+        for block, these in rows.items():
+            kind, cells = mesh.blocks[block][0], mesh.blocks[block][1][these]
+            bad = np.flatnonzero(scaled_jacobian(kind, cells, mesh.points) <= 0)
+            if len(bad):
+                middle = ", ".join(f"{x:.6g}" for x in mesh.points[cells[bad[0]]].mean(axis=0))
+                yield f"the volume \"{name}\" has {len(bad):,} inverted or flat cells, the first at ({middle})"
+
+
 def draw(mesh, path, picture):
     """A picture of the volumes, by the drawing of share/plot"""
-    sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), *[os.pardir] * 3, "plot"))
+    sys.path.insert(0, os.path.dirname(script("plot/mesh.py")))
     from mesh import draw_mesh
 
     corners = {
@@ -70,6 +84,20 @@ def write_results(source, target):
         sys.exit(f"contact-mesh: error: {error}")
 
 
+def write_scene(given):
+    """Translates a deck"""
+    if not given.input.lower().endswith(".inp"):
+        sys.exit(f"contact-mesh: error: {given.input}: -scene translates decks, whose names end in .inp")
+    try:
+        translator, bodies = translate(given.input, given.scene, given.deck_ignore)
+    except (MeshError, OSError) as error:
+        text = str(error)
+        sys.exit("contact-mesh: error: " + (text if text.startswith(given.input) else f"{given.input}: {text}"))
+    if not given.quiet:
+        print(f"{given.scene}: {len(bodies.names)} bodies, {sum(step.n for step in translator.steps)} load steps")
+        print("\n".join(translator.notes.lines()))
+
+
 def main():
     parser = argparse.ArgumentParser(prog="contact-mesh", description=__doc__,
                                      epilog=f"Reads {formats.READ}. Writes .msh, .inp and .vtu.")
@@ -81,14 +109,21 @@ def main():
                         help="prints volumes, faces, sizes and the quality of the cells")
     parser.add_argument("-picture", "--picture", metavar="FILE.png",
                         help="draws the volumes with the edges of their cells; needs VTK")
+    parser.add_argument("-scene", "--scene", metavar="FILE.yaml",
+                        help="translates the whole deck (.inp) into a scene FILE.yaml and its mesh FILE.msh")
+    parser.add_argument("-deck_ignore", "--deck_ignore", action="append", default=[], metavar="KEYWORD",
+                        help="with -scene: keywords of the deck, separated by commas, that are left out")
     parser.add_argument("-quiet", "--quiet", action="store_true", help="prints errors only")
     given = parser.parse_args()
-    if given.output is None and not given.check and not given.picture:
-        parser.error("give an output file, -check or -picture")
+    if given.output is None and not given.check and not given.picture and not given.scene:
+        parser.error("give an output file, -scene, -check or -picture")
     if not np.isfinite(given.scale) or given.scale <= 0:
         sys.exit(f"contact-mesh: error: -scale {given.scale}: a factor above 0 is expected")
     if given.input.endswith(".xmf") and given.output:
         write_results(given.input, given.output)
+        return
+    if given.scene:
+        write_scene(given)
         return
     if given.output and os.path.splitext(given.output)[1].lower() not in formats.WRITTEN:
         sys.exit(f"contact-mesh: error: {given.output}: its ending is none of {', '.join(formats.WRITTEN)}")
@@ -106,7 +141,11 @@ def main():
     if given.picture:
         draw(mesh, given.input, given.picture)
     if not given.quiet:
-        print("\n".join(report(given.input, mesh, left)))
+        print("\n".join(report(given.input, mesh, left)), flush=True)
+    wrong = "; ".join(inverted(mesh)) if given.check else ""
+    if wrong:
+        sys.exit(f"contact-mesh: error: {given.input}: {wrong}")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -153,9 +153,37 @@ class Mesh:
         if spare:
             self.add_volume("rest" if self.volumes else "all", spare)
         self.volumes = {name: rows for name, rows in self.volumes.items() if rows}
+        self.add_parts()
+
+    def add_parts(self):
+        """Adds a volume NAME.part_1, NAME.part_2, ... for each part of a volume whose parts share no nodes"""
+        for name, rows in list(self.volumes.items()):
+            parts = connected_parts([self.blocks[block][1][these] for block, these in rows.items()], len(self.points))
+            nparts = 1 + max(int(part.max()) for part in parts)
+            for number in range(nparts if nparts > 1 else 0):
+                self.add_volume(f"{name}.part_{number + 1}",
+                                {block: these[part == number]
+                                 for (block, these), part in zip(rows.items(), parts)})
 
     def kinds_of(self, name):
         return sorted({self.blocks[block][0] for block in self.volumes[name]})
+
+
+def connected_parts(tables, nnodes):
+    """For each table of cells the number of the part of each cell, from 0, in the order of the first cells. Cells that
+    share a node are in one part"""
+    least = np.arange(nnodes)
+    while True:
+        before = least.copy()
+        for cells in tables:
+            np.minimum.at(least, cells, least[cells].min(axis=1)[:, None])
+        least = least[least]
+        if (least == before).all():
+            break
+    found = np.concatenate([least[cells[:, 0]] for cells in tables])
+    _, first, inverse = np.unique(found, return_index=True, return_inverse=True)
+    numbers = np.argsort(np.argsort(first))[inverse.ravel()]
+    return np.split(numbers, np.cumsum([len(cells) for cells in tables])[:-1])
 
 
 def corner_volumes(kind, cells, points):

@@ -1,0 +1,315 @@
+"""The sections of a scene: bodies, what holds and loads them, contact, ties, load program."""
+import numpy as np
+
+from ..meshes.model import KINDS, MeshError
+from . import materials
+from .geometry import plain
+from .steps import STICKS
+
+NAMED_BOUNDARIES = {
+    "XSYMM": (1, ), "YSYMM": (2, ), "ZSYMM": (3, ), "PINNED": (1, 2, 3), "ENCASTRE": (1, 2, 3), "XASYMM": (2, 3),
+    "YASYMM": (1, 3), "ZASYMM": (1, 2)
+}
+FINITE = ("saint_venant", "neohookean", "mooney_rivlin", "j2_finite")
+
+
+def sections(deck, bodies, mesh_file):
+    found = {}
+    laws = {key: material_law(deck, key) for key in dict.fromkeys(bodies.materials)}
+    names = name_materials(laws)
+    found["materials"] = [(names[key], law) for key, law in laws.items()]
+    found["bodies"] = body_entries(deck, bodies, mesh_file, names, laws)
+    contact, ties = contact_entries(deck, bodies)  # first, so that faces have the names of the deck's surfaces
+    found["displacements"], found["symmetry"] = displacement_entries(deck, bodies)
+    found["forces"] = force_entries(deck, bodies)
+    found["pressures"] = pressure_entries(deck, bodies, laws)
+    found["body_forces"] = gravity_entries(deck, bodies, laws)
+    found["temperatures"] = temperature_entries(deck, laws)
+    found["contact"], found["ties"] = contact, ties + joint_entries(bodies)
+    found["cyclic"] = cyclic_entries(deck, bodies)
+    program(deck, found)
+    return found
+
+
+def material_law(deck, key):
+    material, orientation = key
+    if orientation and orientation not in deck.orientations:
+        raise MeshError(f"{deck.materials[material].where}: there is no orientation \"{orientation}\"")
+    return materials.law(deck.materials[material], deck.finite, deck.orientations.get(orientation), deck.notes)
+
+
+def name_materials(laws):
+    names = {}
+    for material, orientation in laws:
+        name = plain(material.lower() + (f"_{orientation.lower()}" if orientation else ""))
+        while name in names.values() or name in ("linear", "neohookean", "saint_venant", "mooney_rivlin", "orthotropic",
+                                                 "j2", "j2_finite", "rigid"):
+            name += "_"
+        names[material, orientation] = name
+    return names
+
+
+def body_entries(deck, bodies, mesh_file, names, laws):
+    found = []
+    velocity = initial_velocities(deck, bodies)
+    for body, name in enumerate(bodies.names):
+        kinds = {bodies.kind(cell) for cell in bodies.cells[body]}
+        keys = {"mesh": mesh_file, "volume": name, "material": names[bodies.materials[body]]}
+        keys["order"] = max(KINDS[kind].order if kind in KINDS else 1 for kind in kinds)
+        if body in velocity:
+            keys["initial_velocity"] = velocity[body]
+        found.append((name, keys))
+    return found
+
+
+def initial_velocities(deck, bodies):
+    found = {}
+    for where, nodes, axis, value in deck.velocities:
+        for body, mine in enumerate(bodies.body_nodes):
+            inside = mine & set(nodes)
+            if inside and inside != mine:
+                deck.notes.refuse("INITIAL CONDITIONS", where, f"the velocity is given on a part of the body "
+                                  f"\"{bodies.names[body]}\"")
+            elif inside:
+                found.setdefault(body, [0.0, 0.0, 0.0])[axis] = value
+    return found
+
+
+def grouped(deck, histories):
+    """[(ramp, {component: value}, keys)]: components with one ramp on the same nodes are together"""
+    sets = {}
+    for (node, axis), values in histories.values.items():
+        value, ramp = deck.ramps.split(values, histories.starts.get((node, axis), 0.0))
+        sets.setdefault((axis, value, ramp), set()).add(node)
+    merged = {}
+    for (axis, value, ramp), nodes in sets.items():
+        merged.setdefault((ramp, frozenset(nodes)), {})[axis] = value
+    return [(ramp, values, nodes) for (ramp, nodes), values in merged.items()]
+
+
+def displacement_entries(deck, bodies):
+    found, planes = [], []
+    for number, (ramp, values, nodes) in enumerate(grouped(deck, deck.displacements), 1):
+        faces, points, loose = bodies.divide_nodes(f"held_{number}", nodes)
+        if loose:
+            deck.notes.approximate("BOUNDARY", deck.displacements.lines[loose[0], min(values)], nodes_text(deck, loose))
+        value = [values.get(axis, "free") for axis in range(3)]
+        end = {"ramp": ramp} if ramp else {}
+        for body, face in faces:
+            name = f"{bodies.names[body]}.{face}"
+            axis = next(iter(values))
+            if len(values) == 1 and not any(values.values()) and is_plane(bodies, body, face, axis):
+                planes.append((f"plane_{len(planes) + 1}", {"face": name, "normal": "xyz"[axis]}))
+            else:
+                found.append((f"held_{len(found) + 1}", {"face": name, "value": value, **end}))
+        for body, node in points:
+            found.append((f"held_{len(found) + 1}",
+                          {"body": bodies.names[body], "point": deck.geometry.points[node], "value": value, **end}))
+    return found, planes
+
+
+def nodes_text(deck, nodes):
+    shown = ", ".join(str(deck.geometry.node_numbers[node]) for node in nodes[:6])
+    return f"nodes of no solid element, left out: {shown}" + (f" and {len(nodes) - 6} more" if len(nodes) > 6 else "")
+
+
+def is_plane(bodies, body, face, axis):
+    """Whether a face is in a plane normal to an axis"""
+    nodes = [
+        node for cell, side in bodies.faces[face.upper()][1][body] for node in bodies.geometry.side_nodes(cell, side)
+    ]
+    x = bodies.geometry.points[nodes][:, axis]
+    size = np.ptp(bodies.geometry.points[sorted(bodies.body_nodes[body])], axis=0).max()
+    return np.ptp(x) <= 1e-6 * size
+
+
+def force_entries(deck, bodies):
+    found = []
+    for ramp, values, nodes in grouped(deck, deck.forces):
+        if not any(values.values()):
+            continue
+        for node in sorted(nodes):
+            body = next((b for b, mine in enumerate(bodies.body_nodes) if node in mine), None)
+            if body is None:
+                deck.notes.refuse("CLOAD", deck.forces.lines[node, min(values)], nodes_text(deck, [node]))
+                continue
+            keys = {
+                "body": bodies.names[body], "point": deck.geometry.points[node],
+                "value": [values.get(axis, 0.0) for axis in range(3)]
+            }
+            found.append((f"force_{len(found) + 1}", {**keys, **({"ramp": ramp} if ramp else {})}))
+    return found
+
+
+def pressure_entries(deck, bodies, laws):
+    groups, found = {}, []
+    for side, values in deck.pressures.values.items():
+        value, ramp = deck.ramps.split(values, deck.pressures.starts.get(side, 0.0))
+        if value:
+            groups.setdefault((value, ramp), []).append(side)
+    friction = any(i.friction for i in deck.interactions.values())
+    for number, ((value, ramp), sides) in enumerate(groups.items(), 1):
+        for body, face in bodies.add_face(f"loaded_{number}", sides):
+            keys = {"face": f"{bodies.names[body]}.{face}", "value": value}
+            if laws[bodies.materials[body]]["law"] in FINITE:
+                if friction or deck.steps[0].kind == "dynamic":
+                    deck.notes.approximate(
+                        "DLOAD", deck.pressures.lines[sides[0]], "the pressure keeps its direction, "
+                        "because pressures that follow faces exclude friction and dynamics")
+                else:
+                    keys["follows"] = True
+            found.append((f"pressure_{len(found) + 1}", {**keys, **({"ramp": ramp} if ramp else {})}))
+    return found
+
+
+def gravity_entries(deck, bodies, laws):
+    groups = {}
+    for (cells, axis), values in deck.bodies_loads.values.items():
+        value, ramp = deck.ramps.split(values, deck.bodies_loads.starts.get((cells, axis), 0.0))
+        if value:
+            groups.setdefault((cells, ramp), [0.0, 0.0, 0.0])[axis] = value
+    found = []
+    for (cells, ramp), value in groups.items():
+        where = next(line for (these, _), line in deck.bodies_loads.lines.items() if these == cells)
+        for body, mine in enumerate(bodies.cells):
+            inside = cells.intersection(mine)
+            if inside and len(inside) < len(mine):
+                deck.notes.refuse("DLOAD", where, f"gravity acts on a part of the body \"{bodies.names[body]}\"")
+            elif inside:
+                density = laws[bodies.materials[body]].get("density", 0.0)
+                if not density:
+                    raise MeshError(f"{where}: gravity acts on the body \"{bodies.names[body]}\" without *DENSITY")
+                found.append((f"gravity_{len(found) + 1}", {
+                    "body": bodies.names[body], "value": [density * one for one in value],
+                    **({"ramp": ramp} if ramp else {})
+                }))
+    return found
+
+
+def temperature_entries(deck, laws):
+    """Uniform temperatures: the same at all nodes"""
+    if not any("expansion" in law for law in laws.values()):
+        return []
+    zero, values = 0.0, []
+    for step, where, data in deck.temperature_steps:
+        rows = [text.split(",") for text in data]
+        given = {float(row[1]) for row in rows}
+        nodes = {node for row in rows for node in deck.geometry.nodes_of(where, row[0].strip())}
+        if len(given) > 1 or len(nodes) < len(deck.geometry.points):
+            deck.notes.refuse("TEMPERATURE", where, "the temperature is not the same at all nodes")
+            return []
+        if step is None:
+            zero = given.pop()
+        else:
+            values.append((step, given.pop()))
+    table, now = [], zero
+    for step in deck.steps:
+        end = next((value for other, value in values if other is step), now)
+        table += [now + (end - now) * time / step.period - zero for time in step.times()]
+        now = end
+    value, ramp = deck.ramps.split(table)
+    return [("temperature", {"value": value, **({"ramp": ramp} if ramp else {})})] if value else []
+
+
+def surface_faces(deck, bodies, where, name):
+    """[(body, face)] of a surface of sides or nodes"""
+    if name.upper() in deck.geometry.surfaces:
+        return bodies.add_face(name, deck.geometry.surfaces[name.upper()])
+    faces, points, _ = bodies.divide_nodes(name, deck.geometry.nodes_of(where, name))
+    if not faces:
+        deck.notes.refuse(
+            "CONTACT PAIR", where, f"the surface \"{name}\" holds no whole facet: contact of points and "
+            f"edges is not supported")
+    elif points:
+        deck.notes.approximate(
+            "SURFACE", where, f"{len(points)} nodes of \"{name}\" belong to no whole facet of it: no "
+            f"contact there")
+    return faces
+
+
+def contact_entries(deck, bodies):
+    pairs, ties = [], []
+    for where, slave, master, name, kind, adjusted in deck.pairs:
+        if name not in deck.interactions:
+            raise MeshError(f"{where}: there is no surface interaction \"{name}\"")
+        interaction = deck.interactions[name]
+        for body, face in surface_faces(deck, bodies, where, slave):
+            for other, opposite in surface_faces(deck, bodies, where, master):
+                keys = {"mortar": f"{bodies.names[other]}.{opposite}", "nonmortar": f"{bodies.names[body]}.{face}"}
+                if interaction.law == "TIED":
+                    ties.append((f"tied_{len(ties) + 1}", keys))
+                    continue
+                if kind == "NODE TO SURFACE":
+                    keys["gap"] = "node"
+                if adjusted:  # the smooth surface through nodes that were moved would overlap the other one
+                    keys["smooth"] = False
+                keys.update(friction_keys(deck, interaction))
+                keys.update(activity_keys(deck, bodies, (slave.upper(), master.upper())))
+                pairs.append((f"pair_{len(pairs) + 1}", keys))
+    for where, _, slave, master, tolerance, cyclic in deck.ties.values():
+        if cyclic:
+            continue
+        for body, face in surface_faces(deck, bodies, where, slave):
+            for other, opposite in surface_faces(deck, bodies, where, master):
+                keys = {"mortar": f"{bodies.names[other]}.{opposite}", "nonmortar": f"{bodies.names[body]}.{face}"}
+                ties.append((f"tie_{len(ties) + 1}", {**keys, **({"distance": float(tolerance)} if tolerance else {})}))
+    return pairs, ties
+
+
+def friction_keys(deck, interaction):
+    largest = max(interaction.frictions, default=0.0)
+    if largest >= STICKS:
+        return {"stick": True}
+    if largest == 0.0:
+        return {}
+    keys = {"friction": largest}
+    if min(interaction.frictions) < largest:
+        table = np.array(interaction.frictions) / largest
+        keys["friction_ramp"] = deck.ramps.name([table[0], *table]) or "load"
+    return keys
+
+
+def activity_keys(deck, bodies, key):
+    """A pair that is removed in some steps is opened there by the size of the model"""
+    if key not in deck.active or min(deck.active[key][1]) == 1.0:
+        return {}
+    size = float(np.ptp(bodies.geometry.points, axis=0).max())
+    table = deck.active[key][1]
+    return {"interference": size, "ramp": deck.ramps.name([table[0], *table]) or "load"}
+
+
+def joint_entries(bodies):
+    """Ties of bodies of unlike materials that share nodes"""
+    found = []
+    for number, ((a, b), sides) in enumerate(bodies.joints.items(), 1):
+        faces = dict(bodies.add_face(f"joint_{number}", sides))
+        found.append((f"joint_{number}",
+                      {"mortar": f"{bodies.names[a]}.{faces[a]}", "nonmortar": f"{bodies.names[b]}.{faces[b]}"}))
+    return found
+
+
+def cyclic_entries(deck, bodies):
+    found = []
+    for where, tie, start, end in deck.cyclic:
+        if tie not in deck.ties:
+            raise MeshError(f"{where}: there is no *TIE \"{tie}\"")
+        _, _, slave, master, _, _ = deck.ties[tie]
+        one, two = (dict(surface_faces(deck, bodies, where, name)) for name in (master, slave))
+        for body in sorted(set(one) & set(two)):
+            found.append((f"cyclic_{len(found) + 1}", {
+                "from": f"{bodies.names[body]}.{one[body]}", "to": f"{bodies.names[body]}.{two[body]}",
+                "axis": np.subtract(end, start), "center": start
+            }))
+    return found
+
+
+def program(deck, found):
+    steps = sum(step.n for step in deck.steps)
+    if deck.steps[0].kind == "dynamic":
+        step = deck.steps[0]
+        times = [0.0, *step.times()]
+        found["ramps"] = [(name, {"times": times, "values": list(factors)}) for name, factors in deck.ramps.factors]
+        found["dynamics"] = [f"  time_step: {step.period / step.n:.12g}", f"  end_time: {step.period:.12g}"]
+        return
+    found["load"] = [f"  steps: {steps}"]
+    found["ramps"] = [(name, {"factors": list(factors[1:])}) for name, factors in deck.ramps.factors]

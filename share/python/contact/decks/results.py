@@ -1,0 +1,171 @@
+"""Results of a deck's run as the files of CalculiX: .frd for cgx, PrePoMax and FreeCAD, .dat with NODE PRINT."""
+import math
+import os
+
+import h5py
+import numpy as np
+
+from ..meshes.model import MeshError
+
+# CalculiX' number of a kind of cell in .frd files, and its nodes as places in the deck's order
+CELLS = {
+    "hexahedron": (1, range(8)), "wedge": (2, range(6)), "tetra": (3, range(4)),
+    "hexahedron20": (4, [*range(12), *range(16, 20), *range(12, 16)]), "tetra10": (6, range(10)),
+    "hexahedron27": (4, [*range(12), *range(16, 20), *range(12, 16)])
+}
+DISPLACEMENT = [("D1", 2, 1, 0), ("D2", 2, 2, 0), ("D3", 2, 3, 0), ("ALL", 2, 0, 0)]
+STRESS = [("SXX", 4, 1, 1), ("SYY", 4, 2, 2), ("SZZ", 4, 3, 3), ("SXY", 4, 1, 2), ("SYZ", 4, 2, 3), ("SZX", 4, 3, 1)]
+CONTACT = [("COPEN", 4, 1, 1), ("CSLIP1", 4, 2, 2), ("CSLIP2", 4, 3, 3), ("CPRESS", 4, 1, 2), ("CSHEAR1", 4, 2, 3),
+           ("CSHEAR2", 4, 3, 1)]
+PLASTIC = [("PE", 1, 0, 0)]
+OURS_TO_STRESS = [0, 3, 5, 1, 4, 2]  # xx, yy, zz, xy, yz, zx among xx, xy, xz, yy, yz, zz
+
+
+def nearest(points, places, size):
+    """For each point the number of the place that is nearest; -1 if there is none within rounding"""
+    tolerance, direction = 1e-5 * size, np.array([0.5773, 0.6180, 0.5342])
+    order = np.argsort(places @ direction)
+    along, wanted = (places @ direction)[order], points @ direction
+    low, high = np.searchsorted(along, wanted - tolerance), np.searchsorted(along, wanted + tolerance, side="right")
+    found = np.full(len(points), -1)
+    for k, (first, last) in enumerate(zip(low, high)):
+        if last > first:
+            near = order[first:last]
+            distance = np.abs(places[near] - points[k]).max(axis=1)
+            if distance.min() <= tolerance:
+                found[k] = near[distance.argmin()]
+    return found
+
+
+class Results:
+    """The fields of a run at the nodes of its deck"""
+
+    def __init__(self, deck, bodies, run):
+        self.deck, self.geometry, self.bodies, self.run = deck, deck.geometry, bodies, run
+        size = float(np.ptp(run.points, axis=0).max())
+        self.vertex = np.full(len(self.geometry.points), -1)
+        self.cells = [cell for mine in bodies.cells for cell in mine]
+        owner = np.array(run.files.body)
+        for body, nodes in enumerate(bodies.body_nodes):
+            nodes = np.array(sorted(nodes))
+            rows = np.unique(np.concatenate([cell for cell, b in zip(run.cells, owner) if b == body]))
+            found = nearest(self.geometry.points[nodes], run.points[rows], size)
+            if (found < 0).any():
+                number = self.geometry.node_numbers[nodes[np.argmin(found)]]
+                raise MeshError(f"node {number} of the deck has no vertex in the results")
+            self.vertex[nodes] = rows[found]
+        self.nodes = np.flatnonzero(self.vertex >= 0)
+
+    def numbers(self):
+        """Numbers of nodes and elements in the files: those of the deck if they are unique"""
+        nodes = [self.geometry.node_numbers[node] for node in self.nodes]
+        return nodes if len(set(nodes)) == len(nodes) else list(range(1, len(nodes) + 1))
+
+    def times(self):
+        """{load step: (number of the deck's step, number of the load step in it, total time)}"""
+        found, number, start = {}, 0, 0.0
+        for at, step in enumerate(self.deck.steps, 1):
+            for k, time in enumerate(step.times(), 1):
+                number += 1
+                found[number] = (at, k, start + time)
+            start += step.period
+        return found
+
+    def fields(self, step):
+        """[(name, components, values at the nodes)] in a load step"""
+        rows = self.vertex[self.nodes]
+        with h5py.File(self.run.files.files[step], "r") as file:
+            data = {name: values[:] for name, values in file.items()}
+        found = [("DISP", DISPLACEMENT, data["displacement"][rows]),
+                 ("STRESS", STRESS, data["nodal_stress"][rows][:, OURS_TO_STRESS])]
+        if "equivalent_plastic_strain" in data:
+            found.append(("PE", PLASTIC, self.at_vertices(data["equivalent_plastic_strain"])[rows][:, None]))
+        if "contact_pressure" in data and not np.isnan(data["contact_gap"]).all():
+            table = np.zeros((len(rows), 6))
+            for name, column in (("contact_gap", 0), ("contact_slip_path", 1), ("contact_pressure", 3),
+                                 ("contact_shear", 4)):
+                if name in data:
+                    values = np.nan_to_num(data[name][rows])
+                    table[:, column] = np.linalg.norm(values, axis=1) if values.ndim > 1 else values
+            found.append(("CONTACT", CONTACT, table))
+        return found
+
+    def at_vertices(self, values):
+        """Means of the values of the cells around each vertex"""
+        total, count = np.zeros(len(self.run.points)), np.zeros(len(self.run.points))
+        for cell, value in zip(self.run.cells, values):
+            total[cell] += value
+            count[cell] += 1
+        return total / np.maximum(count, 1)
+
+    def write_frd(self, path):
+        numbers, times = self.numbers(), self.times()
+        number_of = dict(zip(self.nodes.tolist(), numbers))
+        with open(path, "w", encoding="ascii", errors="replace") as file:
+            file.write("    1C\n    1UUSER\n    1UPGM               contact-ccx of amgf\n")
+            file.write(f"    2C{'':18}{len(numbers):12d}{'':37}1\n")
+            for number, node in zip(numbers, self.nodes):
+                file.write(f" -1{number:10d}" + reals(self.geometry.points[node]))
+            file.write(f" -3\n    3C{'':18}{len(self.cells):12d}{'':37}1\n")
+            for number, cell in enumerate(self.cells, 1):
+                kind, nodes = self.geometry.elements[cell]
+                code, order = CELLS[kind]
+                file.write(f" -1{self.element_number(cell, number):10d}{code:5d}{0:5d}{1:5d}\n")
+                words = [f"{number_of[nodes[place]]:10d}" for place in order]
+                file.write("".join(" -2" + "".join(words[i:i + 10]) + "\n" for i in range(0, len(words), 10)))
+            file.write(" -3\n")
+            count = 0
+            for step in self.run.steps:
+                at, k, time = times[step]
+                for name, components, values in self.fields(step):
+                    count += 1
+                    write_block(file, name, components, numbers, values, (count, at, k, step, time))
+            file.write(" 9999\n")
+
+    def element_number(self, cell, otherwise):
+        numbers = self.geometry.element_numbers
+        return numbers[cell] if len(set(numbers)) == len(numbers) else otherwise
+
+    def write_dat(self, path):
+        times, number_of = self.times(), dict(zip(self.nodes.tolist(), self.numbers()))
+        with open(path, "w", encoding="ascii", errors="replace") as file:
+            for step in self.run.steps:
+                at, _, time = times[step]
+                displacement = self.run.displacement(step)
+                for name, nodes in self.deck.prints[self.deck.steps[at - 1]]:
+                    file.write(f"\n displacements (vx,vy,vz) for set {name.upper()} and time {fortran(time)}\n\n")
+                    for node in nodes:
+                        if node in number_of:
+                            file.write(f"{number_of[node]:10d}" +
+                                       "".join(f"{value:14.6E}" for value in displacement[self.vertex[node]]) + "\n")
+
+
+def write_block(file, name, components, numbers, values, place):
+    count, at, k, step, time = place
+    file.write(f"    1PSTEP{count:26d}{k:12d}{at:12d}\n")
+    file.write(f"  100CL{100 + step:5d}{time:12.5E}{len(numbers):12d}{'':20}{0:2d}{step:5d}{'':10}{1:2d}\n")
+    file.write(f" -4  {name:<8}{len(components):5d}{1:5d}\n")
+    for word, kind, row, column in components:
+        last = "1ALL" if word == "ALL" else ""
+        file.write(f" -5  {word:<8}{1:5d}{kind:5d}{row:5d}{column:5d}{'    ' if last else ''}{last}\n")
+    for number, value in zip(numbers, values):
+        file.write(f" -1{number:10d}" + reals(value))
+    file.write(" -3\n")
+
+
+def reals(values):
+    return "".join(f"{value:12.5E}" for value in values) + "\n"
+
+
+def fortran(value):
+    """0.1234567E+01"""
+    power = math.floor(math.log10(abs(value))) + 1 if value else 0
+    return f"{value / 10.0**power:10.7f}E{power:+03d}"
+
+
+def write(deck, bodies, run, stem):
+    """Writes STEM.frd and STEM.dat"""
+    results = Results(deck, bodies, run)
+    for ending, put in ((".frd", results.write_frd), (".dat", results.write_dat)):
+        put(stem + ending + ".part")
+        os.replace(stem + ending + ".part", stem + ending)

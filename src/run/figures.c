@@ -1,0 +1,141 @@
+/* Collects the figures that a reader looks for first: largest values over the load steps that converged */
+#include "runimpl.h"
+#include <math.h>
+#include <vector3.h>
+
+typedef enum { OF_MODEL, OF_BODY, OF_PAIR, OF_FACE } FigureOwner;
+
+/* A kind of figure. The offsets are those of members of the owner's report. */
+typedef struct {
+  const char *quantity;
+  FigureOwner owner;
+  const char *unit;    /* "L", "F", "L^2", "F/L^2", "%" or "" */
+  PetscBool   forces;  /* the value is the length of a force with three components */
+  PetscBool   least;   /* the smallest value is reported instead of the largest one */
+  PetscBool   nonzero; /* the figure is omitted if the value is 0, up to rounding, in all load steps */
+  size_t      value;
+  size_t      place; /* 0: none */
+} FigureKind;
+
+static const FigureKind kinds[] = {
+  {"displacement", OF_BODY, "L", .value = offsetof(BodyReport, displacement),
+    .place = offsetof(BodyReport, displacement_place)},
+  {"von Mises stress", OF_BODY, "F/L^2", .value = offsetof(BodyReport, von_mises),
+    .place = offsetof(BodyReport, von_mises_place)},
+  {"safety against yield", OF_BODY, "", .least = PETSC_TRUE, .value = offsetof(BodyReport, safety)},
+  {"eq. plastic strain", OF_BODY, "", .nonzero = PETSC_TRUE, .value = offsetof(BodyReport, plastic_strain)},
+  {"contact force", OF_PAIR, "F", .forces = PETSC_TRUE, .value = offsetof(PairReport, force)},
+  {"normal force", OF_PAIR, "F", .value = offsetof(PairReport, normal_force)},
+  {"contact pressure", OF_PAIR, "F/L^2", .value = offsetof(PairReport, pressure),
+    .place = offsetof(PairReport, pressure_place)},
+  {"contact area", OF_PAIR, "L^2", .value = offsetof(PairReport, area)},
+  {"reaction", OF_FACE, "F", .forces = PETSC_TRUE, .nonzero = PETSC_TRUE, .value = offsetof(FaceReport, reaction)},
+  {"stress error, estimate", OF_MODEL, "%", .value = offsetof(StepReport, error_estimate)},
+};
+
+/* Writes the unit of a kind in the words of the scene's units; "" if these are unknown */
+static void FigureSetUnit(const char kind[], const char units[], char unit[], size_t length)
+{
+  const char *size = UnitsFind(units, UNIT_LENGTH, NULL), *force = UnitsFind(units, UNIT_FORCE, NULL),
+             *stress = UnitsFind(units, UNIT_STRESS, NULL), *power = kind[0] == 'L' && kind[1] ? "^2" : "";
+
+  if (kind[0] == '%') (void)snprintf(unit, length, "%%");
+  else if (kind[0] == 'L') (void)snprintf(unit, length, "%s%s", size, size[0] ? power : "");
+  else if (kind[0] == 'F' && !kind[1]) (void)snprintf(unit, length, "%s", force);
+  else if (kind[0] == 'F' && (stress[0] || !force[0] || !size[0])) (void)snprintf(unit, length, "%s", stress);
+  else if (kind[0] == 'F') (void)snprintf(unit, length, "%s/%s^2", force, size);
+}
+
+/* Returns the reports of a kind's owners in a load step; all of them begin with the name of the owner */
+static const char *FigureGetOwners(const StepReport *step, FigureOwner owner, PetscInt *n, size_t *size)
+{
+  switch (owner) {
+  case OF_BODY: *n = step->nbodies, *size = sizeof(BodyReport); return (const char *)step->bodies;
+  case OF_PAIR: *n = step->npairs, *size = sizeof(PairReport); return (const char *)step->pairs;
+  case OF_FACE: *n = step->nfaces, *size = sizeof(FaceReport); return (const char *)step->faces;
+  default: *n = 1, *size = 0; return (const char *)step;
+  }
+}
+
+/* Takes the value of a load step if it is the largest so far, or the smallest; differences by rounding do not count */
+static PetscErrorCode FigureTake(const FigureKind *kind, const char *owner, PetscInt step, RunFigure *figure)
+{
+  const PetscReal *numbers = (const PetscReal *)(owner + kind->value),
+                  *place   = kind->place ? (const PetscReal *)(owner + kind->place) : NULL;
+  const PetscReal tie      = 1e-6;
+  PetscReal       value    = kind->forces ? VectorNorm(numbers) : numbers[0];
+
+  PetscFunctionBegin;
+  if (kind->unit[0] == '%') value *= 100.0;
+  if (PetscIsNanReal(value)) PetscFunctionReturn(0);
+  if (!PetscIsNanReal(figure->value) && (kind->least ? figure->value - value : value - figure->value) <= tie * value)
+    PetscFunctionReturn(0);
+  figure->value = value;
+  figure->step  = step;
+  for (PetscInt d = 0; d < 3; ++d) {
+    if (place) figure->place[d] = place[d];
+    if (kind->forces) figure->components[d] = numbers[d];
+  }
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FiguresAdd(const FigureKind *kind, RunReport *run, PetscInt i)
+{
+  RunFigure *figure = &run->figures[run->nfigures];
+
+  PetscFunctionBegin;
+  *figure = (RunFigure){.quantity = kind->quantity,
+    .name                         = "",
+    .value                        = NAN,
+    .place                        = {NAN, NAN, NAN},
+    .components                   = {NAN, NAN, NAN}};
+  FigureSetUnit(kind->unit, run->units, figure->unit, sizeof(figure->unit));
+  for (PetscInt s = 0; s < run->nsteps; ++s) {
+    PetscInt    n;
+    size_t      size;
+    const char *owners = FigureGetOwners(&run->steps[s], kind->owner, &n, &size);
+
+    if (!run->steps[s].converged || i >= n) continue;
+    if (kind->owner != OF_MODEL) figure->name = *(const char *const *)(owners + (size_t)i * size);
+    PetscCall(FigureTake(kind, owners + (size_t)i * size, run->steps[s].step, figure));
+  }
+  if (!PetscIsNanReal(figure->value)) ++run->nfigures;
+  PetscFunctionReturn(0);
+}
+
+/* Removes the figures from number `first` on that are 0 in comparison with the largest of them */
+static PetscErrorCode FiguresOmitZeros(RunReport *run, PetscInt first)
+{
+  const PetscReal tiny    = 1e-9;
+  PetscReal       largest = 0.0;
+  PetscInt        n       = first;
+
+  PetscFunctionBegin;
+  for (PetscInt f = first; f < run->nfigures; ++f) largest = PetscMax(largest, run->figures[f].value);
+  for (PetscInt f = first; f < run->nfigures; ++f) {
+    if (run->figures[f].value > tiny * largest) run->figures[n++] = run->figures[f];
+  }
+  run->nfigures = n;
+  PetscFunctionReturn(0);
+}
+
+/* Sets run->figures from the reports of the load steps */
+PetscErrorCode FiguresCollect(RunReport *run)
+{
+  const size_t nkinds = PETSC_STATIC_ARRAY_LENGTH(kinds);
+  PetscInt     most   = 1;
+
+  PetscFunctionBegin;
+  PetscCall(PetscFree(run->figures));
+  run->nfigures = 0;
+  for (PetscInt s = 0; s < run->nsteps; ++s)
+    most = PetscMax(most, PetscMax(run->steps[s].nbodies, PetscMax(run->steps[s].npairs, run->steps[s].nfaces)));
+  PetscCall(PetscMalloc1((PetscInt)nkinds * most, &run->figures));
+  for (size_t k = 0; k < nkinds; ++k) {
+    const PetscInt first = run->nfigures;
+
+    for (PetscInt i = 0; i < (kinds[k].owner == OF_MODEL ? 1 : most); ++i) PetscCall(FiguresAdd(&kinds[k], run, i));
+    if (kinds[k].nonzero) PetscCall(FiguresOmitZeros(run, first));
+  }
+  PetscFunctionReturn(0);
+}

@@ -1,0 +1,197 @@
+"""Scenes whose largest values are known, and the checks of them; `figures.py write`, then `figures.py check`."""
+import csv
+import math
+import os
+import sys
+
+sys.path.insert(0, os.path.join(os.environ["AMGF_DIR"], "tests", "lib"))
+from summaries import load, say, within  # noqa: E402
+
+CANTILEVER = """
+problem: cantilever
+units: mm, N, MPa
+bodies:
+  - beam: {lower: [0, 0, 0], upper: [100, 10, 10], cells: [20, 2, 4], order: 2, young: 210000, poisson: 0, yield: 240}
+displacements:
+  - wall: {face: beam.xmin, value: [0, 0, 0]}
+tractions:
+  - tip: {face: beam.xmax, value: [0, 0, -2]}
+load: {factors: [0.5, 1, 0.25]}
+"""
+TUBE = """
+problem: tube
+units: m, N
+bodies:
+  - tube: {shape: tube_arc, axis: z, center: [0, 0, 0], radii: [1, 2], angles: [0, 90], extent: [0, 0.5],
+           cells: [12, 12, 1], order: 2, young: 2e5, poisson: 0.3, yield: 240}
+displacements:
+  - ends: {face: tube.lmin, value: [free, free, 0]}
+  - others: {face: tube.lmax, value: [free, free, 0]}
+symmetry:
+  - x: {face: tube.amin, normal: y}
+  - y: {face: tube.amax, normal: x}
+pressures:
+  - bore: {face: tube.inner, value: 60}
+load: {steps: 1}
+"""
+TOOL = """
+problem: tool
+units: mm, N, N/mm^2
+bodies:
+  - block: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [4, 4, 4], young: 1000, poisson: 0}
+  - tool: {shape: rigid_plane, point: [0.5, 0.5, 1], normal: [0, 0, -1]}
+displacements:
+  - base: {face: block.zmin, value: [free, free, 0]}
+  - side: {face: block.xmin, value: [0, free, free]}
+  - back: {face: block.ymin, value: [free, 0, free]}
+  - press: {body: tool, value: [0, 0, -0.01]}
+contact:
+  - touch: {mortar: tool.surface, nonmortar: block.zmax}
+load: {factors: [1, 0.5]}
+"""
+
+
+def figure(run, quantity, name=""):
+    found = [one for one in run["figures"] if (one["quantity"], one["name"]) == (quantity, name)]
+    assert len(found) == 1, (quantity, name, found)
+    return found[0]
+
+
+def near(place, target, limit):
+    return max(abs(a - b) for a, b in zip(place, target)) <= limit
+
+
+def cantilever(run):
+    length, size, force, young = 100, 10, 200, 210000
+    inertia = size**4 / 12
+    exact = force * length**3 / (3 * young * inertia) + force * length / (5 / 6 * young / 2 * size**2)
+    exact = math.hypot(exact, force * length**2 / (2 * young * inertia) * size / 2)
+    tip, stress = figure(run, "displacement", "beam"), figure(run, "von Mises stress", "beam")
+    say("cantilever: largest displacement", within(tip["value"], exact, 2e-3) and tip["unit"] == "mm", (tip, exact))
+    say("cantilever: at the tip, in the second load step", tip["place"][0] == length and tip["step"] == 2, tip)
+    exact = force * length * size / 2 / inertia
+    say("cantilever: largest stress", within(stress["value"], exact, 0.02) and stress["unit"] == "MPa", (stress, exact))
+    say("cantilever: at the surface of the wall", stress["place"][0] == 0 and stress["place"][2] in (0, size), stress)
+    safety = figure(run, "safety against yield", "beam")
+    say("cantilever: safety factor",
+        within(safety["value"], 240 / stress["value"], 1e-12) and safety["step"] == 2, safety)
+    wall = figure(run, "reaction", "beam.xmin")
+    say("cantilever: reaction",
+        within(wall["value"], force, 1e-9) and within(wall["components"][2], force, 1e-9) and wall["unit"] == "N", wall)
+
+
+def tube(run):
+    inner, outer, pressure, young, poisson = 1, 2, 60, 2e5, 0.3
+    bore = pressure * inner / (outer**2 - inner**2) * (1 + poisson) / young * ((1 - 2 * poisson) * inner**2 + outer**2)
+    hoop = pressure * (outer**2 + inner**2) / (outer**2 - inner**2)
+    axial = poisson * (hoop - pressure)
+    mises = math.sqrt(((hoop + pressure)**2 + (hoop - axial)**2 + (axial + pressure)**2) / 2)
+    moved, stress = figure(run, "displacement", "tube"), figure(run, "von Mises stress", "tube")
+    say("tube: displacement of the bore",
+        within(moved["value"], bore, 1e-3) and within(math.hypot(*moved["place"][:2]), inner, 1e-9), (moved, bore))
+    say(
+        "tube: stress at the bore",
+        within(stress["value"], mises, 0.02) and stress["unit"] == "N/m^2"
+        and within(math.hypot(*stress["place"][:2]), inner, 1e-9), (stress, mises))
+    say("tube: safety factor", within(figure(run, "safety against yield", "tube")["value"], 240 / mises, 0.02), mises)
+
+
+def hertz(run):
+    """Stress below the middle of the strip of contact, in plane strain (McEwen 1949)"""
+    width, peak, poisson = 0.005, 2.747, 0.3
+    best = (0, 0)
+    for k in range(1, 2000):
+        z = width * k / 1000
+        root = math.hypot(width, z)
+        x, y = -peak / width * ((width**2 + 2 * z**2) / root - 2 * z), -peak * width / root
+        out = poisson * (x + y)
+        best = max(best, (math.sqrt(((x - y)**2 + (y - out)**2 + (out - x)**2) / 2), z))
+    stress, pressure = figure(run, "von Mises stress", "cylinder"), figure(run, "contact pressure", "touch")
+    say("Hertz: largest stress", within(stress["value"], best[0], 0.02), (stress, best))
+    say("Hertz: below the surface",
+        near(stress["place"][:1], [0], 1e-9) and within(stress["place"][2], best[1], 0.1), (stress, best))
+    say("Hertz: largest pressure in the middle",
+        within(pressure["value"], peak, 0.01) and near([pressure["place"][0], pressure["place"][2]], [0, 0], 1e-9),
+        pressure)
+
+
+def tool(run):
+    force, pressed = figure(run, "contact force", "touch"), figure(run, "contact pressure", "touch")
+    say(
+        "tool: moves as the scene says",
+        within(figure(run, "displacement", "tool")["value"], 0.01, 1e-12)
+        and not [one for one in run["figures"] if one["name"] == "tool" and one["quantity"] != "displacement"],
+        run["figures"])
+    say(
+        "tool: force, area and pressure",
+        within(force["value"], 10, 1e-6) and force["step"] == 1 and within(force["components"][2], -10, 1e-6)
+        and within(pressed["value"], 10, 1e-6) and within(figure(run, "contact area", "touch")["value"], 1, 1e-6)
+        and figure(run, "contact area", "touch")["unit"] == "mm^2", (force, pressed))
+    say(
+        "tool: uniform stress, at the corner that is first in order",
+        within(figure(run, "von Mises stress", "block")["value"], 10, 1e-6)
+        and near(figure(run, "von Mises stress", "block")["place"], [0, 0, 0], 1e-12), run["figures"])
+
+
+def terminal(name, run):
+    with open(name + ".txt", encoding="utf-8") as file:
+        lines = [line.split() for line in file]
+    missing = [
+        one for one in run["figures"] if not [
+            line for line in lines if line[:len(one["quantity"].split())] == one["quantity"].split()
+            and f"{one['value']:.5g}" in line and (not one["name"] or one["name"] in line)
+        ]
+    ]
+    say(name + ": the terminal has the figures of the summary", not missing, missing)
+
+
+def history(name, run):
+    with open(name + ".csv", newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    for quantity, column in (("displacement", "displacement"), ("von Mises stress", "von_mises"), ("contact pressure",
+                                                                                                   "pressure")):
+        for one in run["figures"]:
+            if one["quantity"] != quantity:
+                continue
+            values = [float(row[f"{one['name']}.{column}"]) for row in rows]
+            row = rows[one["step"] - 1]
+            place = [float(row[f"{one['name']}.{column}_place_{axis}"]) for axis in "xyz"]
+            say(f"{name}: history of {quantity}, {one['name']}",
+                within(max(values), one["value"], 1e-12) and near(place, one["place"], 1e-12), (values, one))
+
+
+def ranks(name, run):
+    others = load(name + "_3")["figures"]
+    same = len(others) == len(run["figures"]) and all(
+        one["name"] == other["name"] and abs(one["value"] - other["value"]) < 1e-5 * one["value"] +
+        1e-9 and one["step"] == other["step"] and (one["place"][0] is None or near(one["place"], other["place"], 1e-9))
+        for one, other in zip(run["figures"], others))
+    say(name + ": the same on three ranks", same, (run["figures"], others))
+
+
+def check():
+    for name, test in (("cantilever", cantilever), ("tube", tube), ("tool", tool)):
+        run = load(name)
+        test(run)
+        terminal(name, run)
+        history(name, run)
+        ranks(name, run)
+    hertz(load("hertz"))
+    plain = [one for one in load("tube")["figures"] if not one["quantity"].startswith("stress error")]
+    say("without the error estimate", load("plain")["figures"] == plain, load("plain")["figures"])
+    run = load("yields")
+    safety, strain = figure(run, "safety against yield", "tube"), figure(run, "eq. plastic strain", "tube")
+    say("a tube that yields", safety["value"] <= 1
+        and within(strain["value"], max(step["plastic_strain"] for step in run["steps"]), 1e-12), (safety, strain))
+    burst = load("burst")
+    say("a load step that fails gives no figures", [step["converged"] for step in burst["steps"]] == [True, False]
+        and {one["step"]
+             for one in burst["figures"]} == {1}, burst["figures"])
+
+
+if sys.argv[1] == "write":
+    for name, text in (("cantilever", CANTILEVER), ("tube", TUBE), ("tool", TOOL)):
+        with open(name + ".yaml", "w", encoding="utf-8") as file:
+            file.write(text.lstrip())
+else:
+    check()

@@ -1,0 +1,70 @@
+"""Decks of decks_ccx.sh, and what their results must be: python decks_ccx.py write|judge."""
+import sys
+
+from decks import DECKS, push
+from summaries import say
+
+# A cube: its corners, and the numbers of the corners of its edges, in the order of CalculiX's cell of 20 nodes
+CORNERS = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
+EDGES = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7))
+
+
+def order2():
+    """A cube of one cell of 20 nodes, numbered from 101. It is compressed by 0.02: 0.02 = s / 1000 + (s - 5) / 100"""
+    places = [*CORNERS, *(tuple((a + b) / 2 for a, b in zip(CORNERS[i], CORNERS[j])) for i, j in EDGES)]
+    lines = ["*NODE, NSET=Nall", *(f"{n}, {x}, {y}, {z}" for n, (x, y, z) in enumerate(places, 101))]
+    lines += [
+        "*ELEMENT, TYPE=C3D20R, ELSET=Eall", "7, " + ", ".join(map(str, range(101, 116))) + ",",
+        ", ".join(map(str, range(116, 121)))
+    ]
+    for name, z in (("foot", 0), ("top", 1)):
+        lines += [f"*NSET, NSET={name}", *(str(n) for n, place in enumerate(places, 101) if place[2] == z)]
+    lines += [
+        "*MATERIAL, NAME=EL", "*ELASTIC", "1000., 0.3", "*PLASTIC", "5., 0.", "15., 0.1",
+        "*SOLID SECTION, ELSET=Eall, MATERIAL=EL", "*BOUNDARY", "foot, 3", "101, 1, 2", "102, 2"
+    ]
+    return "\n".join(lines) + "\n" + push(-0.02) + "\n*STEP\n*FREQUENCY\n5\n*END STEP\n"
+
+
+def blocks(name):
+    """{(field, number of the load step): {node: values}} of a .frd file"""
+    found, step, values = {}, None, None
+    with open(name + ".frd") as file:
+        for line in file:
+            if line.startswith("  100C"):
+                step = int(line[58:63])
+            elif line.startswith(" -4"):
+                values = found.setdefault((line[5:13].strip(), step), {})
+            elif line.startswith(" -3"):
+                values = None
+            elif line.startswith(" -1") and values is not None:
+                words = line[13:].rstrip("\n")
+                values[int(line[3:13])] = [float(words[i:i + 12]) for i in range(0, len(words), 12)]
+    return found
+
+
+def close(what, found, wanted):
+    say(what, all(abs(one - other) <= 2e-5 * max(map(abs, wanted)) for one, other in zip(found, wanted)),
+        (found, wanted))
+
+
+def judge():
+    found = blocks("pressure")
+    close("pressure: displacement", found["DISP", 1][13], [0, 0, -0.02])
+    close("pressure: stress", found["STRESS", 1][3], [0, 0, -10, 0, 0, 0])
+    close("pressure: contact pressure", [found["CONTACT", 1][node][3] for node in (5, 9)], [10, 10])
+    found, stress = blocks("order2"), 0.07 / 0.011
+    close("order2: displacement in the middle of an edge", [found["DISP", 2][117][2]], [-0.01])
+    close("order2: stress", found["STRESS", 2][110], [0, 0, -stress, 0, 0, 0])
+    close("order2: plastic strain", found["PE", 2][110], [(stress - 5) / 100])
+    with open("order2.dat") as file:
+        rows = [line.split() for line in file if line[:10].strip().isdigit()]
+    close("order2: displacement in the file .dat", [float(rows[-20][3]), float(rows[-1][3])], [0, -0.01])
+
+
+if sys.argv[1] == "write":
+    for key, text in (("pressure", DECKS["pressure"][0]), ("order2", order2())):
+        with open(key + ".inp", "w") as out:
+            out.write(text)
+else:
+    judge()
