@@ -35,6 +35,7 @@ struct _p_SubspaceBodies {
   IS         places;                /* all unknowns of W by their number in W */
   Vec        base, rhs;             /* dx = base + what the subspace adds, for the right-hand side rhs of the latter */
   Vec        on_W, dw0, load, rows; /* work vectors on W; one with the entries of contacts */
+  PetscReal *factored_D; /* D of the factors F */
   PetscReal *X, *S, *factors, *dy; /* A_WW^-1 Q: columns on W; Schur complement in columns of length max; its factors */
   PetscReal *loads;                /* loads of the first nloads directions in this solve */
   PetscInt   nloads;
@@ -43,31 +44,6 @@ struct _p_SubspaceBodies {
   PetscBLASInt *pivots;
   PetscInt      relaxation; /* work space of MUMPS beyond its estimate [per cent] */
 };
-
-PetscErrorCode SubspaceBodiesDestroy(SubspaceBodies *bodies)
-{
-  SubspaceBodies b = *bodies;
-  Mat           *matrices[8];
-  Vec           *vectors[14];
-
-  PetscFunctionBegin;
-  if (!b) PetscFunctionReturn(0);
-  PetscCall(PetscArraycpy(matrices, ((Mat *[]){&b->R, &b->RW, &b->D, &b->DR, &b->RDR, &b->KWW, &b->A, &b->F}), 8));
-  PetscCall(PetscArraycpy(vectors,
-    ((Vec *[]){&b->x, &b->dx, &b->r, &b->Kx, &b->Kdx, &b->g, &b->kept_x, &b->kept_Kx, &b->on_W, &b->dw0, &b->load,
-      &b->rows, &b->base, &b->rhs}),
-    14));
-  for (PetscInt k = 0; k < 8; k++) PetscCall(MatDestroy(matrices[k]));
-  for (PetscInt k = 0; k < 14; k++) PetscCall(VecDestroy(vectors[k]));
-  PetscCall(ISDestroy(&b->W));
-  PetscCall(ISDestroy(&b->places));
-  PetscCall(MatDestroy(&b->JW));
-  PetscCall(VecDestroy(&b->first));
-  PetscCall(IPReducedDestroy(&b->normal));
-  PetscCall(PetscFree6(b->X, b->S, b->factors, b->dy, b->loads, b->pivots));
-  PetscCall(PetscFree(*bodies));
-  PetscFunctionReturn(0);
-}
 
 /* Copies a row of J or T to row 3 i + a of R, or counts its entries */
 static PetscErrorCode BodiesCopyRow(Mat from, PetscInt row, Mat R, PetscInt to, PetscInt *count)
@@ -165,16 +141,68 @@ static PetscErrorCode BodiesCreateMatrices(SubspaceBodies b, PetscInt n)
   PetscFunctionReturn(0);
 }
 
+/* Destroys what depends on W */
+static PetscErrorCode BodiesDestroySpace(SubspaceBodies b)
+{
+  Mat *const matrices[] = {&b->RW, &b->D, &b->DR, &b->RDR, &b->KWW, &b->A, &b->F, &b->JW};
+  Vec *const vectors[]  = {&b->on_W, &b->dw0, &b->load, &b->rows};
+
+  PetscFunctionBegin;
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(matrices); k++) PetscCall(MatDestroy(matrices[k]));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(vectors); k++) PetscCall(VecDestroy(vectors[k]));
+  PetscCall(ISDestroy(&b->W));
+  PetscCall(ISDestroy(&b->places));
+  PetscCall(IPReducedDestroy(&b->normal));
+  PetscCall(PetscFree6(b->X, b->S, b->factors, b->dy, b->loads, b->pivots));
+  PetscFunctionReturn(0);
+}
+
+/* Creates what depends on W, the unknowns of the n contacts of this rank and perhaps others */
+static PetscErrorCode BodiesCreateSpace(SubspaceBodies b, IS W, PetscInt n)
+{
+  const PetscInt max = b->recycle->basis.max;
+  PetscInt       nw;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectReference((PetscObject)W));
+  b->W = W;
+  PetscCall(BodiesCreateMatrices(b, n));
+  PetscCall(MatCreateVecs(b->RW, &b->on_W, &b->rows));
+  PetscCall(VecDuplicate(b->on_W, &b->dw0));
+  PetscCall(VecDuplicate(b->on_W, &b->load));
+  PetscCall(VecGetLocalSize(b->on_W, &nw));
+  PetscCall(PetscMalloc6((size_t)nw * (size_t)max, &b->X, max * max, &b->S, max * max, &b->factors, max, &b->dy, max,
+    &b->loads, max, &b->pivots));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SubspaceBodiesDestroy(SubspaceBodies *bodies)
+{
+  SubspaceBodies b = *bodies;
+
+  PetscFunctionBegin;
+  if (!b) PetscFunctionReturn(0);
+  {
+    Vec *const vectors[] = {&b->x, &b->dx, &b->r, &b->Kx, &b->Kdx, &b->g, &b->kept_x, &b->kept_Kx, &b->base, &b->rhs,
+      &b->first};
+
+    for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(vectors); k++) PetscCall(VecDestroy(vectors[k]));
+  }
+  PetscCall(BodiesDestroySpace(b));
+  PetscCall(MatDestroy(&b->R));
+  PetscCall(PetscFree(b->factored_D));
+  PetscCall(PetscFree(*bodies));
+  PetscFunctionReturn(0);
+}
+
 /*
    Creates the bodies for the present Hessian and constraints of the optimizer, with n contacts on this rank. W has the
    unknowns of the contacts.
 */
 PetscErrorCode SubspaceBodiesCreate(Tao tao, IPRecycle *recycle, IS W, PetscInt n, SubspaceBodies *bodies)
 {
-  TAO_IPFILTER  *ip  = (TAO_IPFILTER *)tao->data;
-  const PetscInt max = recycle->basis.max;
+  TAO_IPFILTER  *ip = (TAO_IPFILTER *)tao->data;
   SubspaceBodies b;
-  PetscInt       nw;
   Vec           *like_x[9];
 
   PetscFunctionBegin;
@@ -184,19 +212,12 @@ PetscErrorCode SubspaceBodiesCreate(Tao tao, IPRecycle *recycle, IS W, PetscInt 
   b->recycle    = recycle;
   b->relaxation = AMGF_MUMPS_RELAXATION;
   b->K          = ip->hess->H;
-  PetscCall(PetscObjectReference((PetscObject)W));
-  b->W = W;
   PetscCall(BodiesCreateRows(ip->jac->inequality, ip->terms->T, n, &b->R));
-  PetscCall(BodiesCreateMatrices(b, n));
+  PetscCall(BodiesCreateSpace(b, W, n));
+  PetscCall(PetscMalloc1(9 * n, &b->factored_D));
   PetscCall(PetscArraycpy(like_x,
     ((Vec *[]){&b->x, &b->dx, &b->r, &b->Kx, &b->Kdx, &b->kept_x, &b->kept_Kx, &b->base, &b->rhs}), 9));
   for (PetscInt k = 0; k < 9; k++) PetscCall(VecDuplicate(tao->solution, like_x[k]));
-  PetscCall(MatCreateVecs(b->RW, &b->on_W, &b->rows));
-  PetscCall(VecDuplicate(b->on_W, &b->dw0));
-  PetscCall(VecDuplicate(b->on_W, &b->load));
-  PetscCall(VecGetLocalSize(b->on_W, &nw));
-  PetscCall(PetscMalloc6((size_t)nw * (size_t)max, &b->X, max * max, &b->S, max * max, &b->factors, max, &b->dy, max,
-    &b->loads, max, &b->pivots));
   PetscFunctionReturn(0);
 }
 
@@ -351,17 +372,45 @@ static PetscErrorCode BodiesAssemble(SubspaceBodies b, const PetscReal D[])
   PetscFunctionReturn(0);
 }
 
+/* Finds whether the factors are those of a D that differs from the given one by a small fraction in each contact */
+static PetscErrorCode BodiesAreFactored(const SubspaceBodies b, const PetscReal D[], PetscBool *factored)
+{
+  const PetscReal small = 1e-2; /* by which a Newton step then reduces the error */
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  *factored = (PetscBool)(b->F != NULL);
+  PetscCall(VecGetLocalSize(b->rows, &n));
+  for (PetscInt i = 0; i < n / 3 && *factored; i++) {
+    PetscReal change = 0.0, size = 0.0;
+
+    for (PetscInt k = 9 * i; k < 9 * i + 9; k++) {
+      change = PetscMax(change, PetscAbsReal(D[k] - b->factored_D[k]));
+      size   = PetscMax(size, PetscAbsReal(b->factored_D[k]));
+    }
+    *factored = (PetscBool)(change <= small * size);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, factored, 1, MPIU_BOOL, MPI_LAND, PetscObjectComm((PetscObject)b->rows)));
+  PetscFunctionReturn(0);
+}
+
+/* Factors A_WW unless its factors are almost the present ones. Newton's method corrects what they are off. */
 static PetscErrorCode BodiesPrepare(void *data, const PetscReal D[], PetscBool *prepared)
 {
   const SubspaceBodies b = (SubspaceBodies)data;
   MatFactorError       error;
+  PetscInt             n;
 
   PetscFunctionBegin;
+  PetscCall(BodiesAreFactored(b, D, prepared));
+  if (*prepared) PetscFunctionReturn(0);
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
   PetscCall(BodiesAssemble(b, D));
   PetscCall(AMGFMumpsFactorLU(b->A, &b->relaxation, &b->F, &error));
   *prepared = (PetscBool)(error == MAT_FACTOR_NOERROR);
-  b->nX     = 0;
+  PetscCall(VecGetLocalSize(b->rows, &n));
+  PetscCall(PetscArraycpy(b->factored_D, D, 3 * n));
+  b->nX = 0;
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
@@ -570,13 +619,54 @@ static PetscErrorCode BodiesExtend(SubspaceBodies b, Vec left, PetscBool *added)
   PetscFunctionReturn(0);
 }
 
+/*
+   Finds whether directions cost more than factors of the whole matrix: many were added for one system of a small
+   problem. This happens if bodies are slender.
+*/
+static PetscErrorCode BodiesAreSlow(SubspaceBodies b, PetscInt nadded, PetscBool *slow)
+{
+  const PetscInt many = 30, small = 15000; /* up to the latter PCAMGF factors a matrix, too */
+  PetscInt       n, nw;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetSize(b->x, &n));
+  PetscCall(ISGetSize(b->W, &nw));
+  *slow = (PetscBool)(nadded > many && n <= small && nw < n);
+  PetscFunctionReturn(0);
+}
+
+/* Extends W to all unknowns, in this solve and in later ones, and factors the matrix again */
+static PetscErrorCode BodiesWiden(SubspaceBodies b, PetscBool *prepared)
+{
+  IPFiltered *f = IPFilteredOf(b->tao);
+  PetscInt    start, end, n;
+  PetscReal  *D;
+
+  PetscFunctionBegin;
+  PetscCall(PetscInfo(b->tao, "W is extended to all unknowns, since directions are slow\n"));
+  PetscCall(VecGetLocalSize(b->rows, &n));
+  PetscCall(VecGetOwnershipRange(b->x, &start, &end));
+  PetscCall(ISDestroy(&f->W));
+  PetscCall(ISCreateStride(PetscObjectComm((PetscObject)b->x), end - start, start, 1, &f->W));
+  b->recycle->whole = PETSC_TRUE;
+  PetscCall(IPBasisDropOldest(&b->recycle->basis, b->recycle->basis.n));
+  PetscCall(IPBasisUpdate(&b->recycle->basis, b->K, PETSC_FALSE, ((TAO_IPFILTER *)b->tao->data)->fixed, f->W));
+  PetscCall(BodiesDestroySpace(b));
+  PetscCall(BodiesCreateSpace(b, f->W, n / 3));
+  PetscCall(PetscMalloc1(3 * n, &D));
+  PetscCall(PetscArraycpy(D, b->factored_D, 3 * n));
+  PetscCall(BodiesPrepare(b, D, prepared));
+  PetscCall(PetscFree(D));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fraction, PetscReal target, PetscReal du[],
   PetscBool *solved)
 {
   const SubspaceBodies b = (SubspaceBodies)data;
   const PetscScalar   *u;
   PetscReal            norm, size, first = PETSC_INFINITY;
-  PetscBool            added = PETSC_TRUE;
+  PetscBool            added = PETSC_TRUE, slow = PETSC_FALSE;
   PetscInt             n;
   Vec                  left;
 
@@ -599,10 +689,17 @@ static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fra
     *solved = (PetscBool)!PetscIsInfOrNanReal(size);
     if (!k) first = size;
     if (!*solved || size <= PetscMax(fraction * first, target) || (fraction > 0.0 && norm <= b->enough)) break;
+    PetscCall(BodiesAreSlow(b, k, &slow));
+    if (slow) break;
     PetscCall(BodiesExtend(b, left, &added));
     if (!added) break;
   }
   PetscCall(IPRestoreWork(b->tao, IP_UNKNOWNS, &left));
+  if (slow) {
+    PetscCall(BodiesWiden(b, solved));
+    if (*solved) PetscCall(BodiesSolve(data, s, fraction, target, du, solved));
+    PetscFunctionReturn(0);
+  }
   *solved = (PetscBool)(*solved && (added || size < first));
   PetscCall(MatMult(b->R, b->dx, b->rows));
   PetscCall(VecGetLocalSize(b->rows, &n));

@@ -85,16 +85,19 @@ static PetscErrorCode FilteredAddNeighbours(Tao tao, IS filter, IS *W)
    With the neighbours, W and its factors need not change when the contact area moves. They are left out if there are
    too many of them, or factors are computed for each system anyway: with norm terms, and in Newton's method.
 */
-static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt most, IS *W)
+static PetscErrorCode FilteredChooseW(Tao tao, const IPRecycle *recycle, PetscInt most, IS *W)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
   const IS      filter = ip->cond->filter;
-  PetscBool     same = PETSC_FALSE, wide = (PetscBool)(!IPFilteredOf(tao)->newton && !ip->terms->n);
+  PetscBool     same = PETSC_FALSE, wide = (PetscBool)!IPFilteredOf(tao)->newton;
   PetscInt      n = 1;
   IS            rest, all;
 
   PetscFunctionBegin;
-  if (wide) PetscCall(IPReducedIsOf(before, ip->hess->H, &same));
+  PetscObjectState state;
+  struct { IS W; } bb = {recycle->basis.W}, *before = &bb;
+  PetscCall(PetscObjectStateGet((PetscObject)ip->hess->H, &state));
+  same = (PetscBool)(wide && before->W && recycle->K_id == ((PetscObject)ip->hess->H)->id && recycle->K_state == state);
   if (same) {
     PetscCall(ISDifference(filter, before->W, &rest));
     PetscCall(ISGetSize(rest, &n));
@@ -123,19 +126,18 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPReduced *before, PetscInt
 }
 
 /*
-   Finds whether W has all unknowns. With norm terms this is the case if there are few of them: directions would then
-   cost more than factors of the whole matrix. If contacts stick, it holds for more of them, since the residual that
-   directions leave would decide which contacts are held.
+   Finds whether W has all unknowns: if directions were slow, or if contacts stick, since the residual that directions
+   leave would decide which contacts are held
 */
-static PetscErrorCode FilteredTakesAll(Tao tao, PetscInt n, PetscBool *all)
+static PetscErrorCode FilteredTakesAll(Tao tao, const IPRecycle *recycle, PetscInt n, PetscBool *all)
 {
-  const IPTerms *terms = ((TAO_IPFILTER *)tao->data)->terms;
-  const PetscInt few = 5000, most = 15000; /* up to the latter PCAMGF factors a matrix, too */
+  const IPTerms *terms   = ((TAO_IPFILTER *)tao->data)->terms;
+  const PetscInt most    = 15000; /* up to which PCAMGF factors a matrix, too */
   PetscReal      largest = 0.0;
 
   PetscFunctionBegin;
   if (terms->n && terms->coefficient) PetscCall(VecMax(terms->coefficient, NULL, &largest));
-  *all = (PetscBool)(terms->n && n <= (largest >= PETSC_INFINITY ? most : few));
+  *all = (PetscBool)(terms->n && n <= most && (recycle->whole || largest >= PETSC_INFINITY));
   PetscFunctionReturn(0);
 }
 
@@ -158,10 +160,10 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
   *few = (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n || touched <= fraction * n));
   PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
   if (!*few) PetscFunctionReturn(0);
-  PetscCall(FilteredTakesAll(tao, n, &all));
+  PetscCall(FilteredTakesAll(tao, recycle, n, &all));
   PetscCall(VecGetOwnershipRange(tao->solution, &start, &end));
   if (all) PetscCall(ISCreateStride(PetscObjectComm((PetscObject)tao), end - start, start, 1, &IPFilteredOf(tao)->W));
-  else PetscCall(FilteredChooseW(tao, &recycle->reduced, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
+  else PetscCall(FilteredChooseW(tao, recycle, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);
 }
 

@@ -101,6 +101,7 @@ typedef struct {
   PetscBool        held;     /* whether the preconditioner was set up for K + J^T D J instead, for bodies that
                                      are held by constraints only */
   PetscBool        negative; /* K was negative along a direction, so that `held` ends when K changes */
+  PetscBool        whole;    /* W has all unknowns, since directions were slow */
   PetscObjectId    K_id;
   PetscObjectState K_state;
   IPBasis          basis;
