@@ -175,16 +175,22 @@ static PetscErrorCode ErrorBoundFirst(Tao tao, PetscReal terms)
   PetscFunctionReturn(0);
 }
 
-/* Raises the magnitude of an objective that is not quadratic such that the energy of rounding errors is negligible */
+/*
+   Raises the magnitude of an objective that is not quadratic such that the energy of rounding errors is negligible: that
+   of the unknowns, and the work of the forces of constraints on the rounding errors of the constraints
+*/
 static PetscErrorCode ErrorBoundRounding(Tao tao, PetscReal *energy)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     stiffness;
+  TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
+  const PetscReal rounding = ip->given->rounding;
+  PetscReal       stiffness, forces = 0.0;
 
   PetscFunctionBegin;
-  if (ip->given->rounding == 0.0 || ip->method->constant) PetscFunctionReturn(0);
+  if (rounding == 0.0 || ip->method->constant) PetscFunctionReturn(0);
   PetscCall(VecNorm(ip->stiff->hdiag, NORM_1, &stiffness));
-  *energy = PetscMax(*energy, stiffness * PetscSqr(ip->given->rounding) / (IP_BOUND_MULTIPLE * ip->tol));
+  if (ip->mi) PetscCall(ErrorBoundProduct(ip->at.lambda, ip->pair[IP_SLACK].w, &forces));
+  *energy = PetscMax(*energy,
+    (stiffness * rounding + forces * ip->first->jacobian) * rounding / (IP_BOUND_MULTIPLE * ip->tol));
   PetscFunctionReturn(0);
 }
 

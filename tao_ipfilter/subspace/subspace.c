@@ -161,15 +161,39 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   PetscFunctionReturn(0);
 }
 
-/* Sets the multipliers to `force` / M, and the slacks to the constraint values */
+/* Estimates the rounding errors of forces, which are differences of terms as large as H_ii x_i. Those of x are given. */
+static PetscErrorCode FilteredForceRounding(Tao tao, PetscReal *rounding)
+{
+  const TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
+  const PetscReal     eps = 100.0 * PETSC_MACHINE_EPSILON;
+  PetscReal           size, stiffness;
+  Vec                 terms;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &terms));
+  PetscCall(VecPointwiseMult(terms, ip->stiff->hdiag, tao->solution));
+  PetscCall(VecNorm(terms, NORM_INFINITY, &size));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &terms));
+  PetscCall(VecNorm(ip->stiff->hdiag, NORM_INFINITY, &stiffness));
+  *rounding = PetscMax(eps * size, ip->given->rounding * stiffness);
+  PetscFunctionReturn(0);
+}
+
+/*
+   Sets the multipliers to `force` / M, and the slacks to the constraint values. Forces within rounding errors count as
+   zero: later solves would take them for those of closed contacts.
+*/
 PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
 {
-  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  IPPair       *slack = &ip->pair[IP_SLACK];
+  TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
+  IPPair       *slack    = &ip->pair[IP_SLACK];
+  PetscReal     rounding = 0.0;
   PetscScalar  *s, *z;
   PetscInt      n;
 
   PetscFunctionBegin;
+  PetscCall(FilteredForceRounding(tao, &rounding));
+  PetscCall(VecChop(force, rounding));
   PetscCall(VecPointwiseDivide(slack->z, force, slack->w));
   PetscCall(VecCopy(slack->z, ip->at.lambda));
   PetscCall(VecCopy(ip->at.c, slack->t));
