@@ -383,13 +383,18 @@ static PetscErrorCode ConesAssess(Cones s, PetscReal *gap, PetscReal *error, Pet
   PetscFunctionReturn(0);
 }
 
-/* Computes a direction in the present subspace of the bodies. t: its largest step inside the cones */
+/*
+   Computes a direction. t: its largest step inside the cones. Where there are several solutions, the path decides which
+   one is found: it must not depend on the directions that the bodies have.
+*/
 static PetscErrorCode ConesDirection(Cones s, PetscReal target, PetscBool corrector, PetscReal *t, PetscBool *solved)
 {
+  const PetscReal accuracy = 1e-2; /* loose bricks on 1, 2, 3 ranks: energies to 1e-13; with 0.1: 1e-8; 1: 0.03 */
+
   PetscFunctionBegin;
   for (PetscInt i = 0; i < s->c->n; i++) ConeSetTarget(&s->cone[i], target, corrector);
   PetscCall(ConesSetLaws(s, (PetscBool)!corrector, solved));
-  if (*solved) PetscCall(ContactsStep(s->c, s->bodies, 1.0, 0.0, s->du, s->df, solved));
+  if (*solved) PetscCall(ContactsStep(s->c, s->bodies, accuracy, 0.0, s->du, s->df, solved));
   if (!*solved) PetscFunctionReturn(0);
   *t = PETSC_INFINITY;
   for (PetscInt i = 0; i < s->c->n; i++) {

@@ -95,8 +95,8 @@ static PetscErrorCode IterationNewton(ContactIteration *it, PetscBool *done)
   if (!*done) PetscFunctionReturn(0);
   if (it->size == 0.0) it->size = PetscMax(before, change);
   PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &violation, &rounding));
-  PetscCall(PetscInfo(NULL, "Newton: merit %g, violation %g, rounding %g, size %g, change %g\n", (double)merit, (double)violation, (double)rounding,
-    (double)it->size, (double)change));
+  PetscCall(PetscInfo(NULL, "Newton: merit %g, violation %g, rounding %g, size %g, change %g\n", (double)merit,
+    (double)violation, (double)rounding, (double)it->size, (double)change));
   it->violation = violation > rounding ? violation / it->size : 0.0;
   if (violation <= PetscMax(exact * it->size, rounding)) {
     it->nsteps = it->nfutile = 0;

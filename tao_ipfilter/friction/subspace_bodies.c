@@ -35,7 +35,7 @@ struct _p_SubspaceBodies {
   IS         places;                /* all unknowns of W by their number in W */
   Vec        base, rhs;             /* dx = base + what the subspace adds, for the right-hand side rhs of the latter */
   Vec        on_W, dw0, load, rows; /* work vectors on W; one with the entries of contacts */
-  PetscReal *factored_D; /* D of the factors F */
+  PetscReal *factored_D;            /* D of the factors F */
   PetscReal *X, *S, *factors, *dy; /* A_WW^-1 Q: columns on W; Schur complement in columns of length max; its factors */
   PetscReal *loads;                /* loads of the first nloads directions in this solve */
   PetscInt   nloads;

@@ -189,8 +189,8 @@ static PetscErrorCode ErrorBoundRounding(Tao tao, PetscReal *energy)
   if (rounding == 0.0 || ip->method->constant) PetscFunctionReturn(0);
   PetscCall(VecNorm(ip->stiff->hdiag, NORM_1, &stiffness));
   if (ip->mi) PetscCall(ErrorBoundProduct(ip->at.lambda, ip->pair[IP_SLACK].w, &forces));
-  *energy = PetscMax(*energy,
-    (stiffness * rounding + forces * ip->first->jacobian) * rounding / (IP_BOUND_MULTIPLE * ip->tol));
+  *energy =
+    PetscMax(*energy, (stiffness * rounding + forces * ip->first->jacobian) * rounding / (IP_BOUND_MULTIPLE * ip->tol));
   PetscFunctionReturn(0);
 }
 

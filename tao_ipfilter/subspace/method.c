@@ -82,46 +82,47 @@ static PetscErrorCode FilteredAddNeighbours(Tao tao, IS filter, IS *W)
 
 /*
    Chooses W: the unknowns of the constraints, one or two layers of neighbours, and W of earlier solves with the same K.
-   With the neighbours, W and its factors need not change when the contact area moves. They are left out if there are
-   too many of them, or factors are computed for each system anyway: with norm terms, and in Newton's method.
+   With the neighbours, W need not change when the contact area moves, and fewer directions are needed. They are left
+   out in Newton's method, where K changes anyway, or if W would have more than `most` unknowns.
 */
 static PetscErrorCode FilteredChooseW(Tao tao, const IPRecycle *recycle, PetscInt most, IS *W)
 {
-  TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
-  const IS      filter = ip->cond->filter;
-  PetscBool     same = PETSC_FALSE, wide = (PetscBool)!IPFilteredOf(tao)->newton;
-  PetscInt      n = 1;
-  IS            rest, all;
+  const TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
+  const IS            filter = ip->cond->filter, before = recycle->basis.W;
+  PetscBool           same = PETSC_FALSE;
+  PetscInt            n    = 1;
+  IS                  rest, all;
 
   PetscFunctionBegin;
-  PetscObjectState state;
-  struct { IS W; } bb = {recycle->basis.W}, *before = &bb;
-  PetscCall(PetscObjectStateGet((PetscObject)ip->hess->H, &state));
-  same = (PetscBool)(wide && before->W && recycle->K_id == ((PetscObject)ip->hess->H)->id && recycle->K_state == state);
+  PetscCall(PetscObjectReference((PetscObject)filter));
+  *W = filter;
+  if (IPFilteredOf(tao)->newton) PetscFunctionReturn(0);
+  if (before) PetscCall(IPRecycleIsOf(recycle, ip->hess->H, &same));
   if (same) {
-    PetscCall(ISDifference(filter, before->W, &rest));
+    PetscCall(ISDifference(filter, before, &rest));
     PetscCall(ISGetSize(rest, &n));
     PetscCall(ISDestroy(&rest));
   }
+  PetscCall(ISDestroy(W));
   if (!n) {
-    PetscCall(PetscObjectReference((PetscObject)before->W));
-    *W = before->W;
+    PetscCall(PetscObjectReference((PetscObject)before));
+    *W = before;
     PetscFunctionReturn(0);
   }
   PetscCall(FilteredAddNeighbours(tao, filter, W));
-  PetscCall(ISGetSize(*W, &n));
-  if (n > most || !wide) {
-    PetscCall(ISDestroy(W));
-    PetscCall(PetscObjectReference((PetscObject)filter));
-    *W = filter;
-  } else if (same) {
-    PetscCall(ISExpand(*W, before->W, &all));
+  if (same) {
+    PetscCall(ISExpand(*W, before, &all));
     PetscCall(ISSort(all));
     PetscCall(ISGetSize(all, &n));
     if (n <= most) PetscCall(ISDestroy(W));
     if (n <= most) *W = all;
     else PetscCall(ISDestroy(&all));
   }
+  PetscCall(ISGetSize(*W, &n));
+  if (n <= most) PetscFunctionReturn(0);
+  PetscCall(ISDestroy(W));
+  PetscCall(PetscObjectReference((PetscObject)filter));
+  *W = filter;
   PetscFunctionReturn(0);
 }
 
@@ -149,7 +150,8 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal fraction = 0.5;
-  PetscInt        n, touched, start, end;
+  const PetscInt  largest  = 5000; /* with norm terms, which need factors for each system */
+  PetscInt        n, touched, most, start, end;
   PetscBool       all = PETSC_FALSE;
 
   PetscFunctionBegin;
@@ -160,10 +162,12 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
   *few = (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n || touched <= fraction * n));
   PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
   if (!*few) PetscFunctionReturn(0);
+  most = (PetscInt)(fraction * n);
+  if (ip->terms->n) most = PetscMin(most, largest);
   PetscCall(FilteredTakesAll(tao, recycle, n, &all));
   PetscCall(VecGetOwnershipRange(tao->solution, &start, &end));
   if (all) PetscCall(ISCreateStride(PetscObjectComm((PetscObject)tao), end - start, start, 1, &IPFilteredOf(tao)->W));
-  else PetscCall(FilteredChooseW(tao, recycle, (PetscInt)(fraction * n), &IPFilteredOf(tao)->W));
+  else PetscCall(FilteredChooseW(tao, recycle, most, &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);
 }
 

@@ -277,6 +277,17 @@ static PetscErrorCode RecycleAllowFactor(PC pc)
   PetscFunctionReturn(0);
 }
 
+/* Finds whether the directions are those of this K */
+PetscErrorCode IPRecycleIsOf(const IPRecycle *recycle, Mat K, PetscBool *same)
+{
+  PetscObjectState state;
+
+  PetscFunctionBegin;
+  PetscCall(PetscObjectStateGet((PetscObject)K, &state));
+  *same = (PetscBool)(recycle->K_id == ((PetscObject)K)->id && recycle->K_state == state);
+  PetscFunctionReturn(0);
+}
+
 /*
    Updates the data for the present K, constraints and fixed variables. *possible: false if the preconditioner cannot be
    set up.

@@ -257,7 +257,7 @@ static PetscErrorCode ReducedSetRows(IPReduced *r, Mat J, Vec c)
 }
 
 /* Finds whether the space was set up for this K */
-PetscErrorCode IPReducedIsOf(const IPReduced *r, Mat K, PetscBool *same)
+static PetscErrorCode ReducedIsOf(const IPReduced *r, Mat K, PetscBool *same)
 {
   PetscObjectState state;
 
@@ -276,7 +276,7 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, IS own, IS W, Vec x, V
   PetscBool *definite)
 {
   PetscFunctionBegin;
-  PetscCall(IPReducedIsOf(r, K, definite));
+  PetscCall(ReducedIsOf(r, K, definite));
   if (*definite) PetscCall(ISEqual(r->W, W, definite));
   if (!*definite) {
     PetscCall(PetscLogEventBegin(TAO_IPFilterFactor, K, NULL, NULL, NULL));

@@ -203,7 +203,7 @@ PETSC_INTERN PetscErrorCode IPReducedFetch(VecScatter, Vec, Vec on_first, PetscI
 PETSC_INTERN PetscErrorCode IPReducedSpread(VecScatter, PetscInt n, const PetscReal a[], Vec on_first, Vec);
 
 /* reduced.c */
-PETSC_INTERN PetscErrorCode IPReducedIsOf(const IPReduced *, Mat K, PetscBool *same);
+
 PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, Mat K, Mat J, IS own, IS W, Vec x, Vec c, const IPBasis *,
   PetscBool *definite);
 PETSC_INTERN PetscErrorCode IPReducedRelease(IPReduced *);
@@ -225,6 +225,7 @@ PETSC_INTERN PetscErrorCode IPRecycleStiffnessOfTerms(Tao, Vec Dt);
 PETSC_INTERN PetscErrorCode IPRecycleCondense(Tao, Vec D, Vec Dt, Mat *A);
 PETSC_INTERN PetscErrorCode IPRecycleHold(Tao, IPRecycle *, PetscBool *possible);
 PETSC_INTERN PetscErrorCode IPRecycleReconsider(Tao, IPRecycle *, PetscBool *possible);
+PETSC_INTERN PetscErrorCode IPRecycleIsOf(const IPRecycle *, Mat K, PetscBool *same);
 PETSC_INTERN PetscErrorCode IPRecycleUpdate(Tao, IPRecycle *, PetscBool *possible);
 
 /* precondition.c */
