@@ -232,7 +232,7 @@ static PetscErrorCode OutputRemoveOlder(Output output)
    Level: intermediate
 
    Notes:
-   share/scenes/README.md lists the fields of cells and vertices, with their units, and the columns of the history.
+   share/doc/output.md lists the fields of cells and vertices, with their units, and the columns of the history.
 
    Fields of contact are on both sides of the pairs. Outside of the contact faces contact_gap and contact_status are
    NaN, which ParaView shows in its NaN colour, and the other fields of contact are 0. At a vertex of several pairs, the
