@@ -7,7 +7,6 @@ Give --limit, the upper end of the colours, so that colours mean the same in all
 """
 import argparse
 import os
-import re
 import subprocess
 import sys
 import tempfile
@@ -17,14 +16,10 @@ try:
 except ImportError:
     sys.exit("film.py: Python has no Pillow: install python3-pil (Debian), or pillow from PyPI")
 
-DRAW = os.path.join(os.path.dirname(os.path.abspath(__file__)), "draw.py")
-
-
-def steps(base):
-    """Numbers of the load steps with files"""
-    folder, name = os.path.split(base)
-    found = (re.fullmatch(re.escape(name) + r"_(\d+)\.h5", file) for file in os.listdir(folder or "."))
-    return sorted(int(match.group(1)) for match in found if match)
+HERE = os.path.dirname(os.path.abspath(__file__))
+DRAW = os.path.join(HERE, "draw.py")
+sys.path[:0] = [os.path.join(HERE, "..", "python")]
+from contact.files import ContactError, Files
 
 
 def main():
@@ -36,10 +31,10 @@ def main():
     args, options = parser.parse_known_args()
     if args.every < 1 or args.rate <= 0:
         sys.exit("film.py: --every and --rate must be above 0")
-    numbers = steps(args.base)[::args.every]
-    if not numbers:
-        sys.exit("film.py: there are no files %s_0001.h5 and so on: run contact with -output %s" %
-                 (args.base, args.base))
+    try:
+        numbers = sorted(Files(args.base).files)[::args.every]
+    except ContactError as error:
+        sys.exit("film.py: %s" % error)
     with tempfile.TemporaryDirectory() as folder:
         pictures = []
         for number in numbers:

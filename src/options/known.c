@@ -9,9 +9,9 @@ const char *const OptionsOurs[] = {"accuracy", "accuracy_adaptive", "accuracy_ma
   "contact_gap_tol", "contact_normals", "contact_penalty", "contact_quadrature", "contact_search_depth",
   "contact_smooth", "contact_update_tol", "contact_updates", "displacement_bounds", "elasticity_mat_type",
   "elasticity_quadrature", "error_estimate", "load_max_cuts", "load_steps", "load_warm_start", "model", "output",
-  "output_gauss", "pc_amgf_amg_lag", "pc_amgf_cycle", "pc_amgf_detect", "pc_amgf_factor", "pc_amgf_factor_share",
-  "pc_amgf_filter_file", "pc_amgf_filter_ranks", "progress_every", "quiet", "refine", "report", "restart",
-  "scene_check", "summary", "tables_view", "tao_ipfilter_barrier", "tao_ipfilter_compl_inf_tol",
+  "output_every", "output_gauss", "pc_amgf_amg_lag", "pc_amgf_cycle", "pc_amgf_detect", "pc_amgf_factor",
+  "pc_amgf_factor_share", "pc_amgf_filter_file", "pc_amgf_filter_ranks", "progress_every", "quiet", "refine", "report",
+  "restart", "scene_check", "summary", "tables_view", "tao_ipfilter_barrier", "tao_ipfilter_compl_inf_tol",
   "tao_ipfilter_constr_viol_tol", "tao_ipfilter_delta_max", "tao_ipfilter_direct", "tao_ipfilter_direct_memory",
   "tao_ipfilter_dual_inf_tol", "tao_ipfilter_dual_init", "tao_ipfilter_equality", "tao_ipfilter_eta_phi",
   "tao_ipfilter_filter_switch", "tao_ipfilter_forcing", "tao_ipfilter_gamma_phi", "tao_ipfilter_kkt",
@@ -29,7 +29,7 @@ static const char *const OptionsSwitches[] = {"accuracy_adaptive", "contact_free
 
 /* Options that need an integer */
 static const char *const OptionsCounts[] = {"accuracy_order", "checkpoint_every", "contact_quadrature",
-  "contact_updates", "displacement_bounds", "elasticity_quadrature", "load_max_cuts", "load_steps",
+  "contact_updates", "displacement_bounds", "elasticity_quadrature", "load_max_cuts", "load_steps", "output_every",
   "pc_amgf_filter_ranks", "refine", "tao_ipfilter_max_soc", "tao_ipfilter_mu_reductions_first",
   "tao_ipfilter_subspace_max", NULL};
 
