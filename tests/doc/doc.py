@@ -58,7 +58,8 @@ def unexplained():
 
 def unknown_options():
     known = set(re.findall(r'"(\w+)"', text("src/options/known.c")))
-    petsc = ("ksp_", "log_", "tao_view", "dll_append", "pc_type", "tao_ipfilter_pc_amgf_", "options_file", "help", "n")
+    petsc = ("ksp_", "log_", "viewer_hdf5_", "tao_view", "dll_append", "pc_type", "tao_ipfilter_pc_amgf_",
+             "options_file", "help", "n")
     for page in ("share/doc/guide.md", "share/doc/modelling.md", "share/doc/output.md", "share/doc/theory.md",
                  "share/doc/scale.md"):
         prose = re.sub(r"^```.*?^```", "", text(page), flags=re.S | re.M)
