@@ -84,9 +84,8 @@ PETSC_EXTERN PetscErrorCode ContactGetPenetration(Contact, Vec u, const PetscBoo
    and the search depth of the pair [length]. turned: whether a facet rotated by more than 90 degrees */
 PETSC_EXTERN PetscErrorCode ContactGetPassage(Contact, PetscInt pair, PetscReal moved, Vec u0, Vec u1, PetscReal *depth,
   PetscReal *reach, PetscBool *turned);
-/* Collective. Checks a contact update at zero displacement. It is an error if undeformed bodies overlap by more than
-   the search depth. */
-PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);
+/* Collective. It is an error if undeformed bodies overlap by more than the search depth. */
+PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact);
 PETSC_EXTERN PetscErrorCode ContactLinearizationDestroy(ContactLinearization *);
 /* Computes, for each node of a nonmortar face, the weights of the nodes of the mortar face to which it is tied */
 PETSC_EXTERN PetscErrorCode ContactTieCreate(DM, const char what[], const SceneTie *, Mat *rows);

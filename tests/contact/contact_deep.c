@@ -39,7 +39,7 @@ static PetscErrorCode Try(const char what[], PetscReal thickness, PetscReal heig
   PetscCall(ContactLinearize(contact, u, &lin));
   PetscCall(VecGetSize(lin->g, &nrows));
   PetscCall(AttemptBegin());
-  ierr = ContactCheckDepth(contact, lin);
+  ierr = ContactCheckDepth(contact);
   PetscCall(AttemptEnd());
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, %s, %s: ", what, GapTypes[gap], nrows ? "rows" : "no rows"));
   PetscCall(AttemptPrint(ierr));
