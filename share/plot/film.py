@@ -3,11 +3,10 @@
 
     share/plot/film.py BASE FILM.gif [--every N] [--rate PICTURES_A_SECOND] [options of draw.py]
 
-Give --limit, the upper end of the colours, so that colours mean the same in all pictures.
+All pictures have the same colours for the same values, the same scale of displacements and the same view.
 """
 import argparse
 import os
-import subprocess
 import sys
 import tempfile
 
@@ -17,9 +16,9 @@ except ImportError:
     sys.exit("film.py: Python has no Pillow: install python3-pil (Debian), or pillow from PyPI")
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-DRAW = os.path.join(HERE, "draw.py")
-sys.path[:0] = [os.path.join(HERE, "..", "python")]
+sys.path[:0] = [HERE, os.path.join(HERE, "..", "python")]
 from contact.files import ContactError, Files
+import draw
 
 
 def main():
@@ -36,13 +35,9 @@ def main():
     except ContactError as error:
         sys.exit("film.py: %s" % error)
     with tempfile.TemporaryDirectory() as folder:
-        pictures = []
-        for number in numbers:
-            picture = os.path.join(folder, "%06d.png" % number)
-            if subprocess.run([sys.executable, "-B", DRAW, args.base, picture, "--step",
-                               str(number)] + options).returncode:
-                sys.exit("film.py: load step %d could not be drawn" % number)
-            pictures.append(Image.open(picture).convert("P", palette=Image.Palette.ADAPTIVE))
+        names = [os.path.join(folder, f"{number:06d}.png") for number in numbers]
+        draw.draw_steps(draw.arguments([args.base, names[0], *options]), numbers, names)
+        pictures = [Image.open(name).convert("P", palette=Image.Palette.ADAPTIVE) for name in names]
         pictures[0].save(args.film, save_all=True, append_images=pictures[1:], duration=1000 / args.rate, loop=0)
     print("%s: %d pictures" % (args.film, len(pictures)))
 
