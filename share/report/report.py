@@ -190,7 +190,8 @@ def yields(run):
         return "Not known: no material has the key <code>yield</code>."
     name = html.escape(safety["name"])
     if safety["value"] < 1:
-        return f"It would: the stress of {name} is {text(1 / safety['value'])} times its yield stress. Its law is elastic."
+        times = text(1 / safety["value"])
+        return f"It would: the stress of {name} is {times} times its yield stress. Its law is elastic."
     return f"No: the smallest safety factor is {text(safety['value'])} ({name})."
 
 

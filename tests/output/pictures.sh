@@ -17,7 +17,8 @@ PYTHONPATH=$AMGF_DIR/share/plot:$AMGF_DIR/tests/lib "$PYTHON" -B "$AMGF_DIR/test
   bodies.png=base,punch below.png=base,-punch above.png=punch,-base one.png=base,-punch cut.png=base,-punch \
   status.png=closed,grey pressure.png=grey,high stress.png=high
 
-for refused in "--section y" "--section 1,2=3" "--section z=-9" "--step 7" "--only base,lid" "--only 2" "--field heat" "--field stress" "--hide y" "--scale big" \
+for refused in "--section y" "--section 1,2=3" "--section z=-9" \
+  "--step 7" "--only base,lid" "--only 2" "--field heat" "--field stress" "--hide y" "--scale big" \
   "--hide z>-1"; do
   # shellcheck disable=SC2086
   draw boxes no.png $refused 2>&1 && echo "$refused: drawn"

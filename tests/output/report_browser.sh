@@ -1,7 +1,7 @@
 # The page of a run in a real browser: no message in the console; six answers are found by their ids and are those of
 # the summary; the slider shows another picture. REPORT_MODELS: names of scenes in tests/lib/ten. Without a browser
 # nothing is tested.
-models=${REPORT_MODELS:-o_ring three_point}
+models=${REPORT_MODELS:-flange}
 for name in chromium-headless-shell chromium google-chrome; do
   browser=$(command -v $name) && break
 done
@@ -19,8 +19,11 @@ for model in $models; do
   "$AMGF_DIR/bin/contact" "$AMGF_DIR/tests/lib/ten/$model.yaml" -quiet -report "$model.html" > out 2>&1 ||
     { echo "$model: exit code $?"; cat out; }
   # What a user does: the slider to its left end
-  sed 's|</body>|<script>for (const s of document.querySelectorAll("input[type=range]")) { s.value = 0; '"s.oninput();"' }\
-</script></body>|' "$model.html" > "$model.moved.html"
+  cat "$model.html" - > "$model.moved.html" <<'HTML'
+<script>
+for (const slider of document.querySelectorAll("input[type=range]")) { slider.value = 0; slider.oninput(); }
+</script>
+HTML
   dom "$model.html" > "$model.dom"
   dom "$model.moved.html" > "$model.moved.dom"
   "$PYTHON" -B "$AMGF_DIR/tests/output/report_browser.py" "$model" "$(stat -c %s "$model.html")"
