@@ -16,8 +16,8 @@ import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "..", "python")]
+from contact import tools
 from contact.files import ContactError, Files
-import tools
 from screen import open_screen, stop
 
 try:
