@@ -12,38 +12,37 @@ import os
 import sys
 import textwrap
 
-import numpy as np
-
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "..", "python")]
+from interpreter import need
+
+need("numpy", "h5py", "vtkmodules")
+import numpy as np
 from contact import tools
 from contact.files import ContactError, Files
 from screen import open_screen, stop
 
-try:
-    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-    import vtkmodules.vtkRenderingFreeType  # noqa: F401, draws text
-    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, draws
-    from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPlane, vtkPolyData, vtkUnstructuredGrid
-    from vtkmodules.vtkFiltersCore import vtkFeatureEdges
-    from vtkmodules.vtkFiltersGeneral import vtkReflectionFilter, vtkTableBasedClipDataSet, vtkWarpVector
-    from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter, vtkGeometryFilter
-    from vtkmodules.vtkFiltersSources import vtkRegularPolygonSource
-    from vtkmodules.vtkIOImage import vtkPNGWriter
-    from vtkmodules.vtkRenderingAnnotation import vtkAxesActor, vtkScalarBarActor
-    from vtkmodules.vtkRenderingCore import (
-        vtkActor,
-        vtkActor2D,
-        vtkPolyDataMapper,
-        vtkPolyDataMapper2D,
-        vtkRenderer,
-        vtkRenderWindow,
-        vtkTextActor,
-        vtkWindowToImageFilter,
-    )
-except ImportError:
-    sys.exit("draw.py: Python has no VTK 9: install python3-vtk9 (Debian), or vtk from PyPI")
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+import vtkmodules.vtkRenderingFreeType  # noqa: F401, draws text
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, draws
+from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPlane, vtkPolyData, vtkUnstructuredGrid
+from vtkmodules.vtkFiltersCore import vtkFeatureEdges
+from vtkmodules.vtkFiltersGeneral import vtkReflectionFilter, vtkTableBasedClipDataSet, vtkWarpVector
+from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter, vtkGeometryFilter
+from vtkmodules.vtkFiltersSources import vtkRegularPolygonSource
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkRenderingAnnotation import vtkAxesActor, vtkScalarBarActor
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkActor2D,
+    vtkPolyDataMapper,
+    vtkPolyDataMapper2D,
+    vtkRenderer,
+    vtkRenderWindow,
+    vtkTextActor,
+    vtkWindowToImageFilter,
+)
 
 KINDS = {4: 10, 8: 12, 10: 24}  # VTK's cells by number of nodes
 LABELS = {

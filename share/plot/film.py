@@ -10,13 +10,12 @@ import os
 import sys
 import tempfile
 
-try:
-    from PIL import Image
-except ImportError:
-    sys.exit("film.py: Python has no Pillow: install python3-pil (Debian), or pillow from PyPI")
-
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "..", "python")]
+from interpreter import need
+
+need("numpy", "h5py", "vtkmodules", "PIL")
+from PIL import Image
 from contact.files import ContactError, Files
 import draw
 

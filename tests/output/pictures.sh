@@ -26,6 +26,13 @@ done
 # One side of a pair is coloured, that with the largest pressure; the mark has the largest value and its place; colours
 # are not changed by light; a section omits what is in front of it; load steps have one range of colours and one view
 PYTHONPATH=$AMGF_DIR/share/plot:$AMGF_DIR/tests/lib "$PYTHON" -B "$AMGF_DIR/tests/output/pictures_parts.py"
+# A Python without modules finds the one of the build; where that has none, one sentence says what is missing
+"$PYTHON" -S -B "$AMGF_DIR/share/plot/draw.py" boxes other.png --field body && ls other.png
+mkdir -p bare/bin bare/share && cp -r "$AMGF_DIR/share/plot" "$AMGF_DIR/share/python" bare/share
+echo 'exec /nowhere/python3 -B' > bare/bin/contact-mesh
+for program in draw film curves; do
+  "$PYTHON" -S -B bare/share/plot/$program.py boxes no.png 2>&1 | sed 's|Python at [^ ]*|Python at PYTHON|'
+done
 draw nothing no.png 2>&1 || ls no.png 2> /dev/null
 PYTHONPATH=$AMGF_DIR/share/python "$PYTHON" -B -c 'from contact.files import Files
 for field in ("stress_xx", "contact_pressure", "contact_force", "displacement", "contact_area", \
