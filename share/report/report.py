@@ -49,7 +49,7 @@ td { text-align: right; font-variant-numeric: tabular-nums } td:first-child, th:
 pre { background: #f5f5f5; padding: 1em; overflow-x: auto; font-size: 13px }
 img { max-width: 100% } .good { color: #176b2c } .bad { color: #a11 } figcaption { color: #555 }
 dt { font-weight: bold } dd { margin: 0 0 .5em 1.5em } input[type=range] { width: 60%; vertical-align: middle }
-.steps img { display: none } .steps img.shown { display: block }
+canvas { width: 100%; border: 1px solid #ddd; touch-action: none } .steps img { display: none } .steps img.shown { display: block }
 """
 SLIDER = """
 function show(slider) {
@@ -58,6 +58,79 @@ function show(slider) {
   box.querySelector("output").textContent = images[slider.value].alt;
 }
 """
+# A canvas that shows triangles and lines in parallel projection: dragging turns them, the wheel changes their size
+TURN = """
+function turn(canvas, model) {
+  const gl = canvas.getContext("webgl", {alpha: false});
+  if (!gl || !gl.getExtension("OES_element_index_uint")) {
+    canvas.replaceWith("This browser has no WebGL.");
+    return;
+  }
+  const bytes = text => Uint8Array.from(atob(text), letter => letter.charCodeAt(0)).buffer;
+  const program = gl.createProgram(), sources = {
+    VERTEX_SHADER: `attribute vec3 place; attribute vec4 colour; varying vec4 shown; uniform mat3 rotation;
+      uniform vec3 size; void main() { gl_Position = vec4(size * (rotation * place), 1.0); shown = colour; }`,
+    FRAGMENT_SHADER: "precision mediump float; varying vec4 shown; void main() { gl_FragColor = shown; }"};
+  for (const [kind, text] of Object.entries(sources)) {
+    const shader = gl.createShader(gl[kind]);
+    gl.shaderSource(shader, text);
+    gl.compileShader(shader);
+    gl.attachShader(program, shader);
+  }
+  gl.linkProgram(program);
+  gl.useProgram(program);
+  const buffer = (kind, text) => {
+    const made = gl.createBuffer();
+    gl.bindBuffer(kind, made);
+    gl.bufferData(kind, bytes(text), gl.STATIC_DRAW);
+    return made;
+  };
+  const parts = model.map(part => ({...part, places: buffer(gl.ARRAY_BUFFER, part.places),
+    colours: buffer(gl.ARRAY_BUFFER, part.colours), numbers: buffer(gl.ELEMENT_ARRAY_BUFFER, part.numbers)}));
+  let azimuth = -Math.PI / 3, elevation = Math.PI / 9, zoom = 1.2;
+  function draw() {
+    const [c, s, d, t] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)];
+    // Columns; the rows are to the right, up, and away from the viewer
+    const rotation = [-s, -t * c, -d * c, c, -t * s, -d * s, 0, d, -t];
+    gl.viewport(0, 0, canvas.width, canvas.height);
+    gl.clearColor(1, 1, 1, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.DEPTH_TEST);
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(1, 2);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    gl.uniformMatrix3fv(gl.getUniformLocation(program, "rotation"), false, rotation);
+    gl.uniform3f(gl.getUniformLocation(program, "size"), zoom * canvas.height / canvas.width, zoom, 0.1);
+    for (const part of parts) {
+      for (const [name, size, kind] of [["places", 3, gl.FLOAT], ["colours", 4, gl.UNSIGNED_BYTE]]) {
+        const at = gl.getAttribLocation(program, name.slice(0, -1));
+        gl.bindBuffer(gl.ARRAY_BUFFER, part[name]);
+        gl.enableVertexAttribArray(at);
+        gl.vertexAttribPointer(at, size, kind, kind != gl.FLOAT, 0, 0);
+      }
+      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, part.numbers);
+      gl.depthMask(!part.clear);
+      gl.drawElements(part.lines ? gl.LINES : gl.TRIANGLES, part.count, gl.UNSIGNED_INT, 0);
+    }
+    gl.depthMask(true);
+  }
+  canvas.onpointerdown = event => canvas.setPointerCapture(event.pointerId);
+  canvas.onpointermove = event => {
+    if (!event.buttons) return;
+    azimuth -= event.movementX / 150;
+    elevation = Math.max(-1.57, Math.min(1.57, elevation + event.movementY / 150));
+    draw();
+  };
+  canvas.onwheel = event => {
+    event.preventDefault();
+    zoom *= Math.exp(-event.deltaY / 800);
+    draw();
+  };
+  draw();
+}
+"""
+BIGGEST = 2_500_000  # bytes of the view that can be turned
 SHOWN = 12  # largest number of load steps in the pictures
 SMALL = 0.2  # largest size of a contact area that is magnified, relative to the model
 ROWS = 20  # largest number of rows of the table of load steps
@@ -169,6 +242,74 @@ def pictures(base, run):
                 continue
         captions = [f"{caption}, load step {step}" for step in chosen]
         yield slides(images, captions, chosen.index(stressed)) if len(images) > 1 else image(images[0], captions[0])
+        if field == "nodal_von_mises":
+            yield turnable(base, run, stressed)
+
+
+def encoded(values):
+    return base64.b64encode(values.tobytes()).decode()
+
+
+def model_part(data, colours, centre, radius, lines=False, clear=False):
+    """Triangles or lines of VTK's data, as turn() takes them"""
+    import numpy as np
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    points = vtk_to_numpy(data.GetPoints().GetData())
+    numbers = vtk_to_numpy((data.GetLines() if lines else data.GetPolys()).GetConnectivityArray())
+    return {
+        "places": encoded(((points - centre) / radius).astype(np.float32)),
+        "colours": encoded(np.broadcast_to(colours, (len(points), 4)).astype(np.uint8)),
+        "numbers": encoded(numbers.astype(np.uint32)),
+        "count": len(numbers),
+        "lines": lines,
+        "clear": clear
+    }
+
+
+def triangles(data):
+    from vtkmodules.vtkFiltersCore import vtkTriangleFilter
+
+    cut = vtkTriangleFilter()
+    cut.SetInputData(data)
+    cut.PassVertsOff()
+    cut.PassLinesOff()
+    cut.Update()
+    return cut.GetOutput()
+
+
+def turnable(base, run, step):
+    """Von Mises stress of a load step on bodies that the reader can turn"""
+    import draw
+    import numpy as np
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    files = draw.Files(base)
+    args = draw.arguments([base, "none.png", "--field", "nodal_von_mises"])
+    cells, displacement = draw.chosen_cells(args, files), files.displacement(step)
+    values = draw.field_values(args, files, step)
+    skin, _, _, _ = draw.coloured_bodies(args, files, cells, values, displacement, 1)
+    skin = triangles(skin)
+    tools = [triangles(data) for data in draw.tool_surfaces(args, files, cells, displacement, 1)]
+    points = vtk_to_numpy(skin.GetPoints().GetData())
+    centre = (points.min(axis=0) + points.max(axis=0)) / 2
+    radius = np.linalg.norm(points.max(axis=0) - points.min(axis=0)) / 2
+    shown = vtk_to_numpy(skin.GetPointData().GetArray("colour"))
+    place = np.clip(shown / max(values[draw.nodes_of(files, cells)].max(), 1e-300), 0, 1)
+    scale = np.array(draw.VIRIDIS)
+    colours = np.stack([np.interp(place, np.linspace(0, 1, len(scale)), scale[:, k]) for k in range(3)], axis=1)
+    colours = np.concatenate([255 * colours, np.full((len(colours), 1), 255)], axis=1)
+    parts = [model_part(skin, colours, centre, radius)]
+    parts.append(model_part(draw.sharp_edges(skin), [25, 25, 25, 255], centre, radius, lines=True))
+    for data in tools:
+        parts.append(model_part(draw.sharp_edges(data), [90, 100, 115, 255], centre, radius, lines=True))
+        parts.append(model_part(data, [140, 153, 168, 110], centre, radius, clear=True))
+    text_of_parts = json.dumps([part for part in parts if part["count"]])
+    if len(text_of_parts) > BIGGEST:
+        return ""
+    return (f'<figure><canvas id="turn" width="1060" height="600"></canvas><figcaption>Von Mises stress, load step {step}, '
+            "to scale. Drag to turn, wheel to enlarge. The colours are those of the picture above.</figcaption></figure>\n"
+            f'<script>turn(document.getElementById("turn"), {text_of_parts});</script>\n')
 
 
 def amount(figure):
@@ -382,7 +523,7 @@ def page(base, run, scene, command, versions):
     good = run["exit_code"] == 0
     last = run["steps"][-1] if run["steps"] else None
     yield "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-    yield f"<title>{text(run['problem'])}</title>\n<style>{STYLE}</style>\n<script>{SLIDER}</script>\n</head>\n"
+    yield f"<title>{text(run['problem'])}</title>\n<style>{STYLE}</style>\n<script>{SLIDER}{TURN}</script>\n</head>\n"
     yield f"<body>\n<h1>{text(run['problem'])}</h1>\n"
     verdict = END.get(run["exit_code"], "The run failed.")
     yield f"<p class=\"{'good' if good else 'bad'}\"><b>{verdict}</b> {'' if good else text(run['reason'])}</p>\n"

@@ -48,5 +48,8 @@ for box in shown:
     images = re.findall(r"<img[^>]*>", box)
     if ['class="shown"' in image for image in images] != [True] + [False] * (len(images) - 1):
         print(f"{name}: the slider does not show the first picture")
+turned = re.findall(r'data-turned="([^"]*)"', moved)
+if turned != ["true,false"]:
+    print(f"{name}: the bodies that can be turned: {turned}")
 if size > 5e6:
     print(f"{name}: the page has {size} bytes")
