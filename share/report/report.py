@@ -49,7 +49,8 @@ td { text-align: right; font-variant-numeric: tabular-nums } td:first-child, th:
 pre { background: #f5f5f5; padding: 1em; overflow-x: auto; font-size: 13px }
 img { max-width: 100% } .good { color: #176b2c } .bad { color: #a11 } figcaption { color: #555 }
 dt { font-weight: bold } dd { margin: 0 0 .5em 1.5em } input[type=range] { width: 60%; vertical-align: middle }
-canvas { width: 100%; border: 1px solid #ddd; touch-action: none } .steps img { display: none } .steps img.shown { display: block }
+canvas { width: 100%; border: 1px solid #ddd; touch-action: none }
+.steps img { display: none } .steps img.shown { display: block }
 """
 SLIDER = """
 function show(slider) {
@@ -307,8 +308,10 @@ def turnable(base, run, step):
     text_of_parts = json.dumps([part for part in parts if part["count"]])
     if len(text_of_parts) > BIGGEST:
         return ""
-    return (f'<figure><canvas id="turn" width="1060" height="600"></canvas><figcaption>Von Mises stress, load step {step}, '
-            "to scale. Drag to turn, wheel to enlarge. The colours are those of the picture above.</figcaption></figure>\n"
+    caption = (f"Von Mises stress, load step {step}, to scale. Drag to turn, wheel to enlarge. Colours are those of "
+               "the picture above.")
+    return ('<figure><canvas id="turn" width="1060" height="600"></canvas>'
+            f"<figcaption>{caption}</figcaption></figure>\n"
             f'<script>turn(document.getElementById("turn"), {text_of_parts});</script>\n')
 
 

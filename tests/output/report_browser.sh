@@ -1,6 +1,6 @@
 # The page of a run in a real browser: no message in the console; six answers are found by their ids and are those of
-# the summary; the slider shows another picture; dragging turns the bodies. REPORT_MODELS: names of scenes in tests/lib/ten. Without a browser
-# nothing is tested.
+# the summary; the slider shows another picture; dragging turns the bodies. REPORT_MODELS: names of
+# scenes in tests/lib/ten. Without a browser nothing is tested.
 models=${REPORT_MODELS:-flange}
 for name in chromium-headless-shell chromium google-chrome; do
   browser=$(command -v $name) && break
@@ -10,8 +10,8 @@ if [ -z "$browser" ]; then
   models=
 fi
 dom() { # page: the document after its scripts have run; messages of the console go to the file `console`
-  "$browser" --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader --user-data-dir="$PWD/profile" \
-    --virtual-time-budget=3000 --enable-logging=stderr --dump-dom "file://$PWD/$1" 2> log
+  "$browser" --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
+    --user-data-dir="$PWD/profile" --virtual-time-budget=3000 --enable-logging=stderr --dump-dom "file://$PWD/$1" 2> log
   grep CONSOLE log > console && echo "$1: messages in the console" && cat console
 }
 
