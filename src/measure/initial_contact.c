@@ -321,7 +321,7 @@ PetscErrorCode StepDescribeContact(Scene scene, DM dm, PetscViewer viewer)
   PetscCall(ContactSetCyclic(contact, scene->ncyclic, scene->cyclic));
   PetscCall(DMCreateGlobalVector(dm, &zero));
   PetscCall(VecZeroEntries(zero));
-  PetscCall(ContactLinearizeForces(contact, zero, &lin));
+  PetscCall(ContactLinearize(contact, zero, CONTACT_FORCES, &lin));
   PetscCall(ContactCheckDepth(contact));
   PetscCall(PetscMalloc1(scene->npairs, &starts));
   PetscCall(StartMeasure(PetscObjectComm((PetscObject)dm), lin, scene->npairs, starts));

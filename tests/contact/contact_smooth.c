@@ -150,7 +150,7 @@ static PetscErrorCode LinearizeCurved(DM dm, SceneContactPair pair, Field field,
   if (field) PetscCall(SetField(dm, field, ctx, u));
   PetscCall(ContactCreate(dm, 1, &pair, &contact));
   PetscCall(ContactSetFromOptions(contact));
-  PetscCall(ContactLinearize(contact, u, lin));
+  PetscCall(ContactLinearize(contact, u, CONTACT_DERIVATIVE, lin));
   PetscCall(ContactDestroy(&contact));
   PetscCall(VecDestroy(&u));
   PetscFunctionReturn(0);
@@ -291,7 +291,7 @@ static PetscErrorCode LinearizeBeside(DM dm, const State *state, PetscReal epsil
   PetscCall(VecAXPY(u, epsilon, *v));
   PetscCall(ContactCreate(dm, 1, &state->pair, &contact));
   PetscCall(ContactSetFromOptions(contact));
-  PetscCall(ContactLinearize(contact, u, lin));
+  PetscCall(ContactLinearize(contact, u, CONTACT_DERIVATIVE, lin));
   PetscCall(ContactDestroy(&contact));
   PetscCall(VecDestroy(&u));
   PetscFunctionReturn(0);
