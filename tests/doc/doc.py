@@ -89,6 +89,13 @@ def wide_lines():
                 yield f"{page}:{number}: {len(line)} columns"
 
 
+def unknown_tests():
+    """In the table of features"""
+    there = {os.path.splitext(os.path.basename(path))[0] for path in glob.glob(os.path.join(TOP, "tests", "*", "*.*"))}
+    table = text("tests/README.md").split("## Features")[1].split("##")[0]
+    yield from sorted(set(re.findall(r"`(\w+)`", table)) - there)
+
+
 def missing_pages(folder):
     names = set(re.findall(r"PetscErrorCode (\w+)\(", text("include/petscamgf.h"))) | {"PCAMGF", "TAOIPFILTER"}
     there = {os.path.basename(path)[:-2] for path in glob.glob(os.path.join(folder, "man3", "*.3"))}
@@ -121,4 +128,5 @@ else:
     say(f"lines wider than {COLUMNS} columns", wide_lines())
     lines = len(text("README.md").splitlines())
     say(f"README.md has more than {LINES} lines", [f"{lines} lines"] * (lines > LINES))
+    say("tests of features that are none", unknown_tests())
     say("calls without a manual page", missing_pages(sys.argv[1]))
