@@ -312,6 +312,7 @@ def continuous_table(low, high):
         k = min(int(place), len(VIRIDIS) - 2)
         table.SetTableValue(i, *(a + (place - k) * (b - a) for a, b in zip(VIRIDIS[k], VIRIDIS[k + 1])), 1.0)
     table.SetTableRange(low, high if high > low else low + 1.0)
+    table.SetNanColor(*GREY, 1.0)
     return table
 
 
@@ -328,10 +329,15 @@ def discrete_table(names, colours):
 
 
 def field_values(args, run, step):
-    """Values by vertex or by cell of the run; nothing where a vertex is in no contact pair"""
+    """Values by vertex or by cell of the run; nothing in rigid bodies, and where a vertex is in no contact pair"""
     if args.field == "body":
         return run.body.astype(float)
     values = run.field(step, args.field).astype(float)
+    if "stress" in args.field or args.field.endswith("von_mises"):
+        owner = run.body if len(values) == len(run.cells) else body_of_vertices(run)
+        for body in range(len(run.bodies)):  # rigid bodies have no stress
+            if not values[owner == body].any():
+                values[owner == body] = np.nan
     if args.field.startswith("contact_") and len(values) == len(run.vertices):
         values[~(one_side(args, run, step) if args.contact_only else run.paired(step))] = np.nan
     return values
@@ -343,8 +349,10 @@ def colour_table(args, run, values):
     if args.field.startswith("contact_status"):
         return discrete_table(STATUS, STATUS_COLOURS)
     finite = values[np.isfinite(values)]
-    if not len(finite):
+    if not len(finite) and args.field.startswith("contact_"):
         stop(f"no vertex of these bodies has the field {args.field}")
+    if not len(finite):
+        finite = np.zeros(1)
     low = min(0.0, finite.min()) if args.lowest is None else args.lowest
     return continuous_table(low, finite.max() if args.limit is None else args.limit)
 
@@ -608,8 +616,13 @@ def largest_place(args, run, cells, values, points):
         return None
     numbers = cells if len(values) == len(run.cells) else nodes_of(run, cells)
     numbers = numbers[np.isfinite(values[numbers])]
+    if not len(numbers):
+        return None
     best = numbers[np.argmax(values[numbers])]
-    return values[best], points[run.cells[best]].mean(axis=0) if len(values) == len(run.cells) else points[best]
+    if len(values) != len(run.cells):
+        return values[best], points[best]
+    corners = points[run.cells[best]]
+    return values[best], corners[np.argmax(corners @ directions(args)[0])]  # the one next to the viewer
 
 
 def number(value):
@@ -703,7 +716,7 @@ def scene_of(args, run, frame=None):
     if args.title:
         page.AddActor2D(text_at(args.title, 20, pixels - 36, 22))
     best = largest_place(args, run, cells, values, points)
-    return (page, bodies, triad(args, pixels)), pixels, best and (*best, run.unit(args.field))
+    return (page, bodies, triad(args, pixels)), pixels, best and (*best, run.unit(args.field) if run.units else "1")
 
 
 def draw(words=None):

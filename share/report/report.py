@@ -296,9 +296,10 @@ def turnable(base, run, step):
     centre = (points.min(axis=0) + points.max(axis=0)) / 2
     radius = np.linalg.norm(points.max(axis=0) - points.min(axis=0)) / 2
     shown = vtk_to_numpy(skin.GetPointData().GetArray("colour"))
-    place = np.clip(shown / max(values[draw.nodes_of(files, cells)].max(), 1e-300), 0, 1)
+    place = np.clip(shown / max(np.nanmax(values), 1e-300), 0, 1)
     scale = np.array(draw.VIRIDIS)
     colours = np.stack([np.interp(place, np.linspace(0, 1, len(scale)), scale[:, k]) for k in range(3)], axis=1)
+    colours[np.isnan(shown)] = draw.GREY
     colours = np.concatenate([255 * colours, np.full((len(colours), 1), 255)], axis=1)
     parts = [model_part(skin, colours, centre, radius)]
     parts.append(model_part(draw.sharp_edges(skin), [25, 25, 25, 255], centre, radius, lines=True))

@@ -162,6 +162,12 @@ def check():
         print(f"{name}: on the surface: {'yes' if off < 1e-9 else off},",
               f"middles of the faces near it: {'yes' if middles < 0.02 else middles}")
     paraview(run)
+    run = Files("roller")
+    colours = draw.field_values(draw.arguments(["roller", "roller.png", "--field", "nodal_von_mises"]), run, 1)
+    rigid = draw.body_of_vertices(run) == run.bodies.index("roller")
+    grey = np.isnan(colours)
+    print("rigid body with a mesh: without colour:", bool(grey[rigid].all() and not grey[~rigid].any()))
+    run = Files("tools")
     cells = draw.chosen_cells(draw.arguments(["tools", "tools.png"]), run)
     print("cells that are drawn:", len(cells), "of", {run.bodies[body] for body in run.body[cells]})
 
