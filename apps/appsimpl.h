@@ -11,6 +11,7 @@ typedef struct {
     checkpoint[PETSC_MAX_PATH_LEN], restart[PETSC_MAX_PATH_LEN], report[PETSC_MAX_PATH_LEN];
   PetscInt  checkpoint_every; /* number of load steps from one checkpoint to the next; 0: a checkpoint is written
                                  only if a signal ends the run */
+  PetscInt  every;            /* fields are kept of every Nth load step, and of the last one; 0: of the last one */
   PetscBool write, gauss, restarts, summarize, contact_free, tables, check, quiet, page;
 } AppOptions;
 

@@ -93,7 +93,6 @@ static PetscErrorCode AppRunScene(const AppOptions *app, RunEnd *end)
   PetscCall(SceneLoad(PETSC_COMM_WORLD, app->scene, &scene));
   PetscCall(SceneCheckOptions(PETSC_COMM_WORLD, scene));
   PetscCall(OptionsCheck(PETSC_COMM_WORLD));
-  PetscCall(ContactDetect(PETSC_COMM_WORLD, scene));
   PetscCall(AppLeaveUnusedOptions());
   if (app->check) PetscCall(AppCheckScene(scene));
   else {

@@ -37,6 +37,11 @@ PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
     sizeof(app->output), &app->write));
   PetscCall(PetscOptionsBool("-output_gauss", "Also write the stress at the quadrature points", NULL, app->gauss,
     &app->gauss, NULL));
+  app->every = 1;
+  PetscCall(PetscOptionsInt("-output_every",
+    "Keep the fields of every Nth load step and of the last one; 0: of the last", NULL, app->every, &app->every, NULL));
+  PetscCheck(app->every >= 0, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
+    "-output_every must be at least 0, not %" PetscInt_FMT, app->every);
   PetscCall(PetscOptionsInt("-checkpoint_every", "Number of load steps between two checkpoints; 0: none", NULL,
     app->checkpoint_every, &app->checkpoint_every, NULL));
   PetscCheck(app->checkpoint_every >= 0, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,

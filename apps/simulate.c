@@ -36,6 +36,7 @@ static PetscErrorCode AppCreateOutput(const AppOptions *app, Scene scene, Simula
   PetscCall(SimulationGetDM(sim, &dm));
   PetscCall(OutputCreate(dm, scene->nbodies, names, app->output, output));
   PetscCall(OutputSetUnits(*output, scene->units));
+  PetscCall(OutputSetEvery(*output, app->every));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     char text[PETSC_MAX_PATH_LEN];
 

@@ -56,10 +56,11 @@ PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscRe
 typedef enum { CONTACT_DUAL_NONE, CONTACT_DUAL_AUTO, CONTACT_DUAL_ALL } ContactDualPairs;
 PETSC_EXTERN PetscErrorCode ContactSetDual(Contact, ContactDualPairs, PetscBool *changed);
 PETSC_EXTERN PetscErrorCode ContactGetDual(Contact, ContactDualPairs *);
+/* What ContactLinearize() computes for smooth pairs: only the gap; also J and lin->cover; also lin->derivative. For
+   other pairs everything is always computed. */
+typedef enum { CONTACT_GAPS, CONTACT_FORCES, CONTACT_DERIVATIVE } ContactParts;
 /* Collective. Searches, clips and integrates at the global displacement u */
-PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactLinearization *);
-PETSC_EXTERN PetscErrorCode ContactLinearizeForces(Contact, Vec u, ContactLinearization *);
-PETSC_EXTERN PetscErrorCode ContactGetGaps(Contact, Vec u, ContactLinearization *);
+PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactParts, ContactLinearization *);
 /* Collective. Computes by how much the nonmortar faces have grown at u since a linearization, around each row's vertex.
    Call this function only if lin->area is not NULL. */
 PETSC_EXTERN PetscErrorCode ContactGetStretch(Contact, Vec u, ContactLinearization lin, PetscReal stretch[]);
@@ -84,13 +85,11 @@ PETSC_EXTERN PetscErrorCode ContactGetPenetration(Contact, Vec u, const PetscBoo
    and the search depth of the pair [length]. turned: whether a facet rotated by more than 90 degrees */
 PETSC_EXTERN PetscErrorCode ContactGetPassage(Contact, PetscInt pair, PetscReal moved, Vec u0, Vec u1, PetscReal *depth,
   PetscReal *reach, PetscBool *turned);
-/* Collective. Checks a contact update at zero displacement. It is an error if undeformed bodies overlap by more than
-   the search depth. */
-PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact, ContactLinearization);
+/* Collective. It is an error if undeformed bodies overlap by more than the search depth. */
+PETSC_EXTERN PetscErrorCode ContactCheckDepth(Contact);
 PETSC_EXTERN PetscErrorCode ContactLinearizationDestroy(ContactLinearization *);
 /* Computes, for each node of a nonmortar face, the weights of the nodes of the mortar face to which it is tied */
 PETSC_EXTERN PetscErrorCode ContactTieCreate(DM, const char what[], const SceneTie *, Mat *rows);
-PETSC_EXTERN PetscErrorCode ContactView(Contact, PetscViewer);
 PETSC_EXTERN PetscErrorCode ContactDestroy(Contact *);
 
 #endif

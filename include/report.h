@@ -41,6 +41,7 @@ typedef struct {
   PetscReal   reaction[3]; /* on the body [force] */
   PetscReal   moment[3];   /* [force length] */
   PetscReal   size;        /* sum of the magnitudes of the components of the nodal forces [force] */
+  PetscBool   driven;      /* false if the face is nothing but a symmetry plane */
 } FaceReport;
 
 /* Position of a rigid body: that of its centre of rotation if the scene gives one, otherwise that of its middle. The

@@ -84,13 +84,14 @@ fuzz:
 	@$(call copied_tree,build/fuzz)
 	@OMPI_CC=clang $(MAKE) --no-print-directory -C build/fuzz lib/libcontact.a lib/libpetscamgf.so CFLAGS='$(FUZZ_FLAGS)'
 	@for target in gmsh scene; do \
+	  case $$target in scene) seeds='share/scenes tests/mesh tests/scene';; *) seeds=share/gmsh;; esac; \
 	  mkdir -p build/fuzz/corpus-$$target && \
 	  OMPI_CC=clang $(CC) $(FUZZ_FLAGS) -fsanitize=fuzzer -std=c11 -Iinclude $(PETSC_CFLAGS) \
 	    tests/fuzz/$$target.c build/fuzz/lib/libcontact.a \
 	    -Lbuild/fuzz/lib -lpetscamgf -Wl,-rpath,$(CURDIR)/build/fuzz/lib $(PETSC_LIBS) $(CONTACT_LIBS) \
 	      -o build/fuzz/$$target && \
 	  PETSC_OPTIONS=-no_signal_handler ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 \
-	    build/fuzz/$$target build/fuzz/corpus-$$target tests/fuzz/corpus/$$target \
+	    build/fuzz/$$target build/fuzz/corpus-$$target tests/fuzz/corpus/$$target $$seeds \
 	    -artifact_prefix=build/fuzz/found-$$target- -max_len=4096 -timeout=20 -rss_limit_mb=2000 \
 	      -malloc_limit_mb=1000 -fork=1 -max_total_time=$(FUZZ_TIME) || exit 1; \
 	done

@@ -6,6 +6,7 @@ import re
 import sys
 
 TOP, FOLDER, VERSION = sys.argv[1:]
+LIBRARY = "library"  # functions of the mechanics library: their names are too common for section 3 of a system
 
 
 def escape(text):
@@ -14,9 +15,10 @@ def escape(text):
     return "\\&" + text if text[:1] in (".", "'") else text
 
 
-def page(name, section, description, body):
-    os.makedirs(os.path.join(FOLDER, f"man{section}"), exist_ok=True)
-    with open(os.path.join(FOLDER, f"man{section}", f"{name}.{section}"), "w") as file:
+def page(name, section, description, body, below=""):
+    folder = os.path.join(FOLDER, below, f"man{section}")
+    os.makedirs(folder, exist_ok=True)
+    with open(os.path.join(folder, f"{name}.{section}"), "w") as file:
         file.write(f'.TH {name} {section} "" "petscamgf {VERSION}"\n.SH NAME\n{name} \\- {escape(description)}\n{body}')
 
 
@@ -60,7 +62,7 @@ def from_source(comment, synopsis):
             body += [".SH SEE ALSO", escape(seealso[1])]
         else:
             body += items([line])
-    page(name, 3, description, "\n".join(body) + "\n")
+    page(name, 3, description, "\n".join(body) + "\n", "" if header(name) == "petscamgf.h" else LIBRARY)
 
 
 sources = [

@@ -11,8 +11,13 @@ Mises stress, one curve per load step.
 import argparse
 import csv
 import fnmatch
+import os
 import sys
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from interpreter import need
+
+need("numpy", "matplotlib")
 import matplotlib
 
 matplotlib.use("Agg")

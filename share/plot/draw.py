@@ -10,36 +10,39 @@ undeformed bodies. Contact fields colour only the faces of contact pairs.
 import argparse
 import os
 import sys
-
-import numpy as np
+import textwrap
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "..", "python")]
+from interpreter import need
+
+need("numpy", "h5py", "vtkmodules")
+import numpy as np
+from contact import tools
 from contact.files import ContactError, Files
-import tools
 from screen import open_screen, stop
 
-try:
-    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-    import vtkmodules.vtkRenderingFreeType  # noqa: F401, draws text
-    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, draws
-    from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstructuredGrid
-    from vtkmodules.vtkFiltersCore import vtkFeatureEdges
-    from vtkmodules.vtkFiltersGeneral import vtkReflectionFilter, vtkWarpVector
-    from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter, vtkGeometryFilter
-    from vtkmodules.vtkIOImage import vtkPNGWriter
-    from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
-    from vtkmodules.vtkRenderingCore import (
-        vtkActor,
-        vtkPolyDataMapper,
-        vtkRenderer,
-        vtkRenderWindow,
-        vtkTextActor,
-        vtkWindowToImageFilter,
-    )
-except ImportError:
-    sys.exit("draw.py: Python has no VTK 9: install python3-vtk9 (Debian), or vtk from PyPI")
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+import vtkmodules.vtkRenderingFreeType  # noqa: F401, draws text
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, draws
+from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPlane, vtkPolyData, vtkUnstructuredGrid
+from vtkmodules.vtkFiltersCore import vtkFeatureEdges
+from vtkmodules.vtkFiltersGeneral import vtkReflectionFilter, vtkTableBasedClipDataSet, vtkWarpVector
+from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter, vtkGeometryFilter
+from vtkmodules.vtkFiltersSources import vtkRegularPolygonSource
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkRenderingAnnotation import vtkAxesActor, vtkScalarBarActor
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkActor2D,
+    vtkPolyDataMapper,
+    vtkPolyDataMapper2D,
+    vtkRenderer,
+    vtkRenderWindow,
+    vtkTextActor,
+    vtkWindowToImageFilter,
+)
 
 KINDS = {4: 10, 8: 12, 10: 24}  # VTK's cells by number of nodes
 LABELS = {
@@ -51,6 +54,7 @@ LABELS = {
     "contact_area": "area of the vertex",
     "contact_slip_path": "slip path",
 }
+CUT = "--section takes an axis and a number, as 'y=0', or a normal and a number, as '1,1,0=3'"
 STATUS = ["open", "closed", "slipping"]
 STATUS_COLOURS = [(0.62, 0.75, 0.89), (0.80, 0.15, 0.15), (0.98, 0.75, 0.20)]
 BODY_COLOURS = [
@@ -77,8 +81,10 @@ VIRIDIS = [
     (0.993, 0.906, 0.144),
 ]
 WIDTH, LOWEST, HIGHEST = 1100, 420, 800  # of the picture [pixels]
+VIEW = (20, -60)  # elevation and azimuth [degrees]
 BODIES = 0.82  # of the width, left of the colour bar
 CAPTION = 44  # below the bodies [pixels]
+TRIAD = 130  # below the colour bar
 
 
 def arguments(words=None):
@@ -92,18 +98,23 @@ def arguments(words=None):
         "--scale", default="1",
         help="factor of the displacements; auto: the largest one is at least a tenth of the model's size")
     view = ("ELEVATION", "AZIMUTH")
-    parser.add_argument("--view", type=float, nargs=2, default=(20, -60), metavar=view,
-                        help="direction of view [degrees]; default: 20 -60")
+    parser.add_argument("--view", type=float, nargs=2, metavar=view,
+                        help="direction of view [degrees]; default: 20 -60; with --contact-only towards the faces")
     parser.add_argument("--up", choices="xyz", default="z", help="axis that points upwards; default: z")
     parser.add_argument("--only", help="names of the bodies to draw, for example slab,die")
     parser.add_argument("--hide", default="", help="omit cells whose centre is on this side, for example 'y<0'")
+    parser.add_argument(
+        "--section", default="", metavar="PLANE",
+        help="cut the undeformed bodies by a plane and omit the part in front of it, for example 'y=0', "
+        "or '1,1,0=3': points whose product with (1, 1, 0) is 3")
     parser.add_argument("--mirror", default="",
                         help="draw also the mirror images in the planes x = 0, y = 0 or z = 0, for example xy")
     zoom = "show a region of FACTOR times the size of the contact area"
     parser.add_argument("--around-contact", type=float, metavar="FACTOR", help=zoom)
     parser.add_argument("--contact-only", action="store_true",
-                        help="contact fields: draw only the faces that have them")
+                        help="contact fields: colour one side of each pair, and draw the bodies transparent")
     parser.add_argument("--limit", type=float, help="largest value of the colour bar")
+    parser.add_argument("--lowest", type=float, help="smallest value of the colour bar")
     parser.add_argument("--title", default="", help="title above the picture")
     parser.add_argument("--no-edges", action="store_true", help="do not draw the cells' edges")
     return parser.parse_args(words)
@@ -140,6 +151,36 @@ def body_grid(run, cells):
     grid.SetPoints(points)
     grid.SetCells(numpy_to_vtk(np.array([KINDS[len(cell)] for cell in nodes], np.uint8), deep=True), array)
     return grid
+
+
+def plane_of(args):
+    """Normal and distance of the plane of --section"""
+    words, _, number = args.section.partition("=")
+    try:
+        normal = np.eye(3)["xyz".index(words)] if words in ("x", "y", "z") else np.array(words.split(","), float)
+        distance = float(number)
+    except ValueError:
+        stop(f"{CUT}, not '{args.section}'")
+    if normal.shape != (3, ) or not normal.any():
+        stop(f"{CUT}, not '{args.section}'")
+    return normal, distance
+
+
+def cut(args, grid):
+    """The part of a grid behind the plane of --section, seen from the camera"""
+    if not args.section:
+        return grid
+    normal, distance = plane_of(args)
+    towards, _ = directions(args)
+    plane, clip = vtkPlane(), vtkTableBasedClipDataSet()
+    plane.SetOrigin(*(normal * distance / (normal @ normal)))
+    plane.SetNormal(*(normal if normal @ towards <= 0 else -normal))
+    clip.SetInputData(grid)
+    clip.SetClipFunction(plane)
+    clip.Update()
+    if not clip.GetOutput().GetNumberOfCells():
+        stop(f"no part of the bodies is behind the plane {args.section}")
+    return clip.GetOutput()
 
 
 def add(data, name, values):
@@ -181,7 +222,7 @@ def body_of_vertices(run):
 
 def tool_surfaces(args, run, cells, displacement, scale):
     """The surfaces of rigid tools, displaced; infinite ones are drawn around the bodies"""
-    nodes = np.unique(np.concatenate([run.cells[c] for c in cells]))
+    nodes = nodes_of(run, cells)
     low, high = run.vertices[nodes].min(axis=0), run.vertices[nodes].max(axis=0)
     for body in run.surfaces if not args.only else set(run.surfaces) & set(run.body_numbers(args.only)):
         cube = run.cells[np.flatnonzero(run.body == body)[0]]
@@ -242,15 +283,25 @@ def parted(skin):
     return part_of(skin, whole), part_of(skin, ~whole)
 
 
-def by_body(faces):
-    """The faces of each body. Those of the body with the most faces are last, since the last ones are drawn in front"""
-    ends, nodes = faces_of(faces)
-    if not len(ends) - 1:
-        return
-    bodies = vtk_to_numpy(faces.GetPointData().GetArray("body"))[nodes[ends[:-1]]]
-    numbers, counts = np.unique(bodies, return_counts=True)
-    for body in numbers[np.argsort(counts)]:
-        yield part_of(faces, bodies == body)
+def one_side(args, run, step):
+    """Vertices of one side of each pair: of the body that has its largest pressure"""
+    side, owner = np.zeros(len(run.vertices), bool), body_of_vertices(run)
+    pressure = run.field(step, "contact_pressure")
+    for paired in run.pairs(step, args.field):
+        if paired.any():
+            side |= paired & (owner == owner[np.argmax(np.where(paired, pressure, -np.inf))])
+    return side
+
+
+def towards_faces(args, coloured):
+    """The direction of view from which coloured faces are seen, unless the user gave one"""
+    if args.view is None and args.contact_only and coloured.GetNumberOfCells():
+        ends, nodes = faces_of(coloured)
+        corners = vtk_to_numpy(coloured.GetPoints().GetData())[np.stack([nodes[ends[:-1] + k] for k in range(3)])]
+        normal = np.cross(corners[1] - corners[0], corners[2] - corners[0]).sum(axis=0)
+        if normal["xyz".index(args.up)] < 0:
+            args.view = (-25, -60)
+    args.view = args.view or VIEW
 
 
 def continuous_table(low, high):
@@ -261,6 +312,7 @@ def continuous_table(low, high):
         k = min(int(place), len(VIRIDIS) - 2)
         table.SetTableValue(i, *(a + (place - k) * (b - a) for a, b in zip(VIRIDIS[k], VIRIDIS[k + 1])), 1.0)
     table.SetTableRange(low, high if high > low else low + 1.0)
+    table.SetNanColor(*GREY, 1.0)
     return table
 
 
@@ -277,12 +329,17 @@ def discrete_table(names, colours):
 
 
 def field_values(args, run, step):
-    """Values by vertex or by cell of the run; nothing where a vertex is in no contact pair"""
+    """Values by vertex or by cell of the run; nothing in rigid bodies, and where a vertex is in no contact pair"""
     if args.field == "body":
         return run.body.astype(float)
     values = run.field(step, args.field).astype(float)
+    if "stress" in args.field or args.field.endswith("von_mises"):
+        owner = run.body if len(values) == len(run.cells) else body_of_vertices(run)
+        for body in range(len(run.bodies)):  # rigid bodies have no stress
+            if not values[owner == body].any():
+                values[owner == body] = np.nan
     if args.field.startswith("contact_") and len(values) == len(run.vertices):
-        values[~run.paired(step)] = np.nan
+        values[~(one_side(args, run, step) if args.contact_only else run.paired(step))] = np.nan
     return values
 
 
@@ -292,13 +349,16 @@ def colour_table(args, run, values):
     if args.field.startswith("contact_status"):
         return discrete_table(STATUS, STATUS_COLOURS)
     finite = values[np.isfinite(values)]
-    if not len(finite):
+    if not len(finite) and args.field.startswith("contact_"):
         stop(f"no vertex of these bodies has the field {args.field}")
-    return continuous_table(min(0.0, finite.min()), finite.max() if args.limit is None else args.limit)
+    if not len(finite):
+        finite = np.zeros(1)
+    low = min(0.0, finite.min()) if args.lowest is None else args.lowest
+    return continuous_table(low, finite.max() if args.limit is None else args.limit)
 
 
 def displacement_scale(args, run, cells, displacement):
-    nodes = np.unique(np.concatenate([run.cells[c] for c in cells]))
+    nodes = nodes_of(run, cells)
     if args.scale == "auto":
         largest = np.linalg.norm(displacement[nodes], axis=1).max()
         return max(1.0, 0.1 * np.ptp(run.vertices[nodes], axis=0).max() / largest) if largest > 0 else 1.0
@@ -327,16 +387,20 @@ def actor_of(data, colour, width, table=None):
     return actor
 
 
-def faces_actor(args, part, table, layer=0):
-    """Faces of a higher layer are drawn in front of those that they touch"""
+def faces_actor(args, part, table):
+    """Colours of a field are those of the table, whatever the light"""
     actor = actor_of(part, GREY, 0.5, table)
-    actor.GetMapper().SetRelativeCoincidentTopologyPolygonOffsetParameters(0, -100 * layer)
+    if table and not table.GetIndexedLookup():
+        actor.GetProperty().LightingOff()
     actor.GetProperty().SetAmbient(0.45)
     actor.GetProperty().SetDiffuse(0.6)
-    if not args.no_edges:
+    if not args.no_edges and not args.section:
         actor.GetProperty().EdgeVisibilityOn()
         actor.GetProperty().SetEdgeColor(0.35, 0.35, 0.35)
         actor.GetProperty().SetLineWidth(0.5)
+    if args.contact_only and not table:
+        actor.GetProperty().SetOpacity(0.12)
+        actor.GetProperty().EdgeVisibilityOff()
     return actor
 
 
@@ -351,23 +415,35 @@ def sharp_edges(skin):
     return edges.GetOutput()
 
 
-def colour_bar(title, table):
+def label_format(table):
+    """Three digits of the largest number; no exponent between 0.001 and a million"""
+    largest = max(abs(end) for end in table.GetTableRange())
+    if not 1e-3 <= largest < 1e6:
+        return "%.2e"
+    return f"%.{max(0, 2 - int(np.floor(np.log10(largest))))}f"
+
+
+def colour_bar(title, table, pixels):
+    """The bar, and its title in lines that are not cut off"""
     bar = vtkScalarBarActor()
     bar.SetLookupTable(table)
-    bar.SetTitle(title.replace(" [", "\n[") + "\n ")
     bar.SetNumberOfLabels(6)
-    bar.SetLabelFormat("%-#.3g")
+    bar.SetLabelFormat(label_format(table))
     bar.SetUnconstrainedFontSize(True)
-    for text, size in ((bar.GetTitleTextProperty(), 17), (bar.GetLabelTextProperty(), 15)):
-        text.SetColor(0, 0, 0)
-        text.SetFontSize(size)
-        text.ItalicOff()
-        text.BoldOff()
-        text.ShadowOff()
-    bar.SetPosition(0.84, 0.15)
+    text = bar.GetLabelTextProperty()
+    text.SetColor(0, 0, 0)
+    text.SetFontSize(15)
+    text.ItalicOff()
+    text.BoldOff()
+    text.ShadowOff()
+    lines = textwrap.wrap(title, 20)
+    bar.SetPosition(0.84, TRIAD / pixels)
     bar.SetWidth(0.14)
-    bar.SetHeight(0.7)
-    return [bar]
+    bar.SetHeight(0.93 - (TRIAD + 22 * len(lines)) / pixels)
+    return [bar] + [
+        text_at(line, BODIES * WIDTH + 12,
+                int(0.97 * pixels) - 22 * (k + 1), 17) for k, line in enumerate(lines)
+    ]
 
 
 def colour_names(title, table, pixels):
@@ -387,9 +463,11 @@ def legend(args, run, table, pixels):
     if table.GetIndexedLookup():
         actors = colour_names(args.field.replace("_", " "), table, pixels)
     else:
-        actors = colour_bar(f"{LABELS.get(args.field, args.field)} [{run.unit(args.field)}]", table)
+        name = LABELS.get(args.field, args.field.replace("_", " "))
+        unit = run.unit(args.field)
+        actors = colour_bar(f"{name} [{'–' if unit == '1' else unit}]", table, pixels)
     if args.field.startswith("contact_") and not args.contact_only:
-        actors.append(text_at("grey: not in a pair", BODIES * WIDTH + 12, 14, 14))
+        actors.append(text_at("grey: not in a pair", 0.7 * WIDTH, 14, 14))
     return actors
 
 
@@ -403,7 +481,7 @@ def text_at(text, x, y, size):
 
 
 def caption(args, run, step, scale, cells, displacement):
-    nodes = np.unique(np.concatenate([run.cells[c] for c in cells]))
+    nodes = nodes_of(run, cells)
     largest = np.linalg.norm(displacement[nodes], axis=1).max()
     unit = run.unit("displacement")
     size = f"largest displacement {largest:.3g}" + (f" {unit}" if unit != "length" else "")
@@ -413,23 +491,28 @@ def caption(args, run, step, scale, cells, displacement):
 
 def contact_box(args, run, step, cells, points):
     """Corners of a box about the vertices in contact, grown by a factor; with their mirror images"""
-    nodes = np.unique(np.concatenate([run.cells[c] for c in cells]))
+    nodes = nodes_of(run, cells)
     closed = points[nodes[run.in_contact(step)[nodes]]]
     if not len(closed):
         stop(f"no vertex of these bodies is in contact in load step {step}")
-    for axis in args.mirror:
-        closed = np.concatenate([closed, closed * np.where(np.arange(3) == "xyz".index(axis), -1, 1)])
+    closed = mirrored_points(args, closed)
     low, high = closed.min(axis=0), closed.max(axis=0)
     return (low + high) / 2, args.around_contact * np.linalg.norm(high - low) / 2
 
 
-def place_camera(args, renderer, centre, radius):
-    """Parallel projection from an elevation and an azimuth, as of a map whose normal is up"""
-    elevation, azimuth = np.radians(args.view)
+def directions(args):
+    """Unit vectors towards the viewer and upwards, from an elevation and an azimuth, as of a map whose normal is up"""
+    elevation, azimuth = np.radians(args.view or VIEW)
     order = {"z": [0, 1, 2], "x": [1, 2, 0], "y": [2, 0, 1]}[args.up]
     towards, up = np.zeros(3), np.zeros(3)
     towards[order] = np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)
     up[order] = -np.sin(elevation) * np.cos(azimuth), -np.sin(elevation) * np.sin(azimuth), np.cos(elevation)
+    return towards, up
+
+
+def place_camera(args, renderer, centre, radius):
+    """Parallel projection"""
+    towards, up = directions(args)
     camera = renderer.GetActiveCamera()
     camera.ParallelProjectionOn()
     camera.SetFocalPoint(*centre)
@@ -454,7 +537,8 @@ def fit(camera, right, up, corners, heading):
     return total, (0, CAPTION / total, BODIES, 1 - heading / total)
 
 
-def write(renderers, pixels, picture):
+def write(scene, picture):
+    renderers, pixels, best = scene
     window, image, writer = vtkRenderWindow(), vtkWindowToImageFilter(), vtkPNGWriter()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(8)
@@ -462,6 +546,10 @@ def write(renderers, pixels, picture):
     for renderer in renderers:
         window.AddRenderer(renderer)
         renderer.ResetCameraClippingRange()
+    if best:
+        window.Render()
+        value, place, unit = best
+        mark(renderers[1], place, value, unit)
     window.Render()
     image.SetInput(window)
     image.ReadFrontBufferOff()
@@ -473,29 +561,135 @@ def write(renderers, pixels, picture):
     window.Finalize()
 
 
-def scene_of(args, run):
-    """What is drawn, as VTK's renderers, and the height of its picture"""
-    step, cells = run.step(args.step), chosen_cells(args, run)
-    values, displacement = field_values(args, run, step), run.displacement(step)
-    scale = displacement_scale(args, run, cells, displacement)
-    grid = body_grid(run, cells)
+def nodes_of(run, cells):
+    return np.unique(np.concatenate([run.cells[c] for c in cells]))
+
+
+def mirrored_points(args, points):
+    for axis in args.mirror:
+        points = np.concatenate([points, points * np.where(np.arange(3) == "xyz".index(axis), -1, 1)])
+    return points
+
+
+def measure(args, run, step):
+    """The range of the colours, and the points that the picture of a load step shows"""
+    cells, displacement = chosen_cells(args, run), run.displacement(step)
+    nodes, scale = nodes_of(run, cells), displacement_scale(args, run, cells, displacement)
+    points = run.vertices[nodes]
+    pieces = [vtk_to_numpy(data.GetPoints().GetData()) for data in tool_surfaces(args, run, cells, displacement, scale)]
+    points = np.concatenate(
+        [mirrored_points(args, np.concatenate([points, points + scale * displacement[nodes]])), *pieces])
+    values = field_values(args, run, step)
+    shown = values[cells] if len(values) == len(run.cells) else values[nodes]
+    low, high = colour_table(args, run, shown).GetTableRange()
+    return low, high, scale, points
+
+
+def one_frame(args, run, steps):
+    """Sets one range of colours and one scale of displacements for all load steps; returns points for one view"""
+    low, high, scales, points = zip(*(measure(args, run, step) for step in steps))
+    args.lowest, args.limit, args.scale = min(low), max(high), str(min(scales))
+    cells, displacement = chosen_cells(args, run), run.displacement(steps[-1])
+    towards_faces(args, coloured_bodies(args, run, cells, field_values(args, run, steps[-1]), displacement, 1)[1])
+    towards, up = directions(args)
+    sides = (np.cross(up, towards), up)
+    return np.concatenate(
+        [part[[index(part @ side) for side in sides for index in (np.argmin, np.argmax)]] for part in points])
+
+
+def coloured_bodies(args, run, cells, values, displacement, scale):
+    """The surface with its colours and displaced, in two parts: with colours and without; and the undeformed outline"""
+    grid, by_cell = body_grid(run, cells), len(values) == len(run.cells)
     add(grid.GetPointData(), "displacement", displacement)
-    add(grid.GetPointData(), "body", body_of_vertices(run))
     outline = mirrored(args, sharp_edges(surface(grid)))
-    by_cell = len(values) == len(run.cells)
-    shown = values[cells] if by_cell else values[np.unique(np.concatenate([run.cells[c] for c in cells]))]
-    table = colour_table(args, run, shown)
     add(grid.GetCellData() if by_cell else grid.GetPointData(), "colour", values[cells] if by_cell else values)
-    skin = surface(warped(grid, scale))
-    bodies, page = vtkRenderer(), vtkRenderer()
+    skin = surface(warped(cut(args, grid), scale))
     coloured, plain = (skin, None) if by_cell else parted(skin)
     if args.field.startswith("contact_status"):
         face_status(coloured)
-    layers = args.contact_only and not by_cell
-    parts = [(part, table) for part in by_body(coloured)] if layers else [(coloured, table), (plain, None)]
-    for layer, (part, colours) in enumerate(parts):
+    return skin, coloured, plain, outline
+
+
+def largest_place(args, run, cells, values, points):
+    """The largest value of what is drawn, and where it is; None for a field of names"""
+    if args.field == "body" or args.field.startswith("contact_status"):
+        return None
+    numbers = cells if len(values) == len(run.cells) else nodes_of(run, cells)
+    numbers = numbers[np.isfinite(values[numbers])]
+    if not len(numbers):
+        return None
+    best = numbers[np.argmax(values[numbers])]
+    if len(values) != len(run.cells):
+        return values[best], points[best]
+    corners = points[run.cells[best]]
+    return values[best], corners[np.argmax(corners @ directions(args)[0])]  # the one next to the viewer
+
+
+def number(value):
+    """Four digits, and no exponent up to a million"""
+    return f"{value:.0f}" if 1e4 <= abs(value) < 1e6 else f"{value:.4g}"
+
+
+def mark(renderer, place, value, unit):
+    """A ring where the largest value is, with its number"""
+    renderer.SetWorldPoint(*place, 1)
+    renderer.WorldToDisplay()
+    x, y, depth = renderer.GetDisplayPoint()
+    hidden = renderer.GetZ(int(x), int(y)) < depth - 1e-3
+    x, y = np.array([x, y]) - renderer.GetOrigin()
+    ring, mapper, actor = vtkRegularPolygonSource(), vtkPolyDataMapper2D(), vtkActor2D()
+    ring.SetNumberOfSides(24)
+    ring.SetRadius(7)
+    ring.GeneratePolygonOff()
+    mapper.SetInputConnection(ring.GetOutputPort())
+    actor.SetMapper(mapper)
+    actor.SetPosition(x, y)
+    actor.GetProperty().SetColor(0.85, 0, 0)
+    actor.GetProperty().SetLineWidth(2.5)
+    text = text_at(number(value) + (f" {unit}" if unit != "1" else "") + " (behind)" * hidden, x + 12, y + 8, 17)
+    text.GetTextProperty().SetColor(0.75, 0, 0)
+    text.GetTextProperty().SetBackgroundColor(1, 1, 1)
+    text.GetTextProperty().SetBackgroundOpacity(0.75)
+    if x > 0.65 * WIDTH:
+        text.GetTextProperty().SetJustificationToRight()
+        text.SetPosition(x - 12, y + 8)
+    renderer.AddActor2D(actor)
+    renderer.AddActor2D(text)
+
+
+def triad(args, pixels):
+    """The three axes, in the corner below the colours"""
+    renderer, axes = vtkRenderer(), vtkAxesActor()
+    for word, text in zip(
+            "xyz", (axes.GetXAxisCaptionActor2D(), axes.GetYAxisCaptionActor2D(), axes.GetZAxisCaptionActor2D())):
+        text.GetTextActor().SetTextScaleModeToNone()
+        text.GetCaptionTextProperty().SetFontSize(15)
+        text.GetCaptionTextProperty().SetColor(0, 0, 0)
+        text.GetCaptionTextProperty().ShadowOff()
+    axes.SetXAxisLabelText("x")
+    axes.SetYAxisLabelText("y")
+    axes.SetZAxisLabelText("z")
+    renderer.AddActor(axes)
+    renderer.SetBackground(1, 1, 1)
+    camera, _, _ = place_camera(args, renderer, np.zeros(3), 1.0)
+    camera.SetParallelScale(1.5)
+    renderer.SetViewport(0.85, 10 / pixels, 0.85 + (TRIAD - 20) / WIDTH, (TRIAD - 10) / pixels)
+    return renderer
+
+
+def scene_of(args, run, frame=None):
+    """What is drawn, as VTK's renderers, and the height of its picture. frame: points that the view shows"""
+    step, cells = run.step(args.step), chosen_cells(args, run)
+    values, displacement = field_values(args, run, step), run.displacement(step)
+    scale = displacement_scale(args, run, cells, displacement)
+    shown = values[cells] if len(values) == len(run.cells) else values[nodes_of(run, cells)]
+    table = colour_table(args, run, shown)
+    skin, coloured, plain, outline = coloured_bodies(args, run, cells, values, displacement, scale)
+    towards_faces(args, coloured)
+    bodies, page = vtkRenderer(), vtkRenderer()
+    for part, colours in ((coloured, table), (plain, None)):
         if part and part.GetNumberOfCells():
-            bodies.AddActor(faces_actor(args, mirrored(args, part), colours, layer if layers else 0))
+            bodies.AddActor(faces_actor(args, mirrored(args, part), colours))
     skin = mirrored(args, skin)
     pieces = [mirrored(args, data) for data in tool_surfaces(args, run, cells, displacement, scale)]
     for data in pieces:
@@ -505,10 +699,13 @@ def scene_of(args, run):
         renderer.SetBackground(1, 1, 1)
     bodies.AddActor(actor_of(outline, (0.55, 0.55, 0.55), 1.2))
     bodies.AddActor(actor_of(sharp_edges(skin), (0.1, 0.1, 0.1), 1.4))
-    corners = np.concatenate(
-        [vtk_to_numpy(data.GetPoints().GetData()).astype(float) for data in (skin, outline, *pieces)])
+    corners = frame
+    if frame is None:
+        corners = np.concatenate(
+            [vtk_to_numpy(data.GetPoints().GetData()).astype(float) for data in (skin, outline, *pieces)])
+    points = run.vertices + scale * displacement
     if args.around_contact:
-        centre, radius = contact_box(args, run, step, cells, run.vertices + scale * displacement)
+        centre, radius = contact_box(args, run, step, cells, points)
         corners = centre + radius * (2.0 * np.array(list(np.ndindex(2, 2, 2))) - 1.0) / 3**0.5
     camera, right, up = place_camera(args, bodies, corners.mean(axis=0), np.ptp(corners, axis=0).max())
     pixels, part = fit(camera, right, up, corners, 50 if args.title else 0)
@@ -518,17 +715,30 @@ def scene_of(args, run):
     page.AddActor2D(text_at(caption(args, run, step, scale, cells, displacement), 20, 14, 16))
     if args.title:
         page.AddActor2D(text_at(args.title, 20, pixels - 36, 22))
-    return (page, bodies), pixels
+    best = largest_place(args, run, cells, values, points)
+    return (page, bodies, triad(args, pixels)), pixels, best and (*best, run.unit(args.field) if run.units else "1")
 
 
 def draw(words=None):
     args = arguments(words)
     try:
-        renderers, pixels = scene_of(args, Files(args.base))
+        scene = scene_of(args, Files(args.base))
     except ContactError as error:
         stop(str(error))
     open_screen()
-    write(renderers, pixels, args.picture)
+    write(scene, args.picture)
+
+
+def draw_steps(args, steps, pictures):
+    """Pictures of load steps with one range of colours, one scale and one view"""
+    try:
+        run = Files(args.base)
+        frame = one_frame(args, run, steps)
+        open_screen()
+        for args.step, picture in zip(steps, pictures):
+            write(scene_of(args, run, frame), picture)
+    except ContactError as error:
+        stop(str(error))
 
 
 if __name__ == "__main__":

@@ -3,28 +3,21 @@
 
     share/plot/film.py BASE FILM.gif [--every N] [--rate PICTURES_A_SECOND] [options of draw.py]
 
-Give --limit, the upper end of the colours, so that colours mean the same in all pictures.
+All pictures have the same colours for the same values, the same scale of displacements and the same view.
 """
 import argparse
 import os
-import re
-import subprocess
 import sys
 import tempfile
 
-try:
-    from PIL import Image
-except ImportError:
-    sys.exit("film.py: Python has no Pillow: install python3-pil (Debian), or pillow from PyPI")
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.join(HERE, "..", "python")]
+from interpreter import need
 
-DRAW = os.path.join(os.path.dirname(os.path.abspath(__file__)), "draw.py")
-
-
-def steps(base):
-    """Numbers of the load steps with files"""
-    folder, name = os.path.split(base)
-    found = (re.fullmatch(re.escape(name) + r"_(\d+)\.h5", file) for file in os.listdir(folder or "."))
-    return sorted(int(match.group(1)) for match in found if match)
+need("numpy", "h5py", "vtkmodules", "PIL")
+from PIL import Image
+from contact.files import ContactError, Files
+import draw
 
 
 def main():
@@ -36,18 +29,14 @@ def main():
     args, options = parser.parse_known_args()
     if args.every < 1 or args.rate <= 0:
         sys.exit("film.py: --every and --rate must be above 0")
-    numbers = steps(args.base)[::args.every]
-    if not numbers:
-        sys.exit("film.py: there are no files %s_0001.h5 and so on: run contact with -output %s" %
-                 (args.base, args.base))
+    try:
+        numbers = sorted(Files(args.base).files)[::args.every]
+    except ContactError as error:
+        sys.exit("film.py: %s" % error)
     with tempfile.TemporaryDirectory() as folder:
-        pictures = []
-        for number in numbers:
-            picture = os.path.join(folder, "%06d.png" % number)
-            if subprocess.run([sys.executable, "-B", DRAW, args.base, picture, "--step",
-                               str(number)] + options).returncode:
-                sys.exit("film.py: load step %d could not be drawn" % number)
-            pictures.append(Image.open(picture).convert("P", palette=Image.Palette.ADAPTIVE))
+        names = [os.path.join(folder, f"{number:06d}.png") for number in numbers]
+        draw.draw_steps(draw.arguments([args.base, names[0], *options]), numbers, names)
+        pictures = [Image.open(name).convert("P", palette=Image.Palette.ADAPTIVE) for name in names]
         pictures[0].save(args.film, save_all=True, append_images=pictures[1:], duration=1000 / args.rate, loop=0)
     print("%s: %d pictures" % (args.film, len(pictures)))
 

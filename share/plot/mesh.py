@@ -38,7 +38,7 @@ def draw_mesh(points, volumes, picture, caption, view=(25, -60)):
     skin = surface(grid)
     names = list(volumes)[:min(NAMED, len(BODY_COLOURS))]
     colours = discrete_table(names + [""] * (len(BODY_COLOURS) - len(names)), BODY_COLOURS)
-    args = SimpleNamespace(no_edges=False, view=view, up="z")
+    args = SimpleNamespace(no_edges=False, section="", contact_only=False, view=view, up="z")
     bodies, page = vtkRenderer(), vtkRenderer()
     for renderer in (bodies, page):
         renderer.SetBackground(1, 1, 1)
@@ -54,4 +54,4 @@ def draw_mesh(points, volumes, picture, caption, view=(25, -60)):
         page.AddActor2D(text_at(f"and {len(volumes) - len(names)} more", BODIES * WIDTH + 20, 14, 14))
     page.AddActor2D(text_at(caption, 20, 14, 16))
     open_screen()
-    write((page, bodies), pixels, picture)
+    write(((page, bodies), pixels, None), picture)

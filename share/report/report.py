@@ -48,7 +48,93 @@ table { border-collapse: collapse; margin: 1em 0 } th, td { padding: .15em .7em;
 td { text-align: right; font-variant-numeric: tabular-nums } td:first-child, th:first-child { text-align: left }
 pre { background: #f5f5f5; padding: 1em; overflow-x: auto; font-size: 13px }
 img { max-width: 100% } .good { color: #176b2c } .bad { color: #a11 } figcaption { color: #555 }
+dt { font-weight: bold } dd { margin: 0 0 .5em 1.5em } input[type=range] { width: 60%; vertical-align: middle }
+canvas { width: 100%; border: 1px solid #ddd; touch-action: none }
+.steps img { display: none } .steps img.shown { display: block }
 """
+SLIDER = """
+function show(slider) {
+  const box = slider.closest("figure"), images = box.querySelectorAll("img");
+  images.forEach((image, k) => image.classList.toggle("shown", k == slider.value));
+  box.querySelector("output").textContent = images[slider.value].alt;
+}
+"""
+# A canvas that shows triangles and lines in parallel projection: dragging turns them, the wheel changes their size
+TURN = """
+function turn(canvas, model) {
+  const gl = canvas.getContext("webgl", {alpha: false});
+  if (!gl || !gl.getExtension("OES_element_index_uint")) {
+    canvas.replaceWith("This browser has no WebGL.");
+    return;
+  }
+  const bytes = text => Uint8Array.from(atob(text), letter => letter.charCodeAt(0)).buffer;
+  const program = gl.createProgram(), sources = {
+    VERTEX_SHADER: `attribute vec3 place; attribute vec4 colour; varying vec4 shown; uniform mat3 rotation;
+      uniform vec3 size; void main() { gl_Position = vec4(size * (rotation * place), 1.0); shown = colour; }`,
+    FRAGMENT_SHADER: "precision mediump float; varying vec4 shown; void main() { gl_FragColor = shown; }"};
+  for (const [kind, text] of Object.entries(sources)) {
+    const shader = gl.createShader(gl[kind]);
+    gl.shaderSource(shader, text);
+    gl.compileShader(shader);
+    gl.attachShader(program, shader);
+  }
+  gl.linkProgram(program);
+  gl.useProgram(program);
+  const buffer = (kind, text) => {
+    const made = gl.createBuffer();
+    gl.bindBuffer(kind, made);
+    gl.bufferData(kind, bytes(text), gl.STATIC_DRAW);
+    return made;
+  };
+  const parts = model.map(part => ({...part, places: buffer(gl.ARRAY_BUFFER, part.places),
+    colours: buffer(gl.ARRAY_BUFFER, part.colours), numbers: buffer(gl.ELEMENT_ARRAY_BUFFER, part.numbers)}));
+  let azimuth = -Math.PI / 3, elevation = Math.PI / 9, zoom = 1.2;
+  function draw() {
+    const [c, s, d, t] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)];
+    // Columns; the rows are to the right, up, and away from the viewer
+    const rotation = [-s, -t * c, -d * c, c, -t * s, -d * s, 0, d, -t];
+    gl.viewport(0, 0, canvas.width, canvas.height);
+    gl.clearColor(1, 1, 1, 1);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.enable(gl.DEPTH_TEST);
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(1, 2);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    gl.uniformMatrix3fv(gl.getUniformLocation(program, "rotation"), false, rotation);
+    gl.uniform3f(gl.getUniformLocation(program, "size"), zoom * canvas.height / canvas.width, zoom, 0.1);
+    for (const part of parts) {
+      for (const [name, size, kind] of [["places", 3, gl.FLOAT], ["colours", 4, gl.UNSIGNED_BYTE]]) {
+        const at = gl.getAttribLocation(program, name.slice(0, -1));
+        gl.bindBuffer(gl.ARRAY_BUFFER, part[name]);
+        gl.enableVertexAttribArray(at);
+        gl.vertexAttribPointer(at, size, kind, kind != gl.FLOAT, 0, 0);
+      }
+      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, part.numbers);
+      gl.depthMask(!part.clear);
+      gl.drawElements(part.lines ? gl.LINES : gl.TRIANGLES, part.count, gl.UNSIGNED_INT, 0);
+    }
+    gl.depthMask(true);
+  }
+  canvas.onpointerdown = event => canvas.setPointerCapture(event.pointerId);
+  canvas.onpointermove = event => {
+    if (!event.buttons) return;
+    azimuth -= event.movementX / 150;
+    elevation = Math.max(-1.57, Math.min(1.57, elevation + event.movementY / 150));
+    draw();
+  };
+  canvas.onwheel = event => {
+    event.preventDefault();
+    zoom *= Math.exp(-event.deltaY / 800);
+    draw();
+  };
+  draw();
+}
+"""
+BIGGEST = 2_500_000  # bytes of the view that can be turned
+SHOWN = 12  # largest number of load steps in the pictures
+SMALL = 0.2  # largest size of a contact area that is magnified, relative to the model
+ROWS = 20  # largest number of rows of the table of load steps
 
 
 def check():
@@ -86,23 +172,200 @@ def image(data, caption):
     return f'<figure><img alt="{alt}" src="data:image/png;base64,{encoded}"><figcaption>{alt}</figcaption></figure>\n'
 
 
-def pictures(base, run):
-    """Stress, displacement and contact pressure of the last load step that is on disk"""
+def largest(run, quantity):
+    """The entry of the list of largest values that is the largest of all bodies or pairs"""
+    found = [figure for figure in run["figures"] if figure["quantity"] == quantity]
+    return max(found, key=lambda figure: figure["value"], default=None)
+
+
+def chosen_steps(run, files):
+    """Load steps for a row of pictures: the one with the largest stress, the last one, and others between them"""
+    numbers = sorted(files)
+    chosen = {numbers[round(k * (len(numbers) - 1) / (SHOWN - 1))] for k in range(SHOWN)}
+    stress = largest(run, "von Mises stress")
+    if stress and stress["step"] in files:
+        return sorted(chosen | {stress["step"]}), stress["step"]
+    return sorted(chosen), numbers[-1]
+
+
+def draw_steps(base, folder, field, options, steps):
+    """The pictures of a field in some load steps, in memory"""
     import draw
 
-    wanted = [("Von Mises stress", "nodal_von_mises", []), ("Displacement", "displacement", ["--scale", "auto"])]
-    if run["steps"][-1]["pairs"]:
-        wanted.append(("Contact pressure", "contact_pressure", ["--contact-only"]))
-    for caption, field, options in wanted:
+    names = [os.path.join(folder, f"{step}.png") for step in steps]
+    draw.draw_steps(draw.arguments([base, names[0], "--field", field, *options]), steps, names)
+    for name in names:
+        with open(name, "rb") as stream:
+            yield stream.read()
+
+
+def slides(images, captions, first):
+    """Pictures of which a slider shows one"""
+    tags = ""
+    for k, (data, caption) in enumerate(zip(images, captions)):
+        encoded, shown = base64.b64encode(data).decode(), ' class="shown"' * (k == first)
+        tags += f'<img{shown} alt="{html.escape(caption)}" src="data:image/png;base64,{encoded}">'
+    slider = (f'<label>load steps <input type="range" min="0" max="{len(captions) - 1}" value="{first}" '
+              'oninput="show(this)"></label> ')
+    caption = f"<figcaption>{slider}<output>{html.escape(captions[first])}</output></figcaption>"
+    return f'<figure class="steps">{tags}{caption}</figure>\n'
+
+
+def small_contact(files, step):
+    """Whether the contact area is much smaller than the bodies, so that the picture shows its surroundings alone"""
+    closed = files.vertices[files.in_contact(step)]
+    return len(closed) and max(closed.max(axis=0) - closed.min(
+        axis=0)) < SMALL * max(files.vertices.max(axis=0) - files.vertices.min(axis=0))
+
+
+def pictures(base, run):
+    """Stress over the load steps; displacement of the last one; pressure and plastic strain where they are largest"""
+    from contact.files import Files
+
+    run_files = Files(base)
+    files = run_files.files
+    steps, stressed = chosen_steps(run, files)
+    last, pressure = max(files), largest(run, "contact pressure")
+    pressed = pressure["step"] if pressure and pressure["step"] in files else last
+    zoom = ["--around-contact", "3"] if pressure and small_contact(run_files, pressed) else []
+    wanted = [("Von Mises stress", "nodal_von_mises", [], steps),
+              ("Displacement", "displacement", ["--scale", "auto"], [last])]
+    if pressure:
+        wanted.append(("Contact pressure", "contact_pressure", ["--contact-only", *zoom], [pressed]))
+    if largest(run, "eq. plastic strain"):
+        wanted.append(("Equivalent plastic strain", "equivalent_plastic_strain", [], [last]))
+    for caption, field, options, chosen in wanted:
         with tempfile.TemporaryDirectory() as folder:
-            file = os.path.join(folder, "picture.png")
             try:
-                draw.draw([base, file, "--field", field, *options])
+                images = list(draw_steps(base, folder, field, options, chosen))
             except SystemExit as reason:
                 yield f"<p>No picture: {caption.lower()}: {html.escape(str(reason.code))}.</p>\n"
                 continue
-            with open(file, "rb") as stream:
-                yield image(stream.read(), f"{caption}, last load step")
+        captions = [f"{caption}, load step {step}" for step in chosen]
+        yield slides(images, captions, chosen.index(stressed)) if len(images) > 1 else image(images[0], captions[0])
+        if field == "nodal_von_mises":
+            yield turnable(base, run, stressed)
+
+
+def encoded(values):
+    return base64.b64encode(values.tobytes()).decode()
+
+
+def model_part(data, colours, centre, radius, lines=False, clear=False):
+    """Triangles or lines of VTK's data, as turn() takes them"""
+    import numpy as np
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    points = vtk_to_numpy(data.GetPoints().GetData())
+    numbers = vtk_to_numpy((data.GetLines() if lines else data.GetPolys()).GetConnectivityArray())
+    return {
+        "places": encoded(((points - centre) / radius).astype(np.float32)),
+        "colours": encoded(np.broadcast_to(colours, (len(points), 4)).astype(np.uint8)),
+        "numbers": encoded(numbers.astype(np.uint32)),
+        "count": len(numbers),
+        "lines": lines,
+        "clear": clear
+    }
+
+
+def triangles(data):
+    from vtkmodules.vtkFiltersCore import vtkTriangleFilter
+
+    cut = vtkTriangleFilter()
+    cut.SetInputData(data)
+    cut.PassVertsOff()
+    cut.PassLinesOff()
+    cut.Update()
+    return cut.GetOutput()
+
+
+def turnable(base, run, step):
+    """Von Mises stress of a load step on bodies that the reader can turn"""
+    import draw
+    import numpy as np
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    files = draw.Files(base)
+    args = draw.arguments([base, "none.png", "--field", "nodal_von_mises"])
+    cells, displacement = draw.chosen_cells(args, files), files.displacement(step)
+    values = draw.field_values(args, files, step)
+    skin, _, _, _ = draw.coloured_bodies(args, files, cells, values, displacement, 1)
+    skin = triangles(skin)
+    tools = [triangles(data) for data in draw.tool_surfaces(args, files, cells, displacement, 1)]
+    points = vtk_to_numpy(skin.GetPoints().GetData())
+    centre = (points.min(axis=0) + points.max(axis=0)) / 2
+    radius = np.linalg.norm(points.max(axis=0) - points.min(axis=0)) / 2
+    shown = vtk_to_numpy(skin.GetPointData().GetArray("colour"))
+    place = np.clip(shown / max(np.nanmax(values), 1e-300), 0, 1)
+    scale = np.array(draw.VIRIDIS)
+    colours = np.stack([np.interp(place, np.linspace(0, 1, len(scale)), scale[:, k]) for k in range(3)], axis=1)
+    colours[np.isnan(shown)] = draw.GREY
+    colours = np.concatenate([255 * colours, np.full((len(colours), 1), 255)], axis=1)
+    parts = [model_part(skin, colours, centre, radius)]
+    parts.append(model_part(draw.sharp_edges(skin), [25, 25, 25, 255], centre, radius, lines=True))
+    for data in tools:
+        parts.append(model_part(draw.sharp_edges(data), [90, 100, 115, 255], centre, radius, lines=True))
+        parts.append(model_part(data, [140, 153, 168, 110], centre, radius, clear=True))
+    text_of_parts = json.dumps([part for part in parts if part["count"]])
+    if len(text_of_parts) > BIGGEST:
+        return ""
+    caption = (f"Von Mises stress, load step {step}, to scale. Drag to turn, wheel to enlarge. Colours are those of "
+               "the picture above.")
+    return ('<figure><canvas id="turn" width="1060" height="600"></canvas>'
+            f"<figcaption>{caption}</figcaption></figure>\n"
+            f'<script>turn(document.getElementById("turn"), {text_of_parts});</script>\n')
+
+
+def amount(figure):
+    return f"{text(figure['value'])} {html.escape(figure['unit'])}".strip()
+
+
+def when(run, figure):
+    return f", load step {figure['step']}" if len(run["steps"]) > 1 else ""
+
+
+def yields(run):
+    """Whether the material yields, in words"""
+    strain = largest(run, "eq. plastic strain")
+    found = [figure for figure in run["figures"] if figure["quantity"] == "safety against yield"]
+    safety = min(found, key=lambda figure: figure["value"], default=None)
+    if strain:
+        return f"Yes: {html.escape(strain['name'])}, largest equivalent plastic strain {text(strain['value'])}."
+    if not safety:
+        return "Not known: no material has the key <code>yield</code>."
+    name = html.escape(safety["name"])
+    if safety["value"] < 1:
+        times = text(1 / safety["value"])
+        return f"It would: the stress of {name} is {times} times its yield stress. Its law is elastic."
+    return f"No: the smallest safety factor is {text(safety['value'])} ({name})."
+
+
+def answers(run):
+    """Six answers, each with an id"""
+    stress, error = largest(run, "von Mises stress"), largest(run, "stress error, estimate")
+    if not stress:
+        return
+    areas = [figure for figure in run["figures"] if figure["quantity"] == "contact area"]
+    tools = [figure for figure in run["figures"] if figure["quantity"] == "reaction"]
+    tools = [figure for figure in tools if figure["name"].endswith(".*")] or tools
+    force = max(tools, key=lambda figure: figure["value"], default=None)
+    mean = error and (
+        f"The estimated error of the stresses is {error['value']:.{0 if error['value'] >= 10 else 1}f} % in "
+        "the mean, because of the mesh.")
+    rows = [
+        ("stress", "How large is the largest stress?", f"{amount(stress)} (von Mises)"),
+        ("place", "Where is it?",
+         f"{html.escape(stress['name'])}, at ({text(stress['place'])}), undeformed{when(run, stress)}"),
+        ("yield", "Does the material yield?", yields(run)),
+        ("force", "Which force does the tool or the support need?",
+         f"{amount(force)} at {html.escape(force['name'].removesuffix('.*'))}{when(run, force)}"
+         if force else "There is none."),
+        ("area", "How large is the contact area?",
+         "; ".join(f"{html.escape(figure['name'])}: {amount(figure)}" for figure in areas) or "There is no contact."),
+        ("accuracy", "How accurate is it?", mean or "Not estimated."),
+    ]
+    yield "<dl>\n" + "".join(f'<dt>{question}</dt><dd id="answer-{name}">{answer}</dd>\n'
+                             for name, question, answer in rows) + "</dl>\n"
 
 
 def results(run):
@@ -141,11 +404,17 @@ def history(base):
         return "<p>The run has one load step: there are no curves.</p>\n"
     of_faces = [name for name in heading if name.count(".") == 2 and ".reaction_" in name]
     reactions = sorted(of_faces, key=lambda name: -peak(columns[name]))
+    from contact.files import Files
+
+    files = Files(base)
+    force, length = files.unit("contact_force"), files.unit("displacement")
     groups = {
-        "energy and work of the loads": ["energy", "work"],
-        "normal force of each contact pair": [name for name in heading if name.endswith(".normal_force")],
-        "largest reactions": [name for name in reactions if peak(columns[name]) > 0][:4],
+        f"energy and work of the loads [{force} {length}]": ["energy", "work"],
+        f"normal force of each contact pair [{force}]": [name for name in heading if name.endswith(".normal_force")],
+        f"largest reactions [{force}]": [name for name in reactions if peak(columns[name]) > 0][:4],
     }
+    if peak(columns.get("plastic_work", [])):
+        groups[next(iter(groups))].append("plastic_work")
     groups = {title: names for title, names in groups.items() if names}
     figure, axes = plt.subplots(len(groups), squeeze=False, sharex=True, figsize=(8, 2.6 * len(groups) + 0.6))
     for axis, (title, names) in zip(axes.ravel(), groups.items()):
@@ -181,10 +450,13 @@ def forces(step):
         yield table(["rigid body", "position (x, y, z)", "rotation since the start, degrees"],
                     [[body[key] for key in keys] for body in step["rigid_bodies"]])
     yield "<p>Forces on each body. Their resultant should be 0.</p>\n"
-    keys = ["name", "contact", "reaction", "load", "balance"]
-    heading = ["body", "contact (x, y, z)", "reaction (x, y, z)", "load (x, y, z)"]
-    heading += ["resultant, relative to the sum of the magnitudes"]
-    yield table(heading, [[body[key] for key in keys] for body in step["bodies"]])
+    keys = ["contact", "reaction", "load"]
+    keys += [key for key in ("ties", "springs") if any(any(body[key]) for body in step["bodies"])]
+    heading = ["body", *(f"{key} (x, y, z)" for key in keys), "resultant, relative to the sum of the magnitudes"]
+    yield table(heading, [[body[key] for key in ("name", *keys, "balance")] for body in step["bodies"]])
+    if step["bolts"]:
+        yield table(["bolt", "force in its section", "shortening"],
+                    [[bolt["name"], bolt["force"], bolt["shortening"]] for bolt in step["bolts"]])
 
 
 def percent(fraction):
@@ -222,11 +494,23 @@ def steps(run):
         "amg_applications": "AMG applications",
         "cuts": "cuts",
         "energy": "energy",
+        "plastic_work": "plastic work",
         "equilibrium": "unbalanced forces, relative",
         "gap_true": "smallest gap (negative: penetration)",
         "reason": "result",
     }
-    yield table(columns.values(), [[step[key] for key in columns] for step in run["steps"]])
+    if not any(step["plastic_work"] for step in run["steps"]):
+        del columns["plastic_work"]
+    rows = run["steps"]
+    if len(rows) > ROWS:
+        special = [step for step in rows if step["cuts"] or step["gap_unconverged"] or not step["converged"]]
+        worst = max(step["equilibrium"] or 0 for step in rows)
+        yield (
+            f"<p>{len(rows) - len(special)} of {len(rows)} load steps converged without a cut. The unbalanced forces "
+            f"are at most {worst:.1e} of the internal forces. {'The others are:' if special else ''}</p>\n")
+        rows = special
+    if rows:
+        yield table(columns.values(), [[step[key] for key in columns] for step in rows])
 
 
 def time_and_memory(run):
@@ -243,7 +527,7 @@ def page(base, run, scene, command, versions):
     good = run["exit_code"] == 0
     last = run["steps"][-1] if run["steps"] else None
     yield "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-    yield f"<title>{text(run['problem'])}</title>\n<style>{STYLE}</style>\n</head>\n"
+    yield f"<title>{text(run['problem'])}</title>\n<style>{STYLE}</style>\n<script>{SLIDER}{TURN}</script>\n</head>\n"
     yield f"<body>\n<h1>{text(run['problem'])}</h1>\n"
     verdict = END.get(run["exit_code"], "The run failed.")
     yield f"<p class=\"{'good' if good else 'bad'}\"><b>{verdict}</b> {'' if good else text(run['reason'])}</p>\n"
@@ -254,6 +538,7 @@ def page(base, run, scene, command, versions):
     warnings = "".join(f"<li>{text(warning)}</li>" for warning in run["warnings"])
     yield f"<ul>{warnings}</ul>\n" if warnings else "<p>None.</p>\n"
     yield "<h2>Results</h2>\n"
+    yield from answers(run)
     yield from results(run)
     if last:
         yield "<h2>Pictures</h2>\n"
@@ -279,7 +564,8 @@ def main():
         return
     file, base, summary, scene, command, versions = sys.argv[1:]
     check()
-    sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "plot"))
+    top = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    sys.path[:0] = [os.path.join(top, "plot"), os.path.join(top, "python")]
     with open(summary, encoding="utf-8") as stream:
         run = json.load(stream)
     parts = "".join(page(base, run, scene, command, versions))

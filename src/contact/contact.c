@@ -469,43 +469,6 @@ PetscErrorCode ContactGetDual(Contact contact, ContactDualPairs *which)
 }
 
 /*@
-  ContactView - Prints a contact: its pairs, the search parameters, and the rows of the last linearization
-
-  Collective
-
-  Input Parameters:
-+ contact - the contact
-- viewer  - an ASCII viewer; others are ignored
-
-  Level: intermediate
-
-.seealso: `ContactLinearize()`
-@*/
-PetscErrorCode ContactView(Contact contact, PetscViewer viewer)
-{
-  PetscBool ascii;
-
-  PetscFunctionBegin;
-  PetscCall(PetscObjectTypeCompare((PetscObject)viewer, PETSCVIEWERASCII, &ascii));
-  if (!ascii) PetscFunctionReturn(0);
-  PetscCall(PetscViewerASCIIPrintf(viewer, "Contact: %" PetscInt_FMT " pairs, %" PetscInt_FMT " rows\n",
-    contact->npairs, contact->nrows));
-  PetscCall(PetscViewerASCIIPushTab(viewer));
-  for (PetscInt p = 0; p < contact->npairs; ++p) {
-    const ContactPairData *pair = &contact->pairs[p];
-    PetscInt               nfacing;
-
-    PetscCallMPI(MPI_Allreduce(&pair->nfacing, &nfacing, 1, MPIU_INT, MPI_SUM, contact->comm));
-    PetscCall(PetscViewerASCIIPrintf(viewer,
-      "pair %s: mortar %s, nonmortar %s, gap %s, search distance %g, depth %g, %" PetscInt_FMT " %s\n", pair->name,
-      pair->mortar.name, pair->nonmortar.name, GapTypes[pair->gap], (double)pair->distance, (double)pair->depth,
-      nfacing, pair->gap != GAP_NODE ? "overlapping facets" : "vertices over a facet"));
-  }
-  PetscCall(PetscViewerASCIIPopTab(viewer));
-  PetscFunctionReturn(0);
-}
-
-/*@
   ContactDestroy - Destroys a contact
 
   Collective

@@ -9,6 +9,6 @@
 /* linearize.c: deforms the surfaces and normals of all pairs to the displacement u */
 PETSC_INTERN PetscErrorCode ContactDeform(Contact, Vec u);
 
-/* contact.c, penetration.c, passage.c, tie.c, facing_away.c and initial_overlap.c have public functions only. */
+/* contact.c, penetration.c, passage.c, tie.c, facing_away.c and inside.c have public functions only. */
 
 #endif

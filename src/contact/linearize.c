@@ -48,48 +48,6 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Computes the gaps of all pairs at the displacement u, and these parts of their derivatives */
-static PetscErrorCode ContactMeasure(Contact contact, Vec u, ContactParts parts, ContactLinearization *lin)
-{
-  ContactAssembly assembly;
-  PetscReal       norm;
-
-  PetscFunctionBegin;
-  /* The 1-norm is used because the maximum norm of BLAS ignores NaN. */
-  PetscCall(VecNorm(u, NORM_1, &norm));
-  PetscCheck(!PetscIsInfOrNanReal(norm), contact->comm, PETSC_ERR_FP,
-    "The displacement at which contact is linearized is not finite");
-  PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
-  PetscCall(ContactDeform(contact, u));
-  PetscCall(ContactPrescribedRowsDistribute(contact));
-  PetscCall(ContactAssemblyCreate(contact, parts, &assembly));
-  for (PetscInt p = 0; p < contact->npairs; ++p) {
-    ContactPairData     *pair = &contact->pairs[p];
-    const ContactGapOps *ops  = PairGetGapOps(pair);
-    PetscReal box[6] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL};
-    ContactCandidates candidates;
-
-    PetscCall(PetscLogEventBegin(CONTACT_Search, NULL, NULL, NULL, NULL));
-    PetscCall((*ops->box)(contact, p, box));
-    PetscCall(ContactExchange(contact->comm, box, &pair->mortar, &candidates));
-    PetscCall(PetscLogEventEnd(CONTACT_Search, NULL, NULL, NULL, NULL));
-    pair->nfacing = 0;
-    PetscCall((*ops->add)(contact, p, &candidates, &assembly));
-    PetscCall(ContactCornersAdd(pair, &assembly));
-    PetscCall(ContactCandidatesDestroy(&candidates));
-  }
-  PetscCall(PetscLogEventBegin(CONTACT_Integrate, NULL, NULL, NULL, NULL));
-  PetscCall(ContactAssemblyFinish(contact, &assembly, lin));
-  if (contact->stretches) {
-    PetscCall(PetscMalloc1((*lin)->nlocal + 1, &(*lin)->area));
-    PetscCall(ContactRowAreas(contact, PETSC_TRUE, *lin, (*lin)->area));
-  }
-  PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
-  PetscCall(ContactAssemblyDestroy(&assembly));
-  PetscCall(PetscLogEventEnd(CONTACT_Linearize, NULL, NULL, NULL, NULL));
-  PetscFunctionReturn(0);
-}
-
 /*@
   ContactLinearize - Linearizes the gap at a displacement: c(u') = g + J (u' - u)
 
@@ -97,7 +55,10 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, ContactParts parts,
 
   Input Parameters:
 + contact - the contact
-- u       - global displacement vector, 3 components per vertex [length]
+. u       - global displacement vector, 3 components per vertex [length]
+- parts   - what is computed: CONTACT_GAPS, the gap and its rows, without the derivatives that only a solve needs; J of
+            smooth pairs is the derivative for their facets. CONTACT_FORCES: all but lin->derivative, which is NULL.
+            CONTACT_DERIVATIVE: all
 
   Output Parameter:
 . lin - the linearized gap; it may have no rows
@@ -153,57 +114,43 @@ static PetscErrorCode ContactMeasure(Contact contact, Vec u, ContactParts parts,
 
 .seealso: `ContactCreate()`, `ContactLinearizationDestroy()`
 @*/
-PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactLinearization *lin)
+PetscErrorCode ContactLinearize(Contact contact, Vec u, ContactParts parts, ContactLinearization *lin)
 {
+  ContactAssembly assembly;
+  PetscReal       norm;
+
   PetscFunctionBegin;
-  PetscCall(ContactMeasure(contact, u, CONTACT_DERIVATIVE, lin));
-  PetscFunctionReturn(0);
-}
+  /* The 1-norm is used because the maximum norm of BLAS ignores NaN. */
+  PetscCall(VecNorm(u, NORM_1, &norm));
+  PetscCheck(!PetscIsInfOrNanReal(norm), contact->comm, PETSC_ERR_FP,
+    "The displacement at which contact is linearized is not finite");
+  PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
+  PetscCall(ContactDeform(contact, u));
+  PetscCall(ContactPrescribedRowsDistribute(contact));
+  PetscCall(ContactAssemblyCreate(contact, parts, &assembly));
+  for (PetscInt p = 0; p < contact->npairs; ++p) {
+    ContactPairData     *pair = &contact->pairs[p];
+    const ContactGapOps *ops  = PairGetGapOps(pair);
+    PetscReal box[6] = {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL};
+    ContactCandidates candidates;
 
-/*@
-  ContactLinearizeForces - Linearizes the gap at a displacement without computing lin->derivative, which takes less time
-
-  Collective
-
-  Input Parameters:
-+ contact - the contact
-- u       - global displacement vector, 3 components per vertex [length]
-
-  Output Parameter:
-. lin - the linearized gap, as computed by `ContactLinearize()`, but lin->derivative is NULL
-
-  Level: developer
-
-.seealso: `ContactLinearize()`, `ContactLinearizationDestroy()`
-@*/
-PetscErrorCode ContactLinearizeForces(Contact contact, Vec u, ContactLinearization *lin)
-{
-  PetscFunctionBegin;
-  PetscCall(ContactMeasure(contact, u, CONTACT_FORCES, lin));
-  PetscFunctionReturn(0);
-}
-
-/*@
-  ContactGetGaps - Measures the gap at a displacement
-
-  Collective
-
-  Input Parameters:
-+ contact - the contact
-- u       - global displacement vector, 3 components per vertex [length]
-
-  Output Parameter:
-. lin - the gap and its rows as computed by `ContactLinearize()`, without the derivatives that only a solve needs. J of
-        smooth pairs is the derivative for their facets, and lin->derivative is NULL
-
-  Level: developer
-
-.seealso: `ContactLinearize()`, `ContactLinearizationDestroy()`
-@*/
-PetscErrorCode ContactGetGaps(Contact contact, Vec u, ContactLinearization *lin)
-{
-  PetscFunctionBegin;
-  PetscCall(ContactMeasure(contact, u, CONTACT_GAPS, lin));
+    PetscCall(PetscLogEventBegin(CONTACT_Search, NULL, NULL, NULL, NULL));
+    PetscCall((*ops->box)(contact, p, box));
+    PetscCall(ContactExchange(contact->comm, box, &pair->mortar, &candidates));
+    PetscCall(PetscLogEventEnd(CONTACT_Search, NULL, NULL, NULL, NULL));
+    PetscCall((*ops->add)(contact, p, &candidates, &assembly));
+    PetscCall(ContactCornersAdd(pair, &assembly));
+    PetscCall(ContactCandidatesDestroy(&candidates));
+  }
+  PetscCall(PetscLogEventBegin(CONTACT_Integrate, NULL, NULL, NULL, NULL));
+  PetscCall(ContactAssemblyFinish(contact, &assembly, lin));
+  if (contact->stretches) {
+    PetscCall(PetscMalloc1((*lin)->nlocal + 1, &(*lin)->area));
+    PetscCall(ContactRowAreas(contact, PETSC_TRUE, *lin, (*lin)->area));
+  }
+  PetscCall(PetscLogEventEnd(CONTACT_Integrate, NULL, NULL, NULL, NULL));
+  PetscCall(ContactAssemblyDestroy(&assembly));
+  PetscCall(PetscLogEventEnd(CONTACT_Linearize, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
 

@@ -9,9 +9,10 @@
 
 /* Position of the records in a dataset, which is contiguous and not filled with zeros */
 typedef struct {
-  hid_t   type, dataset, here, there; /* type of a number; the dataset; data spaces in memory (here) and in the file
+  hid_t type, dataset, here,
+    there;          /* type of a number in the file; the dataset; data spaces in memory (here) and in the file
                                          (there) */
-  hsize_t n, first;                   /* number of records of this rank; number of records of the ranks before it */
+  hsize_t n, first; /* number of records of this rank; number of records of the ranks before it */
 } DatasetPlace;
 
 static PetscErrorCode DatasetSelect(DatasetPlace *place, int dimensions, const hsize_t shape[2])
@@ -65,11 +66,15 @@ static PetscErrorCode DatasetWriteRecords(MPI_Comm comm, PetscViewer viewer, con
   int dimensions, PetscInt n, PetscInt components, const void *values)
 {
   DatasetPlace place;
+  PetscBool    single;
+  hid_t        number;
 
   PetscFunctionBegin;
-  PetscCall(PetscDataTypeToHDF5DataType(type, &place.type));
+  PetscCall(PetscDataTypeToHDF5DataType(type, &number));
+  PetscCall(PetscViewerHDF5GetSPOutput(viewer, &single));
+  place.type = single && type == PETSC_SCALAR ? H5T_NATIVE_FLOAT : number;
   PetscCall(DatasetPlaceCreate(comm, viewer, name, dimensions, n, components, &place));
-  DATASET_HDF5(H5Dwrite(place.dataset, place.type, place.here, place.there, H5P_DEFAULT, values));
+  DATASET_HDF5(H5Dwrite(place.dataset, number, place.here, place.there, H5P_DEFAULT, values));
   PetscCall(DatasetPlaceDestroy(&place));
   PetscFunctionReturn(0);
 }

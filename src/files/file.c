@@ -108,6 +108,7 @@ PetscErrorCode FileWriteHDF5(MPI_Comm comm, const char file[], PetscErrorCode (*
   PetscCall(PetscPushErrorHandler(FileKeepMessage, message));
   SilenceOutputBegin(&mute);
   ierr = PetscViewerHDF5Open(comm, part.name, FILE_MODE_WRITE, &viewer);
+  if (!ierr) ierr = PetscViewerHDF5SetSPOutput(viewer, PETSC_FALSE); /* meshes and checkpoints have all digits */
   if (!ierr) ierr = write(viewer, ctx);
   if (!ierr) ierr = PetscViewerDestroy(&viewer);
   SilenceOutputEnd(&mute);

@@ -1,4 +1,4 @@
-/* Computes pressure, gap and status at the vertices of both sides of every contact pair */
+/* Computes pressure, gap and status at the nodes of both sides of every contact pair */
 #include "pair_rows.h"
 #include <math.h>
 #include "src/elasticity/recovery/recoveryimpl.h"
@@ -6,184 +6,86 @@
 #include "src/state/contact_state.h"
 #include "src/state/path.h"
 
-/*
-   Values at the mesh's vertices that belong to the pair, three per vertex. carried: covered area, force, gap x area;
-   sides: 1 on the mortar side or -1 on the nonmortar side, area with pressure, area after stretch; closing: closed
-   area, facet length x area, force of slipping rows; force: components of the contact force.
-*/
-typedef struct {
-  Vec carried, sides, closing, force;
-  Vec shear, slid; /* friction force on the mortar side [force]; slip x area [length^3]; NULL without friction */
-} PairVertices;
+/* Sums over the rows at each node, weighted by the area that they share. Those before AT_EVEN are agglomerated and
+   smoothed (nodal_pressure.c); AT_ALONE and AT_GAP_ALONE are the area and the gap before that. */
+typedef enum {
+  AT_AREA,
+  AT_GAP,
+  AT_FORCE,
+  AT_SHEAR, /* components of the friction stress on the mortar side */
+  AT_EVEN  = AT_SHEAR + 3,
+  AT_ALONE = AT_EVEN,
+  AT_GAP_ALONE,
+  AT_PRESSES,
+  AT_CLOSED,
+  AT_LENGTH,
+  AT_STRETCH,
+  AT_SLIPPING, /* force of slipping rows */
+  AT_FORCE_ALONE,
+  AT_SLID, /* components of the slip */
+  AT_SUMS = AT_SLID + 3
+} NodeSum;
 
-/* Computes the contact force J^T (mass x pressure) of the rows of the pair */
-static PetscErrorCode PairPlaceForces(Simulation sim, const PairRows *rows, Vec force)
+/* Computes the contact force on the nodes: J^T (mass x pressure) of the rows of the pair, and their friction */
+static PetscErrorCode PairPlaceForces(Simulation sim, PetscInt pair, const PairRows *rows, Vec force)
 {
-  const PetscScalar *mass;
-  PetscScalar       *y;
-  Vec                weighted;
+  ContactLinearization lin = sim->solved->linearization;
+  const PetscScalar   *mass;
+  PetscScalar         *y;
+  Vec                  shear;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(sim->solved->linearization->mass, &weighted));
-  PetscCall(VecGetArrayRead(sim->solved->linearization->mass, &mass));
-  PetscCall(VecGetArrayWrite(weighted, &y));
+  PetscCall(VecGetArrayRead(lin->mass, &mass));
+  PetscCall(VecGetArrayWrite(rows->row, &y));
   for (PetscInt r = 0; r < rows->n; ++r) y[r] = rows->area[r] > 0.0 ? mass[r] * sim->solved->pressure[r] : 0.0;
-  PetscCall(VecRestoreArrayWrite(weighted, &y));
-  PetscCall(VecRestoreArrayRead(sim->solved->linearization->mass, &mass));
-  PetscCall(MatMultTranspose(sim->solved->linearization->J, weighted, force));
-  PetscCall(VecDestroy(&weighted));
+  PetscCall(VecRestoreArrayWrite(rows->row, &y));
+  PetscCall(VecRestoreArrayRead(lin->mass, &mass));
+  PetscCall(MatMultTranspose(lin->J, rows->row, force));
+  if (!rows->frictional) PetscFunctionReturn(0);
+  PetscCall(MatCreateVecs(lin->slip, NULL, &shear));
+  PetscCall(VecGetArrayWrite(shear, &y));
+  for (PetscInt k = 0; k < 2 * rows->n; ++k) y[k] = sim->solved->shear[k];
+  PetscCall(VecRestoreArrayWrite(shear, &y));
+  PetscCall(FrictionAddForces(lin, lin->slip, shear, pair, force));
+  PetscCall(VecDestroy(&shear));
   PetscFunctionReturn(0);
 }
 
-/*
-   Adds friction at the vertices: computes shear and slid, the force of slipping rows in closing[2], and adds the
-   friction forces to `force`
-*/
-static PetscErrorCode PairVerticesAddFriction(Simulation sim, PetscInt pair, const PairRows *rows,
-  PairVertices *vertices)
+/* Computes the sums at the nodes. stretch: of each row, by ContactGetStretch(); NULL: 1 */
+static PetscErrorCode PairSum(Simulation sim, PetscInt pair, const PairRows *rows, const PetscReal stretch[],
+  PairFacets *facets, Vec sums[AT_SUMS])
 {
-  PetscReal   *slipping;
-  PetscScalar *f;
-  Vec          force;
+  const PetscBool  smooth[AT_EVEN] = {PETSC_FALSE, PETSC_FALSE, PETSC_TRUE, PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
+  const PetscReal *value[AT_SUMS]  = {[AT_AREA] = NULL,
+     [AT_GAP]                                   = rows->gap,
+     [AT_FORCE]                                 = rows->pressure,
+     [AT_ALONE]                                 = NULL,
+     [AT_GAP_ALONE]                             = rows->gap,
+     [AT_PRESSES]                               = rows->presses,
+     [AT_CLOSED]                                = rows->closed,
+     [AT_LENGTH]                                = rows->length,
+     [AT_STRETCH]                               = stretch,
+     [AT_FORCE_ALONE]                           = rows->pressure};
+  PetscReal       *slipping;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(sim->path->u, &vertices->shear));
-  PetscCall(VecDuplicate(sim->path->u, &vertices->slid));
-  PetscCall(VecZeroEntries(vertices->shear));
-  PetscCall(VecZeroEntries(vertices->slid));
-  PetscCall(PetscMalloc1(rows->n, &slipping));
-  for (PetscInt r = 0; r < rows->n; ++r) slipping[r] = rows->slips[r] * rows->pressure[r];
-  PetscCall(PairSpread(sim, rows, slipping, vertices->sides, 2, vertices->closing));
+  PetscCall(PetscCalloc1(rows->n, &slipping));
+  for (PetscInt r = 0; r < rows->n && rows->frictional; ++r) slipping[r] = rows->slips[r] * rows->pressure[r];
+  value[AT_SLIPPING] = slipping;
+  for (PetscInt c = 0; c < 3 && rows->frictional; ++c) {
+    value[AT_SHEAR + c] = rows->shear + c * rows->n;
+    value[AT_SLID + c]  = rows->slid + c * rows->n;
+  }
+  for (PetscInt k = 0; k < AT_SUMS; ++k) {
+    const PetscBool friction = (PetscBool)((k >= AT_SHEAR && k < AT_EVEN) || k == AT_SLIPPING || k >= AT_SLID);
+
+    PetscCall(VecDuplicate(rows->node, &sums[k]));
+    PetscCall(VecZeroEntries(sums[k]));
+    if (rows->frictional || !friction) PetscCall(PairSpread(rows, value[k], sums[k]));
+  }
   PetscCall(PetscFree(slipping));
-  for (PetscInt c = 0; c < 3; ++c) {
-    PetscCall(PairSpread(sim, rows, rows->shear + c * rows->n, vertices->sides, c, vertices->shear));
-    PetscCall(PairSpread(sim, rows, rows->slid + c * rows->n, vertices->sides, c, vertices->slid));
-  }
-  PetscCall(MatCreateVecs(sim->solved->linearization->slip, NULL, &force));
-  PetscCall(VecGetArrayWrite(force, &f));
-  for (PetscInt k = 0; k < 2 * rows->n; ++k) f[k] = sim->solved->shear[k];
-  PetscCall(VecRestoreArrayWrite(force, &f));
   PetscCall(
-    FrictionAddForces(sim->solved->linearization, sim->solved->linearization->slip, force, pair, vertices->force));
-  PetscCall(VecDestroy(&force));
-  PetscFunctionReturn(0);
-}
-
-/* Computes the values of both sides of a pair before agglomeration (nodal_pressure.c). stretch: of each row, by
-   ContactGetStretch(); NULL: 1 */
-static PetscErrorCode PairVerticesCreate(Simulation sim, PetscInt pair, PairRows *rows, const PetscReal stretch[],
-  PairVertices *vertices)
-{
-  PetscFunctionBegin;
-  vertices->shear = vertices->slid = NULL;
-  PetscCall(VecDuplicate(sim->path->u, &vertices->carried));
-  PetscCall(VecDuplicate(sim->path->u, &vertices->sides));
-  PetscCall(VecDuplicate(sim->path->u, &vertices->closing));
-  PetscCall(VecDuplicate(sim->path->u, &vertices->force));
-  PetscCall(VecZeroEntries(vertices->carried));
-  PetscCall(VecZeroEntries(vertices->closing));
-  PetscCall(PairMarkSides(sim, pair, rows, vertices->sides));
-  PetscCall(PairRowsResolve(sim, pair, vertices->sides, rows));
-  PetscCall(PairSpread(sim, rows, NULL, vertices->sides, 0, vertices->carried));
-  PetscCall(PairSpread(sim, rows, rows->pressure, vertices->sides, 1, vertices->carried));
-  PetscCall(PairSpread(sim, rows, rows->gap, vertices->sides, 2, vertices->carried));
-  PetscCall(PairSpread(sim, rows, rows->presses, vertices->sides, 1, vertices->sides));
-  if (stretch) PetscCall(PairSpread(sim, rows, stretch, vertices->sides, 2, vertices->sides));
-  PetscCall(PairSpread(sim, rows, rows->closed, vertices->sides, 0, vertices->closing));
-  PetscCall(PairSpread(sim, rows, rows->length, vertices->sides, 1, vertices->closing));
-  PetscCall(PairPlaceForces(sim, rows, vertices->force));
-  if (rows->frictional) PetscCall(PairVerticesAddFriction(sim, pair, rows, vertices));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode PairVerticesDestroy(PairVertices *vertices)
-{
-  PetscFunctionBegin;
-  PetscCall(VecDestroy(&vertices->carried));
-  PetscCall(VecDestroy(&vertices->sides));
-  PetscCall(VecDestroy(&vertices->closing));
-  PetscCall(VecDestroy(&vertices->force));
-  PetscCall(VecDestroy(&vertices->shear));
-  PetscCall(VecDestroy(&vertices->slid));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Smooths one component of the friction stress like the pressure (nodal_pressure.c), so that both together satisfy the
-   friction law. first: the pair's first point; alone: values before agglomeration.
-*/
-static PetscErrorCode PairShearPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices,
-  Vec alone, PetscInt component)
-{
-  PetscSection       global;
-  const PetscScalar *shear, *a;
-  PetscScalar       *carry;
-  PetscInt           rstart, n;
-  Vec                carried;
-
-  PetscFunctionBegin;
-  PetscCall(DMGetGlobalSection(sim->dm, &global));
-  PetscCall(VecGetOwnershipRange(alone, &rstart, NULL));
-  PetscCall(VecGetLocalSize(alone, &n));
-  PetscCall(VecDuplicate(alone, &carried));
-  PetscCall(VecCopy(alone, carried));
-  PetscCall(VecGetArrayRead(vertices->shear, &shear));
-  PetscCall(VecGetArray(carried, &carry));
-  for (PetscInt i = 0; i < n; i += 3) carry[i + 1] = shear[i + component];
-  PetscCall(VecRestoreArray(carried, &carry));
-  PetscCall(NodalPressureEvenOut(sim, &sim->scene->pairs[pair], carried));
-  PetscCall(VecGetArrayRead(carried, &a));
-  for (PetscInt k = first; k < sim->solved->npoints; ++k) {
-    ContactPoint *point = &sim->solved->points[k];
-    PetscInt      i;
-
-    PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
-    i -= rstart;
-    if (point->area > 0.0) point->shear[component] = PetscRealPart(a[i + 1] / a[i]);
-  }
-  PetscCall(VecRestoreArrayRead(carried, &a));
-  PetscCall(VecRestoreArrayRead(vertices->shear, &shear));
-  PetscCall(VecDestroy(&carried));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Sets friction stress and slip of the pair's points, from number `first` on. The slip is the mean over the covered
-   area before agglomeration, which is in `alone`.
-*/
-static PetscErrorCode PairAddFrictionPoints(Simulation sim, PetscInt pair, PetscInt first, const PairVertices *vertices,
-  Vec alone)
-{
-  PetscSection          global;
-  const ContactHistory *m = sim->history;
-  const PetscScalar    *area, *side, *closing, *slid;
-  PetscInt              rstart;
-
-  PetscFunctionBegin;
-  for (PetscInt c = 0; c < 3; ++c) PetscCall(PairShearPoints(sim, pair, first, vertices, alone, c));
-  PetscCall(DMGetGlobalSection(sim->dm, &global));
-  PetscCall(VecGetOwnershipRange(alone, &rstart, NULL));
-  PetscCall(VecGetArrayRead(alone, &area));
-  PetscCall(VecGetArrayRead(vertices->sides, &side));
-  PetscCall(VecGetArrayRead(vertices->closing, &closing));
-  PetscCall(VecGetArrayRead(vertices->slid, &slid));
-  for (PetscInt k = first; k < sim->solved->npoints; ++k) {
-    ContactPoint *point = &sim->solved->points[k];
-    PetscInt      i;
-
-    PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
-    i -= rstart;
-    for (PetscInt c = 0; c < 3; ++c) {
-      point->shear[c] *= PetscRealPart(side[i]);
-      point->slip[c] = -PetscRealPart(side[i] * slid[i + c] / area[i]);
-    }
-    point->slips     = (PetscBool)(point->closed && PetscRealPart(closing[i + 2]) > 0.5 * PetscRealPart(area[i + 1]));
-    point->slip_path = m->slip_path[point->pair * m->nowned + i / 3];
-  }
-  PetscCall(VecRestoreArrayRead(vertices->slid, &slid));
-  PetscCall(VecRestoreArrayRead(vertices->closing, &closing));
-  PetscCall(VecRestoreArrayRead(vertices->sides, &side));
-  PetscCall(VecRestoreArrayRead(alone, &area));
+    NodalPressureEvenOut(sim, &sim->scene->pairs[pair], facets, rows->frictional ? AT_EVEN : AT_SHEAR, sums, smooth));
   PetscFunctionReturn(0);
 }
 
@@ -193,84 +95,81 @@ static PetscBool PairIsMostly(PetscReal part, PetscReal whole)
   return (PetscBool)(2.0 * part > (1.0 + PETSC_SQRT_MACHINE_EPSILON) * whole);
 }
 
-/* Appends the pair's points. alone: values before agglomeration. */
-static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const PairRows *rows,
-  const PairVertices *vertices, Vec alone)
+/* Sets pressure, gap, friction and status of a point from the sums at its node. stretched: whether AT_STRETCH is the
+   stretch of the faces since the linearization, by which areas are multiplied and stresses are divided; side: 1 on the
+   mortar side, else -1 */
+static void PairSetPoint(const PairRows *rows, const PetscReal sum[AT_SUMS], PetscBool stretched, PetscReal side,
+  ContactPoint *point)
 {
+  const PetscReal alone = sum[AT_ALONE];
+
+  point->area = sum[AT_AREA];
+  point->gap  = sum[AT_GAP_ALONE] / alone;
+  if (point->area > 0.0) {
+    point->pressure = sum[AT_FORCE] / point->area;
+    point->gap      = sum[AT_GAP] / point->area;
+  }
+  point->presses = PairIsMostly(sum[AT_PRESSES], alone);
+  point->closed  = (PetscBool)(PairIsMostly(sum[AT_CLOSED], alone) ||
+                              PairIsClosed(point->pressure, point->gap, rows->young, sum[AT_LENGTH] / alone));
+  for (PetscInt c = 0; c < 3 && rows->frictional; ++c) {
+    if (point->area > 0.0) point->shear[c] = side * sum[AT_SHEAR + c] / point->area;
+    point->slip[c] = -side * sum[AT_SLID + c] / alone;
+  }
+  if (rows->frictional) point->slips = (PetscBool)(point->closed && sum[AT_SLIPPING] > 0.5 * sum[AT_FORCE_ALONE]);
+  if (!stretched || !(sum[AT_STRETCH] > 0.0)) return;
+  point->area *= sum[AT_STRETCH] / alone;
+  point->pressure /= sum[AT_STRETCH] / alone;
+  for (PetscInt c = 0; c < 3; ++c) point->shear[c] /= sum[AT_STRETCH] / alone;
+}
+
+/* Appends the pair's points. `closed` is set to 1 at the nodes of closed points, and to 0 elsewhere. areas: those of
+   the nonmortar side's points that are closed, and that slip */
+static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const PairRows *rows, PetscBool stretched,
+  Vec sums[AT_SUMS], Vec force, Vec closed, PetscReal areas[2])
+{
+  const PetscReal    weight = rows->self ? 0.5 : 1.0;
   PetscSection       global;
-  const PetscScalar *a, *b, *s, *side, *f;
-  PetscInt           pstart, pend, rstart, n, npoints = 0;
+  const PetscScalar *a[AT_SUMS], *side, *f;
+  PetscScalar       *at;
+  PetscInt           pstart, pend, first, n, npoints = 0;
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalSection(sim->dm, &global));
   PetscCall(PetscSectionGetChart(global, &pstart, &pend));
-  PetscCall(VecGetOwnershipRange(alone, &rstart, NULL));
-  PetscCall(VecGetLocalSize(alone, &n));
-  PetscCall(VecGetArrayRead(vertices->carried, &a));
-  PetscCall(VecGetArrayRead(alone, &b));
-  PetscCall(VecGetArrayRead(vertices->sides, &side));
-  PetscCall(VecGetArrayRead(vertices->closing, &s));
-  PetscCall(VecGetArrayRead(vertices->force, &f));
-  for (PetscInt i = 0; i < n; i += 3) npoints += PetscRealPart(b[i]) > 0.0;
+  PetscCall(VecGetOwnershipRange(force, &first, NULL));
+  PetscCall(VecGetLocalSize(closed, &n));
+  for (PetscInt k = 0; k < AT_SUMS; ++k) PetscCall(VecGetArrayRead(sums[k], &a[k]));
+  PetscCall(VecGetArrayRead(rows->sides, &side));
+  PetscCall(VecGetArrayRead(force, &f));
+  PetscCall(VecZeroEntries(closed));
+  PetscCall(VecGetArray(closed, &at));
+  for (PetscInt i = 0; i < n; ++i) npoints += PetscRealPart(a[AT_ALONE][i]) > 0.0;
   PetscCall(PetscRealloc((sim->solved->npoints + npoints) * sizeof(ContactPoint), &sim->solved->points));
   for (PetscInt v = pstart; v < pend; ++v) {
     ContactPoint *point;
+    PetscReal     sum[AT_SUMS];
     PetscInt      i, ndofs;
 
     PetscCall(PetscSectionGetDof(global, v, &ndofs));
     PetscCall(PetscSectionGetOffset(global, v, &i));
-    i -= rstart;
-    if (ndofs <= 0 || i < 0 || !(PetscRealPart(b[i]) > 0.0)) continue;
-    point = &sim->solved->points[sim->solved->npoints++];
-    *point =
-      (ContactPoint){.pair = pair, .vertex = v, .area = PetscRealPart(a[i]), .gap = PetscRealPart(b[i + 2] / b[i])};
-    if (point->area > 0.0) {
-      point->pressure = PetscRealPart(a[i + 1] / a[i]);
-      point->gap      = PetscRealPart(a[i + 2] / a[i]);
-    }
-    for (PetscInt c = 0; c < 3; ++c) point->force[c] = PetscRealPart(f[i + c]);
-    point->presses = PairIsMostly(PetscRealPart(side[i + 1]), PetscRealPart(b[i]));
-    point->closed  = (PetscBool)(PairIsMostly(PetscRealPart(s[i]), PetscRealPart(b[i])) ||
-                                PairIsClosed(point->pressure, point->gap, rows->young, PetscRealPart(s[i + 1] / b[i])));
+    i = (i - first) / 3;
+    if (ndofs <= 0 || i < 0 || !(PetscRealPart(a[AT_ALONE][i]) > 0.0)) continue;
+    for (PetscInt k = 0; k < AT_SUMS; ++k) sum[k] = PetscRealPart(a[k][i]);
+    point  = &sim->solved->points[sim->solved->npoints++];
+    *point = (ContactPoint){.pair = pair, .vertex = v};
+    PairSetPoint(rows, sum, stretched, PetscRealPart(side[i]), point);
+    for (PetscInt c = 0; c < 3; ++c) point->force[c] = PetscRealPart(f[3 * i + c]);
+    if (rows->frictional) point->slip_path = sim->history->slip_path[pair * sim->history->nowned + i];
+    at[i] = point->closed ? 1.0 : 0.0;
+    if (!rows->self && PetscRealPart(side[i]) > 0.0) continue;
+    if (point->closed) areas[0] += weight * point->area;
+    if (point->slips) areas[1] += weight * point->area;
   }
-  PetscCall(VecRestoreArrayRead(vertices->force, &f));
-  PetscCall(VecRestoreArrayRead(vertices->closing, &s));
-  PetscCall(VecRestoreArrayRead(vertices->sides, &side));
-  PetscCall(VecRestoreArrayRead(alone, &b));
-  PetscCall(VecRestoreArrayRead(vertices->carried, &a));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Multiplies the areas of the pair's points by the stretch of their faces since the linearization, and divides their
-   stresses by it. first: the pair's first point; alone: values before agglomeration.
-*/
-static PetscErrorCode PairStretchPoints(Simulation sim, PetscInt first, const PairVertices *vertices, Vec alone)
-{
-  PetscSection       global;
-  const PetscScalar *area, *side;
-  PetscInt           rstart;
-
-  PetscFunctionBegin;
-  PetscCall(DMGetGlobalSection(sim->dm, &global));
-  PetscCall(VecGetOwnershipRange(alone, &rstart, NULL));
-  PetscCall(VecGetArrayRead(alone, &area));
-  PetscCall(VecGetArrayRead(vertices->sides, &side));
-  for (PetscInt k = first; k < sim->solved->npoints; ++k) {
-    ContactPoint *point = &sim->solved->points[k];
-    PetscReal     stretch;
-    PetscInt      i;
-
-    PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
-    i -= rstart;
-    stretch = PetscRealPart(side[i + 2] / area[i]);
-    if (!(stretch > 0.0)) continue;
-    point->area *= stretch;
-    point->pressure /= stretch;
-    for (PetscInt c = 0; c < 3; ++c) point->shear[c] /= stretch;
-  }
-  PetscCall(VecRestoreArrayRead(vertices->sides, &side));
-  PetscCall(VecRestoreArrayRead(alone, &area));
+  PetscCall(VecRestoreArray(closed, &at));
+  PetscCall(VecRestoreArrayRead(force, &f));
+  PetscCall(VecRestoreArrayRead(rows->sides, &side));
+  for (PetscInt k = 0; k < AT_SUMS; ++k) PetscCall(VecRestoreArrayRead(sums[k], &a[k]));
   PetscFunctionReturn(0);
 }
 
@@ -305,41 +204,49 @@ static PetscErrorCode PairReportPressure(Simulation sim, PetscInt first, PairRep
   PetscFunctionReturn(0);
 }
 
-/* Computes the areas of the nonmortar side's points and the normal force for the report. first: the pair's first
-   point. */
-static PetscErrorCode PairReportPoints(Simulation sim, const PairRows *rows, Vec sides, PetscInt first,
-  PairReport *report)
+/* Sets the normal force and the areas of the report. areas: by PairAppendPoints(), on this rank */
+static PetscErrorCode PairReportForce(MPI_Comm comm, const PairRows *rows, const PetscReal areas[2], PairReport *report)
 {
-  PetscReal          sums[4] = {0.0};
-  const PetscReal    weight  = rows->self ? 0.5 : 1.0;
-  PetscSection       global;
-  const PetscScalar *side;
-  PetscInt           rstart;
+  PetscReal sums[4] = {0.0, areas[0], areas[1], 0.0};
 
   PetscFunctionBegin;
   for (PetscInt r = 0; r < rows->n; ++r) {
     sums[0] += rows->area[r] * rows->pressure[r];
-    sums[3] += weight * rows->area[r] * rows->presses[r];
+    sums[3] += (rows->self ? 0.5 : 1.0) * rows->area[r] * rows->presses[r];
   }
-  PetscCall(DMGetGlobalSection(sim->dm, &global));
-  PetscCall(VecGetOwnershipRange(sides, &rstart, NULL));
-  PetscCall(VecGetArrayRead(sides, &side));
-  for (PetscInt k = first; k < sim->solved->npoints; ++k) {
-    const ContactPoint *point = &sim->solved->points[k];
-    PetscInt            i;
-
-    PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
-    if (!rows->self && PetscRealPart(side[i - rstart]) > 0.0) continue;
-    if (point->closed) sums[1] += weight * point->area;
-    if (point->slips) sums[2] += weight * point->area;
-  }
-  PetscCall(VecRestoreArrayRead(sides, &side));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, comm));
   if (sums[1] == 0.0) sums[1] = sums[3]; /* contact within the facets around one vertex closes none of them */
   report->normal_force = sums[0];
   report->area         = sums[1];
   report->slip_area    = sums[2];
   report->stick_area   = rows->frictional ? sums[1] - sums[2] : 0.0;
+  PetscFunctionReturn(0);
+}
+
+/* Computes the contact points and the report of a pair. Collective. */
+static PetscErrorCode PairMeasure(Simulation sim, PetscInt pair, const PetscReal stretch[], PairReport *report)
+{
+  const PetscInt first    = sim->solved->npoints;
+  PetscReal      areas[2] = {0.0, 0.0};
+  PairRows       rows;
+  PairFacets     facets;
+  Vec            sums[AT_SUMS], force;
+
+  PetscFunctionBegin;
+  PetscCall(PairRowsCreate(sim, pair, &rows));
+  PetscCall(PairRowsResolve(sim, pair, &rows));
+  PetscCall(PairFacetsCreate(sim, &sim->scene->pairs[pair], &facets));
+  PetscCall(VecDuplicate(sim->path->u, &force));
+  PetscCall(PairPlaceForces(sim, pair, &rows, force));
+  PetscCall(PairSum(sim, pair, &rows, stretch, &facets, sums));
+  PetscCall(PairAppendPoints(sim, pair, &rows, (PetscBool)(stretch != NULL), sums, force, rows.node, areas));
+  PetscCall(PairReportForce(sim->comm, &rows, areas, report));
+  PetscCall(PairReportPressure(sim, first, report));
+  PetscCall(PairMeshMeasure(sim, &rows, &facets, rows.node, report));
+  for (PetscInt k = 0; k < AT_SUMS; ++k) PetscCall(VecDestroy(&sums[k]));
+  PetscCall(VecDestroy(&force));
+  PetscCall(PairFacetsDestroy(&facets));
+  PetscCall(PairRowsDestroy(&rows));
   PetscFunctionReturn(0);
 }
 
@@ -352,32 +259,12 @@ PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
   sim->solved->npoints = 0;
+  PetscCall(PetscFree(sim->solved->points));
   if (lin && lin->area) {
     PetscCall(PetscMalloc1(lin->nlocal + 1, &stretch)); /* not NULL on ranks without rows */
     PetscCall(ContactGetStretch(sim->contact, sim->path->u, lin, stretch));
   }
-  PetscCall(PetscFree(sim->solved->points));
-  for (PetscInt p = 0; sim->solved->linearization && p < report->npairs; ++p) {
-    const PetscInt first = sim->solved->npoints;
-    PairRows       rows;
-    PairVertices   vertices;
-    Vec            alone;
-
-    PetscCall(PairRowsCreate(sim, p, &rows));
-    PetscCall(PairVerticesCreate(sim, p, &rows, stretch, &vertices));
-    PetscCall(VecDuplicate(vertices.carried, &alone));
-    PetscCall(VecCopy(vertices.carried, alone));
-    PetscCall(NodalPressureEvenOut(sim, &sim->scene->pairs[p], vertices.carried));
-    PetscCall(PairAppendPoints(sim, p, &rows, &vertices, alone));
-    if (rows.frictional) PetscCall(PairAddFrictionPoints(sim, p, first, &vertices, alone));
-    if (stretch) PetscCall(PairStretchPoints(sim, first, &vertices, alone));
-    PetscCall(PairReportPoints(sim, &rows, vertices.sides, first, &report->pairs[p]));
-    PetscCall(PairReportPressure(sim, first, &report->pairs[p]));
-    PetscCall(PairMeshMeasure(sim, p, &rows, first, &report->pairs[p]));
-    PetscCall(VecDestroy(&alone));
-    PetscCall(PairVerticesDestroy(&vertices));
-    PetscCall(PairRowsDestroy(&rows));
-  }
+  for (PetscInt p = 0; lin && p < report->npairs; ++p) PetscCall(PairMeasure(sim, p, stretch, &report->pairs[p]));
   PetscCall(PetscFree(stretch));
   PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);

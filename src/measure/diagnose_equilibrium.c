@@ -73,7 +73,7 @@ static PetscErrorCode ConeLinearize(Simulation sim, const FreeMotions *m, ConeKi
     PetscCall(VecNorm(sim->places.x, NORM_INFINITY, &extent));
     PetscCall(ContactSetReach(sim->contact, 2.0 * PetscSqrtReal(3.0) * extent, 0.0));
   }
-  PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &rows->lin));
+  PetscCall(ContactLinearize(sim->contact, sim->path->u, CONTACT_FORCES, &rows->lin));
   PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
   PetscCall(ContactSetDual(sim->contact, used, &changed));
   PetscCall(MatMatMult(rows->lin->J, m->Z, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &rows->gap));

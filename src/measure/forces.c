@@ -133,7 +133,11 @@ PetscErrorCode ForcesReserve(Simulation sim, StepReport *report)
     for (PetscInt d = 0; d < 3; ++d) report->pairs[p].pressure_place[d] = NAN;
     report->pairs[p].frictional = SceneContactPairHasFriction(&scene->pairs[p]);
   }
-  for (PetscInt d = 0; d < scene->ndisplacements; ++d) (void)ForcesFindFace(report, scene->displacements[d].face);
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
+    FaceReport *face = &report->faces[ForcesFindFace(report, scene->displacements[d].face)];
+
+    if (!scene->displacements[d].symmetry) face->driven = PETSC_TRUE;
+  }
   for (PetscInt b = 0; b < scene->nbodies; ++b) report->bodies[b].name = scene->bodies[b].name;
   PetscFunctionReturn(0);
 }

@@ -220,7 +220,7 @@ static PetscErrorCode StartRefuseEntered(Simulation sim, PetscInt p, StepReport 
   if (!entered) PetscFunctionReturn(0);
   PetscCall(PetscSNPrintf(reason, sizeof(reason),
     "contact pair \"%s\" was open at the end of every load step, but its bodies have passed into each other, for "
-    "example at the vertex (%g, %g, %g): the faces %s and %s are not those that meet",
+    "example at the point (%g, %g, %g): the faces %s and %s are not those that meet",
     pair->name, (double)place[0], (double)place[1], (double)place[2], pair->mortar, pair->nonmortar));
   PetscCall(PenetrationFail(sim, report, reason));
   PetscFunctionReturn(0);
@@ -321,8 +321,8 @@ PetscErrorCode StepDescribeContact(Scene scene, DM dm, PetscViewer viewer)
   PetscCall(ContactSetCyclic(contact, scene->ncyclic, scene->cyclic));
   PetscCall(DMCreateGlobalVector(dm, &zero));
   PetscCall(VecZeroEntries(zero));
-  PetscCall(ContactLinearizeForces(contact, zero, &lin));
-  PetscCall(ContactCheckDepth(contact, lin));
+  PetscCall(ContactLinearize(contact, zero, CONTACT_FORCES, &lin));
+  PetscCall(ContactCheckDepth(contact));
   PetscCall(PetscMalloc1(scene->npairs, &starts));
   PetscCall(StartMeasure(PetscObjectComm((PetscObject)dm), lin, scene->npairs, starts));
   PetscCall(PetscViewerASCIIPrintf(viewer, "Contact at the start\n"));

@@ -48,12 +48,6 @@ PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, Vec
 PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
 
 /*
-   nodal_pressure.c: smooths the values (area, force, gap x area) of vertices at the edge of the area that the other
-   side covers
-*/
-PETSC_INTERN PetscErrorCode NodalPressureEvenOut(Simulation, const SceneContactPair *, Vec carried);
-
-/*
    contact_points.c: computes sim->solved->points, with pressure, gap and status on both sides of every pair, and the
    pairs' reports
 */

@@ -32,101 +32,42 @@ static PetscErrorCode PairMeasureFacets(MPI_Comm comm, const PairRows *rows, Pet
 }
 
 /*
-   Counts facets around the vertices of a face. Values of each vertex: 1 if the pair is closed there; number of facets
-   around it; number of these that are closed at all corners.
-*/
-static PetscErrorCode PairCountFacets(Simulation sim, const char face[], const PetscScalar closed[],
-  PetscScalar count[])
-{
-  PetscSection    section;
-  IS              is;
-  const PetscInt *facets;
-  PetscInt        n;
-
-  PetscFunctionBegin;
-  PetscCall(DMGetLocalSection(sim->dm, &section));
-  PetscCall(MeshGetFacets(sim->dm, face, &is));
-  PetscCall(ISGetLocalSize(is, &n));
-  PetscCall(ISGetIndices(is, &facets));
-  for (PetscInt f = 0; f < n; ++f) {
-    PetscInt npieces, pieces[MESH_MAX_FACET_PIECES][4];
-
-    PetscCall(MeshGetFacetPieces(sim->dm, facets[f], &npieces, pieces));
-    for (PetscInt k = 0; k < npieces; ++k) {
-      PetscInt  at[4];
-      PetscBool all = PETSC_TRUE;
-
-      for (PetscInt a = 0; a < 4; ++a) {
-        PetscCall(PetscSectionGetOffset(section, pieces[k][a], &at[a]));
-        all = (PetscBool)(all && PetscRealPart(closed[at[a]]) > 0.0);
-      }
-      for (PetscInt a = 0; a < 4; ++a) {
-        count[at[a] + 1] += 1.0;
-        if (all) count[at[a] + 2] += 1.0;
-      }
-    }
-  }
-  PetscCall(ISRestoreIndices(is, &facets));
-  PetscCall(ISDestroy(&is));
-  PetscFunctionReturn(0);
-}
-
-/*
    Finds whether the contact is narrow: no closed vertex of the nonmortar face is completely surrounded by closed ones.
-   first: the pair's first point. Collective.
+   Collective.
 */
-static PetscErrorCode PairMeasureNarrowness(Simulation sim, PetscInt pair, PetscInt first, PetscBool *narrow)
+static PetscErrorCode PairMeasureNarrowness(PairFacets *facets, Vec closed, PetscBool *narrow)
 {
-  PetscSection       global;
-  Vec                closed, count, local[2];
-  const PetscScalar *a;
-  PetscScalar       *c;
-  PetscInt           rstart, n;
+  const PetscScalar *a, *c;
+  PetscInt           n;
   PetscBool          wide = PETSC_FALSE;
+  Vec                all, count;
 
   PetscFunctionBegin;
-  PetscCall(DMGetGlobalSection(sim->dm, &global));
-  PetscCall(VecDuplicate(sim->path->u, &closed));
-  PetscCall(VecDuplicate(sim->path->u, &count));
-  PetscCall(VecZeroEntries(closed));
-  PetscCall(VecZeroEntries(count));
-  PetscCall(VecGetOwnershipRange(closed, &rstart, &n));
-  n -= rstart;
-  PetscCall(VecGetArray(closed, &c));
-  for (PetscInt k = first; k < sim->solved->npoints; ++k) {
-    PetscInt i;
-
-    PetscCall(PetscSectionGetOffset(global, sim->solved->points[k].vertex, &i));
-    c[i - rstart] = sim->solved->points[k].closed ? 1.0 : 0.0;
-  }
-  PetscCall(VecRestoreArray(closed, &c));
-  for (PetscInt i = 0; i < 2; ++i) PetscCall(DMGetLocalVector(sim->dm, &local[i]));
-  PetscCall(DMGlobalToLocal(sim->dm, closed, INSERT_VALUES, local[0]));
-  PetscCall(VecZeroEntries(local[1]));
-  PetscCall(VecGetArrayRead(local[0], &a));
-  PetscCall(VecGetArray(local[1], &c));
-  PetscCall(PairCountFacets(sim, sim->scene->pairs[pair].nonmortar, a, c));
-  PetscCall(VecRestoreArray(local[1], &c));
-  PetscCall(VecRestoreArrayRead(local[0], &a));
-  PetscCall(DMLocalToGlobal(sim->dm, local[1], ADD_VALUES, count));
-  for (PetscInt i = 0; i < 2; ++i) PetscCall(DMRestoreLocalVector(sim->dm, &local[i]));
-  PetscCall(VecGetArrayRead(count, &a));
-  for (PetscInt i = 0; i < n; i += 3)
-    wide = (PetscBool)(wide || (PetscRealPart(a[i + 2]) > 0.0 && PetscRealPart(a[i + 1] - a[i + 2]) < 0.5));
-  PetscCall(VecRestoreArrayRead(count, &a));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &wide, 1, MPI_PETSCBOOL, MPI_LOR, sim->comm));
+  PetscCall(PairFacetsJoin(facets, facets->nnonmortar));
+  PetscCall(VecDuplicate(closed, &all));
+  PetscCall(VecDuplicate(closed, &count));
+  PetscCall(MatGetRowSum(facets->between, all));
+  PetscCall(MatMult(facets->between, closed, count));
+  PetscCall(VecGetLocalSize(closed, &n));
+  PetscCall(VecGetArrayRead(all, &a));
+  PetscCall(VecGetArrayRead(count, &c));
+  for (PetscInt i = 0; i < n; ++i)
+    wide = (PetscBool)(wide || (PetscRealPart(c[i]) > 0.0 && PetscRealPart(a[i] - c[i]) < 0.5));
+  PetscCall(VecRestoreArrayRead(count, &c));
+  PetscCall(VecRestoreArrayRead(all, &a));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &wide, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)closed)));
   *narrow = (PetscBool)!wide;
-  PetscCall(VecDestroy(&closed));
+  PetscCall(VecDestroy(&all));
   PetscCall(VecDestroy(&count));
   PetscFunctionReturn(0);
 }
 
 /* Sets facet size, coarseness and narrowness in the pair's report. Collective. */
-PetscErrorCode PairMeshMeasure(Simulation sim, PetscInt pair, const PairRows *rows, PetscInt first, PairReport *report)
+PetscErrorCode PairMeshMeasure(Simulation sim, const PairRows *rows, PairFacets *facets, Vec closed, PairReport *report)
 {
   PetscFunctionBegin;
   PetscCall(PairMeasureFacets(sim->comm, rows, &report->facet, &report->coarseness));
-  PetscCall(PairMeasureNarrowness(sim, pair, first, &report->narrow));
+  PetscCall(PairMeasureNarrowness(facets, closed, &report->narrow));
   PetscFunctionReturn(0);
 }
 

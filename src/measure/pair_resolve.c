@@ -3,7 +3,7 @@
    facets, few rows carry all of the force. The rows between them have no pressure, and gaps that are small compared
    with the mortar facets' deformation. The mortar side only responds to means over its shape functions. Therefore the
    pressures of open rows that are surrounded by closed ones, and of the rows around them, are replaced: first the rows'
-   values are averaged at the mortar vertices, weighted by the shared area, then these means are interpolated back to
+   values are averaged at the mortar nodes, weighted by the shared area, then these means are interpolated back to
    the rows. The sum of value x area over the rows is preserved.
 */
 #include "pair_rows.h"
@@ -21,47 +21,32 @@ static PetscReal ResolveModulus(Scene scene, PetscInt pair)
   return material->type == MATERIAL_RIGID ? PETSC_INFINITY : material->young;
 }
 
-/* Computes the size of the mortar facets around each of their vertices [length]. The vector `size` has three values
-   per vertex; the result is the first of them. */
-static PetscErrorCode ResolveSizes(Simulation sim, PetscInt pair, Vec size)
+/* Computes the mean of the marked rows' values at the mortar nodes, interpolated back to the rows. Collective. */
+static PetscErrorCode ResolveMean(const PairRows *rows, const PetscReal mark[], const PetscReal value[],
+  PetscReal mean[])
 {
-  PetscScalar *a;
-  PetscInt     n;
-
-  PetscFunctionBegin;
-  PetscCall(VecZeroEntries(size));
-  PetscCall(ElasticityAddFacetAreas(sim->elasticity, sim->scene->pairs[pair].mortar, size));
-  PetscCall(VecGetLocalSize(size, &n));
-  PetscCall(VecGetArray(size, &a));
-  for (PetscInt i = 0; i < n; i += 3)
-    a[i] = PetscSqrtReal(PetscSqrtReal(
-      PetscSqr(PetscRealPart(a[i])) + PetscSqr(PetscRealPart(a[i + 1])) + PetscSqr(PetscRealPart(a[i + 2]))));
-  PetscCall(VecRestoreArray(size, &a));
-  PetscFunctionReturn(0);
-}
-
-/* Computes the mean of the marked rows' values at the mortar vertices, interpolated back to the rows. Collective. */
-static PetscErrorCode ResolveMean(Simulation sim, const PairRows *rows, const PetscReal mark[], const PetscReal value[],
-  Vec sides, PetscReal mean[])
-{
-  PetscReal   *marked;
-  PetscScalar *a;
-  PetscInt     n;
-  Vec          v;
+  PetscReal         *marked;
+  const PetscScalar *w;
+  PetscScalar       *a;
+  PetscInt           n;
+  Vec                weight, v;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(rows->n, &marked));
   for (PetscInt r = 0; r < rows->n; ++r) marked[r] = mark[r] * value[r];
-  PetscCall(VecDuplicate(sides, &v));
-  PetscCall(VecZeroEntries(v));
-  PetscCall(PairSpread(sim, rows, mark, sides, 0, v));
-  PetscCall(PairSpread(sim, rows, marked, sides, 1, v));
+  PetscCall(VecDuplicate(rows->node, &weight));
+  PetscCall(VecDuplicate(rows->node, &v));
+  PetscCall(PairSpread(rows, mark, weight));
+  PetscCall(PairSpread(rows, marked, v));
   PetscCall(VecGetLocalSize(v, &n));
+  PetscCall(VecGetArrayRead(weight, &w));
   PetscCall(VecGetArray(v, &a));
-  for (PetscInt i = 0; i < n; i += 3) a[i + 1] = PetscRealPart(a[i]) > 0.0 ? a[i + 1] / a[i] : 0.0;
+  for (PetscInt i = 0; i < n; ++i) a[i] = PetscRealPart(w[i]) > 0.0 ? a[i] / w[i] : 0.0;
   PetscCall(VecRestoreArray(v, &a));
-  PetscCall(PairGather(sim, rows, sides, v, 1, mean));
+  PetscCall(VecRestoreArrayRead(weight, &w));
+  PetscCall(PairGather(rows, v, mean));
   PetscCall(VecDestroy(&v));
+  PetscCall(VecDestroy(&weight));
   PetscCall(PetscFree(marked));
   PetscFunctionReturn(0);
 }
@@ -119,8 +104,7 @@ static PetscErrorCode ResolvePlaces(Simulation sim, const PairRows *rows, PetscR
    mortar facets is close to the centre of all rows there, relative to their spread. This excludes open rows beside the
    contact area.
 */
-static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, const PetscReal covered[], Vec sides,
-  PetscReal open[])
+static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, const PetscReal covered[], PetscReal open[])
 {
   const PetscInt n = rows->n;
   PetscReal     *place, *all, *closed;
@@ -128,9 +112,8 @@ static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, cons
   PetscFunctionBegin;
   PetscCall(PetscMalloc3(4 * n, &place, 4 * n, &all, 3 * n, &closed));
   PetscCall(ResolvePlaces(sim, rows, place));
-  for (PetscInt c = 0; c < 4; ++c) PetscCall(ResolveMean(sim, rows, covered, place + c * n, sides, all + c * n));
-  for (PetscInt c = 0; c < 3; ++c)
-    PetscCall(ResolveMean(sim, rows, rows->closed, place + c * n, sides, closed + c * n));
+  for (PetscInt c = 0; c < 4; ++c) PetscCall(ResolveMean(rows, covered, place + c * n, all + c * n));
+  for (PetscInt c = 0; c < 3; ++c) PetscCall(ResolveMean(rows, rows->closed, place + c * n, closed + c * n));
   for (PetscInt r = 0; r < n; ++r) {
     PetscReal spread = all[3 * n + r], off = 0.0;
 
@@ -146,29 +129,29 @@ static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, cons
 
 /*
    Marks the rows whose gap the mortar pressure would close by a small strain of the mortar facets, and which share a
-   mortar vertex with an enclosed open row. mark: 1 for these rows; *any: whether any rank has such a row; length: size
+   mortar node with an enclosed open row. mark: 1 for these rows; *any: whether any rank has such a row; length: size
    of the mortar facets.
 */
-static PetscErrorCode ResolveMark(Simulation sim, PetscReal young, const PairRows *rows, Vec sides,
-  const PetscReal length[], PetscReal mark[], PetscBool *any)
+static PetscErrorCode ResolveMark(Simulation sim, PetscReal young, const PairRows *rows, const PetscReal length[],
+  PetscReal mark[], PetscBool *any)
 {
   PetscReal *covered, *pressure, *open;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc3(rows->n, &covered, rows->n, &pressure, rows->n, &open));
   for (PetscInt r = 0; r < rows->n; ++r) covered[r] = rows->area[r] > 0.0 ? 1.0 : 0.0;
-  PetscCall(ResolveMean(sim, rows, covered, rows->pressure, sides, pressure));
+  PetscCall(ResolveMean(rows, covered, rows->pressure, pressure));
   for (PetscInt r = 0; r < rows->n; ++r) {
     mark[r] = covered[r] > 0.0 && PairIsClosed(pressure[r], rows->gap[r], young, length[r]) ? 1.0 : 0.0;
     open[r] = mark[r] * (1.0 - rows->closed[r]);
   }
   PetscCall(ResolveAny(sim, rows->n, open, any));
   if (*any) {
-    PetscCall(ResolveEnclosed(sim, rows, covered, sides, open));
+    PetscCall(ResolveEnclosed(sim, rows, covered, open));
     PetscCall(ResolveAny(sim, rows->n, open, any));
   }
   if (*any) {
-    PetscCall(ResolveMean(sim, rows, covered, open, sides, pressure));
+    PetscCall(ResolveMean(rows, covered, open, pressure));
     for (PetscInt r = 0; r < rows->n; ++r) mark[r] *= pressure[r] > PETSC_SQRT_MACHINE_EPSILON ? 1.0 : 0.0;
   }
   PetscCall(PetscFree3(covered, pressure, open));
@@ -176,14 +159,13 @@ static PetscErrorCode ResolveMark(Simulation sim, PetscReal young, const PairRow
 }
 
 /* Replaces the values of marked rows by their means over mortar facets */
-static PetscErrorCode ResolveValue(Simulation sim, const PairRows *rows, const PetscReal mark[], Vec sides,
-  PetscReal value[])
+static PetscErrorCode ResolveValue(const PairRows *rows, const PetscReal mark[], PetscReal value[])
 {
   PetscReal *mean;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(rows->n, &mean));
-  PetscCall(ResolveMean(sim, rows, mark, value, sides, mean));
+  PetscCall(ResolveMean(rows, mark, value, mean));
   for (PetscInt r = 0; r < rows->n; ++r) {
     if (mark[r] > 0.0) value[r] = mean[r];
   }
@@ -195,19 +177,18 @@ static PetscErrorCode ResolveValue(Simulation sim, const PairRows *rows, const P
    Replaces friction stress and slip of marked rows by their means over mortar facets. A row slips if slipping rows
    carry more than half of its pressure.
 */
-static PetscErrorCode ResolveFriction(Simulation sim, PairRows *rows, const PetscReal mark[],
-  const PetscReal pressure[], Vec sides)
+static PetscErrorCode ResolveFriction(PairRows *rows, const PetscReal mark[], const PetscReal pressure[])
 {
   PetscReal *slipping;
 
   PetscFunctionBegin;
   for (PetscInt c = 0; c < 3; ++c) {
-    PetscCall(ResolveValue(sim, rows, mark, sides, rows->shear + c * rows->n));
-    PetscCall(ResolveValue(sim, rows, mark, sides, rows->slid + c * rows->n));
+    PetscCall(ResolveValue(rows, mark, rows->shear + c * rows->n));
+    PetscCall(ResolveValue(rows, mark, rows->slid + c * rows->n));
   }
   PetscCall(PetscMalloc1(rows->n, &slipping));
   for (PetscInt r = 0; r < rows->n; ++r) slipping[r] = rows->slips[r] * pressure[r];
-  PetscCall(ResolveValue(sim, rows, mark, sides, slipping));
+  PetscCall(ResolveValue(rows, mark, slipping));
   for (PetscInt r = 0; r < rows->n; ++r) {
     if (mark[r] > 0.0) rows->slips[r] = slipping[r] > 0.5 * rows->pressure[r] ? 1.0 : 0.0;
   }
@@ -216,32 +197,34 @@ static PetscErrorCode ResolveFriction(Simulation sim, PairRows *rows, const Pets
 }
 
 /* Smooths the pressures of a pair that the mortar side cannot resolve. Collective. */
-PetscErrorCode PairRowsResolve(Simulation sim, PetscInt pair, Vec sides, PairRows *rows)
+PetscErrorCode PairRowsResolve(Simulation sim, PetscInt pair, PairRows *rows)
 {
-  const PetscReal young  = ResolveModulus(sim->scene, pair);
-  PetscReal      *length = rows->facing, *mark, *pressure;
-  PetscBool       any;
-  Vec             size;
+  const PetscReal   young  = ResolveModulus(sim->scene, pair);
+  const char *const mortar = sim->scene->pairs[pair].mortar;
+  PetscReal        *length = rows->facing, *mark, *pressure;
+  PetscBool         any;
+  Vec               size;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(sides, &size));
-  PetscCall(ResolveSizes(sim, pair, size));
-  PetscCall(PairGather(sim, rows, sides, size, 0, length));
+  PetscCall(VecDuplicate(rows->node, &size));
+  PetscCall(PairFacetsMeasure(sim, 1, &mortar, size));
+  PetscCall(VecSqrtAbs(size));
+  PetscCall(PairGather(rows, size, length));
   PetscCall(VecDestroy(&size));
   if (young == PETSC_INFINITY) PetscFunctionReturn(0);
   PetscCall(PetscMalloc2(rows->n, &mark, rows->n, &pressure));
-  PetscCall(ResolveMark(sim, young, rows, sides, length, mark, &any));
+  PetscCall(ResolveMark(sim, young, rows, length, mark, &any));
   if (any) {
     PetscCall(PetscArraycpy(pressure, rows->pressure, rows->n));
-    PetscCall(ResolveValue(sim, rows, mark, sides, rows->pressure));
-    PetscCall(ResolveValue(sim, rows, mark, sides, rows->gap));
+    PetscCall(ResolveValue(rows, mark, rows->pressure));
+    PetscCall(ResolveValue(rows, mark, rows->gap));
     for (PetscInt r = 0; r < rows->n; ++r) {
       if (mark[r] > 0.0) {
         rows->closed[r] = 1.0;
         rows->length[r] = length[r];
       }
     }
-    if (rows->frictional) PetscCall(ResolveFriction(sim, rows, mark, pressure, sides));
+    if (rows->frictional) PetscCall(ResolveFriction(rows, mark, pressure));
   }
   PetscCall(PetscFree2(mark, pressure));
   PetscFunctionReturn(0);

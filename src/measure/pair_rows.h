@@ -1,4 +1,4 @@
-/* Rows of one contact pair, and their values at vertices. Used by the files that measure contact. */
+/* Rows of one contact pair, and their values at nodes. Used by the files that measure contact. */
 #ifndef PAIR_ROWS_H
 #define PAIR_ROWS_H
 
@@ -6,12 +6,12 @@
 
 /*
    The rows of one pair. Row A exerts the force z_A w_A n_A on its own side, where w_A n_A = mass_A x sum of J_AB over
-   the mortar vertices B. w_A is the area that the mortar side covers around A; it is zero in rows of other pairs. Areas
-   are distributed to vertices by lin->cover, whose sum times covered_A is w_A, with the normal n_A.
+   the mortar nodes B. w_A is the area that the mortar side covers around A; it is zero in rows of other pairs. A vector
+   of nodes has one value per node, in the order of global vectors.
 */
 typedef struct {
   PetscInt   n;
-  PetscReal *area, *covered, *normal; /* w [length^2]; see above; n, 3 numbers per row */
+  PetscReal *area, *covered, *normal; /* w [length^2]; w / |mass_A x sum of cover_AB|; n, 3 numbers per row */
   PetscReal *pressure, *gap, *closed;
   PetscReal *presses;    /* closed before the pressures were smoothed by pair_resolve.c */
   PetscReal  young;      /* Young's modulus of the softer body [force/length^2] */
@@ -25,30 +25,39 @@ typedef struct {
   PetscReal *shear,
     *slid; /* friction stress on the mortar side [force/length^2]; slip [length]; component c of row A has the index
               c n + A */
+  Mat shares, mortar; /* rows x nodes: the area that a row and a node share [length^2]; the same of the mortar side,
+                         if both sides are the same face */
+  Vec sides;          /* of each node: 1 on the mortar side, -1 on the nonmortar side, 0 elsewhere */
+  Vec row, node;      /* work vectors */
 } PairRows;
 
-/* pair_rows.c */
+/* pair_rows.c. PairSpread(): value NULL: 1 */
 PETSC_INTERN PetscBool      PairIsClosed(PetscReal pressure, PetscReal gap, PetscReal young, PetscReal length);
 PETSC_INTERN PetscErrorCode PairRowsCreate(Simulation, PetscInt pair, PairRows *);
 PETSC_INTERN PetscErrorCode PairRowsDestroy(PairRows *);
-
-/*
-   pair_spread.c: transfers values from rows to vertices and back, in proportion to the shared area. The vector `sides`
-   has three values per vertex. The first is 1 at vertices of the mortar side, -1 on the nonmortar side, and 0
-   elsewhere.
-*/
-PETSC_INTERN PetscErrorCode PairMarkSides(Simulation, PetscInt pair, const PairRows *, Vec sides);
-PETSC_INTERN PetscErrorCode PairMarkFace(DM, const char face[], PetscInt component, PetscInt to, Vec);
-PETSC_INTERN Mat            PairCover(ContactLinearization);
-PETSC_INTERN PetscErrorCode PairSpread(Simulation, const PairRows *, const PetscReal value[], Vec sides, PetscInt to,
-  Vec v);
-PETSC_INTERN PetscErrorCode PairGather(Simulation, const PairRows *, Vec sides, Vec v, PetscInt from,
-  PetscReal value[]);
-
-/* pair_mesh.c */
-PETSC_INTERN PetscErrorCode PairMeshMeasure(Simulation, PetscInt pair, const PairRows *, PetscInt first, PairReport *);
+PETSC_INTERN PetscErrorCode PairSpread(const PairRows *, const PetscReal value[], Vec node);
+PETSC_INTERN PetscErrorCode PairGather(const PairRows *, Vec node, PetscReal value[]);
 
 /* pair_resolve.c */
-PETSC_INTERN PetscErrorCode PairRowsResolve(Simulation, PetscInt pair, Vec sides, PairRows *);
+PETSC_INTERN PetscErrorCode PairRowsResolve(Simulation, PetscInt pair, PairRows *);
+
+/* nodal_pressure.c: the facets of both faces of a pair, those of the nonmortar face first. Facets of order 2 are
+   divided at their nodes. */
+typedef struct {
+  PetscInt     n, nnonmortar;
+  PetscInt    *offset;  /* [4 n] offset of each corner's values in local vectors */
+  PetscScalar *value;   /* [16 n] what each facet adds to `between`, for each pair of its corners */
+  Mat          between; /* nodes x nodes */
+} PairFacets;
+
+PETSC_INTERN PetscErrorCode PairFacetsCreate(Simulation, const SceneContactPair *, PairFacets *);
+PETSC_INTERN PetscErrorCode PairFacetsDestroy(PairFacets *);
+PETSC_INTERN PetscErrorCode PairFacetsMeasure(Simulation, PetscInt nfaces, const char *const faces[], Vec size);
+PETSC_INTERN PetscErrorCode PairFacetsJoin(PairFacets *, PetscInt n);
+PETSC_INTERN PetscErrorCode NodalPressureEvenOut(Simulation, const SceneContactPair *, PairFacets *, PetscInt n,
+  Vec values[], const PetscBool smooth[]);
+
+/* pair_mesh.c. closed: 1 at nodes that are closed, otherwise 0 */
+PETSC_INTERN PetscErrorCode PairMeshMeasure(Simulation, const PairRows *, PairFacets *, Vec closed, PairReport *);
 
 #endif

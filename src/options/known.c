@@ -39,6 +39,7 @@ static const struct {
   {"load_warm_start", OPTION_SWITCH, {NULL}},
   {"model", OPTION_WORD, {"energy", "quadratic", NULL}},
   {"output", OPTION_WORD, {NULL}},
+  {"output_every", OPTION_COUNT, {NULL}},
   {"output_gauss", OPTION_SWITCH, {NULL}},
   {"pc_amgf_amg_lag", OPTION_WORD, {NULL}},
   {"pc_amgf_cycle", OPTION_WORD, {"bfb", "fbf", "additive", NULL}},

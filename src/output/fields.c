@@ -309,6 +309,7 @@ static PetscErrorCode FieldsWriteState(PetscViewer viewer, void *ctx)
   const PetscReal  time   = state->report->time;
 
   PetscFunctionBegin;
+  PetscCall(PetscViewerSetFromOptions(viewer));
   PetscCall(FieldsWriteGlobal(output, "displacement", state->displacement, viewer));
   if (state->velocity) PetscCall(FieldsWriteGlobal(output, "velocity", state->velocity, viewer));
   PetscCall(StressWriteCells(output, state, viewer));

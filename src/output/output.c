@@ -2,8 +2,10 @@
    Creates an output and writes the results of load steps to it: one file with the mesh, one file per load step, and an
    XDMF file that refers to these files.
 */
-#define _POSIX_C_SOURCE 200809L /* for lstat() */
+#define _POSIX_C_SOURCE 200809L /* for lstat() and opendir() */
 #include "outputimpl.h"
+#include <dirent.h>
+#include <string.h>
 #include <sys/stat.h>
 
 /* *exists: true on all ranks if rank 0 can read the file. */
@@ -78,6 +80,7 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
   PetscCall(OutputCreateMesh(dm, &o));
   PetscCall(PetscStrallocpy(basename, &o->base));
   o->nbodies = nbodies;
+  o->every   = 1;
   PetscCall(PetscMalloc1(nbodies, &o->bodynames));
   PetscCall(PetscCalloc1(nbodies, &o->surfaces));
   for (PetscInt b = 0; b < nbodies; ++b) PetscCall(PetscStrallocpy(bodynames[b], &o->bodynames[b]));
@@ -130,6 +133,32 @@ PetscErrorCode OutputSetSurface(Output output, PetscInt body, const char text[])
   PetscFunctionBegin;
   PetscCall(PetscFree(output->surfaces[body]));
   PetscCall(PetscStrallocpy(text, &output->surfaces[body]));
+  PetscFunctionReturn(0);
+}
+
+/*@C
+   OutputSetEvery - Sets of which load steps the fields are kept
+
+   Not Collective
+
+   Input Parameters:
++  output - the output, before OutputWrite()
+-  every  - fields of each load step whose number is a multiple of it are kept, and those of the last load step that
+            converged (default 1); 0: those of the last one alone
+
+   Level: intermediate
+
+   Note:
+   The history has all load steps.
+
+.seealso: `OutputCreate()`, `OutputWrite()`
+@*/
+PetscErrorCode OutputSetEvery(Output output, PetscInt every)
+{
+  PetscFunctionBegin;
+  PetscCheck(every >= 0, output->comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "fields can be kept of every Nth load step with N at least 0, not %" PetscInt_FMT, every);
+  output->every = every;
   PetscFunctionReturn(0);
 }
 
@@ -200,23 +229,67 @@ PetscErrorCode OutputContinue(Output output, PetscInt step, PetscReal increment,
   PetscFunctionReturn(0);
 }
 
+/* Removes the file of a load step. Links and devices remain, because a user has created them. */
+static PetscErrorCode OutputRemoveStep(Output output, PetscInt step)
+{
+  char        file[PETSC_MAX_PATH_LEN];
+  struct stat info;
+
+  PetscFunctionBegin;
+  PetscCall(OutputGetStepFile(output, step, file, sizeof(file)));
+  if (!lstat(file, &info) && S_ISREG(info.st_mode)) (void)remove(file);
+  PetscFunctionReturn(0);
+}
+
 /*
    Removes the files that an earlier run with this base name has written for load steps after the present one. Only rank
-   0 removes files. Links and devices remain, because a user has created them.
+   0 removes files.
 */
 static PetscErrorCode OutputRemoveOlder(Output output)
 {
-  char        file[PETSC_MAX_PATH_LEN];
-  PetscMPIInt rank;
-  PetscInt    step = output->steps[output->nsteps - 1].step;
-  struct stat info;
+  const PetscInt last = output->steps[output->nsteps - 1].step;
+  char           folder[PETSC_MAX_PATH_LEN], file[PETSC_MAX_PATH_LEN];
+  char          *slash;
+  PetscMPIInt    rank;
+  DIR           *entries;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(output->comm, &rank));
   if (rank) PetscFunctionReturn(0);
-  PetscCall(OutputGetStepFile(output, ++step, file, sizeof(file)));
-  while (!lstat(file, &info) && (!S_ISREG(info.st_mode) || !remove(file)))
-    PetscCall(OutputGetStepFile(output, ++step, file, sizeof(file)));
+  PetscCall(PetscStrncpy(folder, output->base, sizeof(folder)));
+  slash = strrchr(folder, '/');
+  if (slash) slash[1] = '\0';
+  entries = opendir(slash ? folder : ".");
+  for (struct dirent *entry; entries && (entry = readdir(entries));) {
+    const char *number = strrchr(entry->d_name, '_');
+    const long  step   = number ? strtol(number + 1, NULL, 10) : 0;
+
+    if (step <= last) continue;
+    PetscCall(OutputGetStepFile(output, (PetscInt)step, file, sizeof(file)));
+    if (!strcmp(entry->d_name, slash ? file + strlen(folder) : file))
+      PetscCall(OutputRemoveStep(output, (PetscInt)step));
+  }
+  if (entries) closedir(entries);
+  PetscFunctionReturn(0);
+}
+
+/*
+   Removes the load step before the present one from the list if its fields are not to be kept. They are kept until
+   those of the present one are on disk, so that the last load step that converged always has fields. *step: number of
+   the load step; 0: it stays.
+*/
+static PetscErrorCode OutputDropStep(Output output, PetscInt *step)
+{
+  PetscInt before;
+
+  PetscFunctionBegin;
+  *step = 0;
+  if (output->nsteps < 2) PetscFunctionReturn(0);
+  before = output->steps[output->nsteps - 2].step;
+  if (output->every && before % output->every == 0) PetscFunctionReturn(0);
+  *step                             = before;
+  output->steps[output->nsteps - 2] = output->steps[output->nsteps - 1];
+  --output->nsteps;
   PetscFunctionReturn(0);
 }
 
@@ -232,7 +305,7 @@ static PetscErrorCode OutputRemoveOlder(Output output)
    Level: intermediate
 
    Notes:
-   share/scenes/README.md lists the fields of cells and vertices, with their units, and the columns of the history.
+   share/doc/output.md lists the fields of cells and vertices, with their units, and the columns of the history.
 
    Fields of contact are on both sides of the pairs. Outside of the contact faces contact_gap and contact_status are
    NaN, which ParaView shows in its NaN colour, and the other fields of contact are 0. At a vertex of several pairs, the
@@ -245,12 +318,18 @@ static PetscErrorCode OutputRemoveOlder(Output output)
 @*/
 PetscErrorCode OutputWrite(Output output, const StepState *state)
 {
+  PetscMPIInt rank;
+  PetscInt    dropped;
+
   PetscFunctionBegin;
   if (!output->begun) PetscCall(OutputKeepFields(output, state));
   if (!output->meshed) PetscCall(OutputBegin(output));
   PetscCall(OutputWriteFields(output, state));
   PetscCall(OutputAddStep(output, state->report->step, state->report->time));
+  PetscCall(OutputDropStep(output, &dropped));
   PetscCall(OutputWriteXDMF(output));
+  PetscCallMPI(MPI_Comm_rank(output->comm, &rank));
+  if (dropped && rank == 0) PetscCall(OutputRemoveStep(output, dropped));
   PetscCall(OutputWriteHistory(output, state->report));
   if (!output->begun) PetscCall(OutputRemoveOlder(output));
   output->begun = PETSC_TRUE;

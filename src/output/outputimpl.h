@@ -45,6 +45,8 @@ struct _n_Output {
   PetscBool   begun;       /* true after a load step has been written */
   PetscInt    continued;   /* number of load steps of the earlier run that this run continues; 0 if there is no
                               earlier run */
+  PetscInt    every;       /* fields are kept of each load step whose number is a multiple of it, and of the last one;
+                              0: of the last one */
   PetscInt    nsteps, maxsteps;
   OutputStep *steps;
 };

@@ -63,7 +63,7 @@ static PetscErrorCode ContactFreeLoad(Simulation sim, Vec load)
 
   PetscFunctionBegin;
   if (!sim->contact) PetscFunctionReturn(0);
-  PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &lin));
+  PetscCall(ContactLinearize(sim->contact, sim->path->u, CONTACT_FORCES, &lin));
   PetscCall(VecDuplicate(load, &pressure));
   PetscCall(MatMultTranspose(lin->J, lin->mass, pressure));
   PetscCall(TiesGather(&sim->ties, pressure));

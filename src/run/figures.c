@@ -3,7 +3,7 @@
 #include <math.h>
 #include <vector3.h>
 
-typedef enum { OF_MODEL, OF_BODY, OF_PAIR, OF_FACE } FigureOwner;
+typedef enum { OF_MODEL, OF_BODY, OF_PAIR, OF_FACE, OF_BOLT } FigureOwner;
 
 /* A kind of figure. The offsets are those of members of the owner's report. */
 typedef struct {
@@ -30,6 +30,7 @@ static const FigureKind kinds[] = {
     .place = offsetof(PairReport, pressure_place)},
   {"contact area", OF_PAIR, "L^2", .value = offsetof(PairReport, area)},
   {"reaction", OF_FACE, "F", .forces = PETSC_TRUE, .nonzero = PETSC_TRUE, .value = offsetof(FaceReport, reaction)},
+  {"bolt force", OF_BOLT, "F", .value = offsetof(BoltReport, force)},
   {"stress error, estimate", OF_MODEL, "%", .value = offsetof(StepReport, error_estimate)},
 };
 
@@ -53,6 +54,7 @@ static const char *FigureGetOwners(const StepReport *step, FigureOwner owner, Pe
   case OF_BODY: *n = step->nbodies, *size = sizeof(BodyReport); return (const char *)step->bodies;
   case OF_PAIR: *n = step->npairs, *size = sizeof(PairReport); return (const char *)step->pairs;
   case OF_FACE: *n = step->nfaces, *size = sizeof(FaceReport); return (const char *)step->faces;
+  case OF_BOLT: *n = step->nbolts, *size = sizeof(BoltReport); return (const char *)step->bolts;
   default: *n = 1, *size = 0; return (const char *)step;
   }
 }
@@ -97,14 +99,15 @@ static PetscErrorCode FiguresAdd(const FigureKind *kind, RunReport *run, PetscIn
 
     if (!run->steps[s].converged || i >= n) continue;
     if (kind->owner != OF_MODEL) figure->name = *(const char *const *)(owners + (size_t)i * size);
+    if (kind->owner == OF_FACE && !run->steps[s].faces[i].driven) figure->quantity = "symmetry reaction";
     PetscCall(FigureTake(kind, owners + (size_t)i * size, run->steps[s].step, figure));
   }
   if (!PetscIsNanReal(figure->value)) ++run->nfigures;
   PetscFunctionReturn(0);
 }
 
-/* Removes the figures from number `first` on that are 0 in comparison with the largest of them */
-static PetscErrorCode FiguresOmitZeros(RunReport *run, PetscInt first)
+/* Removes the figures from number `first` on that are 0 in comparison with the largest of them, or sets them to 0 */
+static PetscErrorCode FiguresFindZeros(RunReport *run, PetscInt first, PetscBool omit)
 {
   const PetscReal tiny    = 1e-9;
   PetscReal       largest = 0.0;
@@ -113,7 +116,12 @@ static PetscErrorCode FiguresOmitZeros(RunReport *run, PetscInt first)
   PetscFunctionBegin;
   for (PetscInt f = first; f < run->nfigures; ++f) largest = PetscMax(largest, run->figures[f].value);
   for (PetscInt f = first; f < run->nfigures; ++f) {
-    if (run->figures[f].value > tiny * largest) run->figures[n++] = run->figures[f];
+    const PetscBool zero = (PetscBool)(run->figures[f].value <= tiny * largest);
+
+    if (zero && omit) continue;
+    run->figures[n] = run->figures[f];
+    if (zero) run->figures[n].value = 0.0;
+    ++n;
   }
   run->nfigures = n;
   PetscFunctionReturn(0);
@@ -123,19 +131,24 @@ static PetscErrorCode FiguresOmitZeros(RunReport *run, PetscInt first)
 PetscErrorCode FiguresCollect(RunReport *run)
 {
   const size_t nkinds = PETSC_STATIC_ARRAY_LENGTH(kinds);
-  PetscInt     most   = 1;
+  PetscInt     most   = 1, n;
+  size_t       size;
 
   PetscFunctionBegin;
   PetscCall(PetscFree(run->figures));
   run->nfigures = 0;
-  for (PetscInt s = 0; s < run->nsteps; ++s)
-    most = PetscMax(most, PetscMax(run->steps[s].nbodies, PetscMax(run->steps[s].npairs, run->steps[s].nfaces)));
+  for (PetscInt s = 0; s < run->nsteps; ++s) {
+    for (size_t k = 0; k < nkinds; ++k) {
+      (void)FigureGetOwners(&run->steps[s], kinds[k].owner, &n, &size);
+      most = PetscMax(most, n);
+    }
+  }
   PetscCall(PetscMalloc1((PetscInt)nkinds * most, &run->figures));
   for (size_t k = 0; k < nkinds; ++k) {
     const PetscInt first = run->nfigures;
 
     for (PetscInt i = 0; i < (kinds[k].owner == OF_MODEL ? 1 : most); ++i) PetscCall(FiguresAdd(&kinds[k], run, i));
-    if (kinds[k].nonzero) PetscCall(FiguresOmitZeros(run, first));
+    if (!kinds[k].least) PetscCall(FiguresFindZeros(run, first, kinds[k].nonzero));
   }
   PetscFunctionReturn(0);
 }

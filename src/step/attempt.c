@@ -136,8 +136,9 @@ static PetscErrorCode AttemptCheckStart(Simulation sim, const StepReport *report
 {
   PetscFunctionBegin;
   if (!sim->contact || sim->path->time > 0.0 || report->cuts || sim->control->forecast.failed) PetscFunctionReturn(0);
-  if (!sim->solved->upcoming) PetscCall(ContactLinearizeForces(sim->contact, sim->path->u, &sim->solved->upcoming));
-  PetscCall(ContactCheckDepth(sim->contact, sim->solved->upcoming));
+  if (!sim->solved->upcoming)
+    PetscCall(ContactLinearize(sim->contact, sim->path->u, CONTACT_FORCES, &sim->solved->upcoming));
+  PetscCall(ContactCheckDepth(sim->contact));
   PetscCall(StartWarn(sim, sim->solved->upcoming));
   PetscFunctionReturn(0);
 }

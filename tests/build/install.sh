@@ -20,6 +20,8 @@ for name in bin/contact lib/libpetscamgf.so lib/libcontact.a lib/pkgconfig/petsc
   share/doc/amgf/guide.md share/man/man1/contact.1 share/man/man3/PCAMGF.3 share/man/man3/TAOIPFILTER.3; do
   [ -e "$prefix/$name" ] || echo "not installed: $name"
 done
+echo "manual pages in section 3 that are not the plugin's:" \
+  "$(cd "$prefix/share/man/man3" && find . -name '*.3' ! -name 'PC*' ! -name 'P[eE]*' ! -name 'T[aA]*' | wc -l)"
 
 export PKG_CONFIG_PATH=$prefix/lib/pkgconfig:${PETSC_DIR:+$PETSC_DIR/${PETSC_ARCH:-}/lib/pkgconfig:}${PKG_CONFIG_PATH:-}
 rpath=-Wl,-rpath,$(pkg-config --variable=libdir PETSc)

@@ -36,10 +36,10 @@ static PetscErrorCode Try(const char what[], PetscReal thickness, PetscReal heig
   PetscCall(VecSet(u, 0.0));
   PetscCall(ContactCreate(dm, 1, &pair, &contact));
   PetscCall(ContactSetFromOptions(contact));
-  PetscCall(ContactLinearize(contact, u, &lin));
+  PetscCall(ContactLinearize(contact, u, CONTACT_DERIVATIVE, &lin));
   PetscCall(VecGetSize(lin->g, &nrows));
   PetscCall(AttemptBegin());
-  ierr = ContactCheckDepth(contact, lin);
+  ierr = ContactCheckDepth(contact);
   PetscCall(AttemptEnd());
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s, %s, %s: ", what, GapTypes[gap], nrows ? "rows" : "no rows"));
   PetscCall(AttemptPrint(ierr));

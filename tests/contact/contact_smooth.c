@@ -4,7 +4,7 @@ static char help[] = "The gap of smooth surfaces: patches on cylinders and spher
 #include "../lib/contact_problem.h"
 #include "src/contact/contactimpl.h"
 
-typedef enum { TUBES, BALLS, NSHAPES } Shape;
+typedef enum { TUBES, BALLS, NSHAPES } Bodies;
 static const char *const shape_names[] = {"tubes", "balls"};
 
 /* A point of the unit cylinder along z or of the unit sphere, and its normal */
@@ -78,7 +78,7 @@ static PetscErrorCode CreateTubes(PetscInt inner, PetscInt outer, PetscInt along
 }
 
 /* Two bodies whose faces are the same cylinder, or sphere, of radius 1, in n facets and in more */
-static PetscErrorCode CreateCurved(Shape shape, PetscInt n, DM *dm)
+static PetscErrorCode CreateCurved(Bodies shape, PetscInt n, DM *dm)
 {
   const SceneBody balls[2] = {
     {.name    = (char *)"inner",
@@ -101,7 +101,7 @@ static PetscErrorCode CreateCurved(Shape shape, PetscInt n, DM *dm)
   PetscFunctionReturn(0);
 }
 
-static SceneContactPair CurvedPair(Shape shape, PetscBool swap, GapType gap, PetscBool smooth)
+static SceneContactPair CurvedPair(Bodies shape, PetscBool swap, GapType gap, PetscBool smooth)
 {
   static char inner[2][16] = {"inner.outer", "inner.surface"}, outer[] = "outer.inner";
 
@@ -150,14 +150,14 @@ static PetscErrorCode LinearizeCurved(DM dm, SceneContactPair pair, Field field,
   if (field) PetscCall(SetField(dm, field, ctx, u));
   PetscCall(ContactCreate(dm, 1, &pair, &contact));
   PetscCall(ContactSetFromOptions(contact));
-  PetscCall(ContactLinearize(contact, u, lin));
+  PetscCall(ContactLinearize(contact, u, CONTACT_DERIVATIVE, lin));
   PetscCall(ContactDestroy(&contact));
   PetscCall(VecDestroy(&u));
   PetscFunctionReturn(0);
 }
 
 /* Largest gap of surfaces that are one */
-static PetscErrorCode GapError(Shape shape, PetscInt n, PetscBool swap, GapType gap, PetscBool smooth, Field field,
+static PetscErrorCode GapError(Bodies shape, PetscInt n, PetscBool swap, GapType gap, PetscBool smooth, Field field,
   PetscReal *error)
 {
   DM                   dm;
@@ -173,7 +173,7 @@ static PetscErrorCode GapError(Shape shape, PetscInt n, PetscBool swap, GapType 
 }
 
 /* Surfaces that stay one: order from n = 4 to 8, and what is left of the facets' error there */
-static PetscErrorCode TestGap(Shape shape, PetscBool swap, GapType gap, const char state[], Field field,
+static PetscErrorCode TestGap(Bodies shape, PetscBool swap, GapType gap, const char state[], Field field,
   PetscReal order, PetscReal least)
 {
   PetscReal facets, error[2];
@@ -205,7 +205,7 @@ static PetscErrorCode Difference(Vec a, Vec b, PetscReal *difference)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode TestRigid(Shape shape, GapType gap)
+static PetscErrorCode TestRigid(Bodies shape, GapType gap)
 {
   DM                   dm;
   ContactLinearization at_rest, moved;
@@ -291,7 +291,7 @@ static PetscErrorCode LinearizeBeside(DM dm, const State *state, PetscReal epsil
   PetscCall(VecAXPY(u, epsilon, *v));
   PetscCall(ContactCreate(dm, 1, &state->pair, &contact));
   PetscCall(ContactSetFromOptions(contact));
-  PetscCall(ContactLinearize(contact, u, lin));
+  PetscCall(ContactLinearize(contact, u, CONTACT_DERIVATIVE, lin));
   PetscCall(ContactDestroy(&contact));
   PetscCall(VecDestroy(&u));
   PetscFunctionReturn(0);
@@ -386,7 +386,7 @@ static PetscErrorCode TestBalance(DM dm, const State *state)
 
 /* Of a displacement that varies over the whole face J makes the derivative but for what its patches would bend:
    fourfold facets, a part of it */
-static PetscErrorCode TestRigidPatches(Shape shape, GapType gap)
+static PetscErrorCode TestRigidPatches(Bodies shape, GapType gap)
 {
   const PetscReal one = 1.0;
   PetscReal       error[2];
@@ -431,9 +431,9 @@ static PetscErrorCode TestJacobian(GapType gap)
 
   PetscFunctionBeginUser;
   for (PetscInt s = TUBES; s < NSHAPES; ++s) {
-    PetscCall(CreateCurved((Shape)s, 2, &dm));
+    PetscCall(CreateCurved((Bodies)s, 2, &dm));
     for (PetscInt swap = 0; swap < 2; ++swap) {
-      const SceneContactPair pair = CurvedPair((Shape)s, (PetscBool)swap, gap, PETSC_TRUE);
+      const SceneContactPair pair = CurvedPair((Bodies)s, (PetscBool)swap, gap, PETSC_TRUE);
 
       state = (State){s ? "balls, bent" : "tubes, bent", PartingField, 0.02, pair};
       PetscCall(TestDifferences(dm, &state));
@@ -515,13 +515,13 @@ int main(int argc, char **argv)
   for (GapType gap = GAP_MORTAR; gap <= GAP_NODE; ++gap) {
     for (PetscInt s = TUBES; s < NSHAPES; ++s) {
       for (PetscInt swap = 0; swap < 2; ++swap) {
-        PetscCall(TestGap((Shape)s, (PetscBool)swap, gap, "undeformed", NULL, 3.7, 0.002));
+        PetscCall(TestGap((Bodies)s, (PetscBool)swap, gap, "undeformed", NULL, 3.7, 0.002));
         /* not fourth order: normals at vertices of three facets, and at the border, are extrapolated to first order
            on what is no sphere */
-        PetscCall(TestGap((Shape)s, (PetscBool)swap, gap, "stretched", StretchField, s == TUBES ? 2.5 : 1.8, 0.06));
+        PetscCall(TestGap((Bodies)s, (PetscBool)swap, gap, "stretched", StretchField, s == TUBES ? 2.5 : 1.8, 0.06));
       }
-      PetscCall(TestRigid((Shape)s, gap));
-      PetscCall(TestRigidPatches((Shape)s, gap));
+      PetscCall(TestRigid((Bodies)s, gap));
+      PetscCall(TestRigidPatches((Bodies)s, gap));
     }
     PetscCall(TestJacobian(gap));
     PetscCall(TestSharp(gap));

@@ -1,6 +1,6 @@
 # What a scene should have said of its contact: overlaps at the start, a pair that never meets, a body that nothing
 # stops. A warning stands once on stderr and in the summary; -scene_check says it beforehand. Last, a reader that has
-# seen enough, and the exit codes that the README and -help list.
+# seen enough, and the exit codes that the guide and -help list.
 contact=$AMGF_DIR/bin/contact
 
 # stone HEIGHT PULL KEYS: on a table at 1
@@ -86,7 +86,7 @@ done
 echo "exit ${PIPESTATUS[0]}, $(wc -l < err) lines on stderr"
 
 help=$("$contact" -help 2> /dev/null | sed -n 's/^  \([0-7]\)  .*/\1/p' | tr '\n' ' ')
-readme=$(sed -n '/^| exit code/,/^$/s/^| \([0-7]\) | .*/\1/p' "$AMGF_DIR/README.md" | tr '\n' ' ')
+readme=$(sed -n '/^| exit code/,/^$/s/^| \([0-7]\) | .*/\1/p' "$AMGF_DIR/share/doc/guide.md" | tr '\n' ' ')
 header=$(sed -n 's/^  RUN_[A-Z_]* *= \([0-9]*\),*.*/\1/p' "$AMGF_DIR/include/report.h" | tr '\n' ' ')
-[ "$help" = "$readme" ] && [ "$help" = "$header" ] && echo "exit codes: ${help}in README, -help and report.h" ||
+[ "$help" = "$readme" ] && [ "$help" = "$header" ] && echo "exit codes: ${help}in the guide, -help and report.h" ||
   echo "exit codes: $help; $readme; $header"

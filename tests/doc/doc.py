@@ -7,6 +7,7 @@ import sys
 
 TOP = os.environ["AMGF_DIR"]
 COLUMNS = 100  # of a page
+LINES = 130  # of the first page
 PAGES = sorted(
     os.path.relpath(path, TOP)
     for pattern in ("*.md", "share/*/*.md", "tests/README.md", "apps/README.md", "pc_amgf/**/README.md",
@@ -57,9 +58,13 @@ def unexplained():
 
 def unknown_options():
     known = set(re.findall(r'"(\w+)"', text("src/options/known.c")))
-    petsc = ("ksp_", "log_", "tao_view", "dll_append", "pc_type", "options_file", "help", "n")
-    for page in ("share/doc/guide.md", "share/doc/theory.md", "share/doc/scale.md"):
-        for option in re.findall(r"(?<![\w-])-([a-z]\w*)", " ".join(re.findall(r"`([^`]*)`", text(page)))):
+    petsc = ("ksp_", "log_", "viewer_hdf5_", "tao_view", "dll_append", "pc_type", "tao_ipfilter_pc_amgf_",
+             "options_file", "help", "n")
+    for page in ("share/doc/guide.md", "share/doc/modelling.md", "share/doc/output.md", "share/doc/theory.md",
+                 "share/doc/scale.md"):
+        prose = re.sub(r"^```.*?^```", "", text(page), flags=re.S | re.M)
+        code = re.findall(r"`((?:-|contact |bin/contact )[^`]*)`", prose)
+        for option in re.findall(r"(?<![\w-])-([a-z]\w*)", " ".join(code)):
             if option not in known and not option.startswith(petsc) and "-" + option not in text("apps/options.c"):
                 yield f"{page}: -{option}"
 
@@ -82,6 +87,13 @@ def wide_lines():
         for number, line in enumerate(prose.splitlines(), 1):
             if len(line) > COLUMNS and not line.startswith(("|", "    ", "#")) and " " in line.strip():
                 yield f"{page}:{number}: {len(line)} columns"
+
+
+def unknown_tests():
+    """In the table of features"""
+    there = {os.path.splitext(os.path.basename(path))[0] for path in glob.glob(os.path.join(TOP, "tests", "*", "*.*"))}
+    table = text("tests/README.md").split("## Features")[1].split("##")[0]
+    yield from sorted(set(re.findall(r"`(\w+)`", table)) - there)
 
 
 def missing_pages(folder):
@@ -114,4 +126,7 @@ else:
     say("options that are none", unknown_options())
     say("targets of make that are none", unknown_targets())
     say(f"lines wider than {COLUMNS} columns", wide_lines())
+    lines = len(text("README.md").splitlines())
+    say(f"README.md has more than {LINES} lines", [f"{lines} lines"] * (lines > LINES))
+    say("tests of features that are none", unknown_tests())
     say("calls without a manual page", missing_pages(sys.argv[1]))

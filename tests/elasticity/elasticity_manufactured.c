@@ -359,6 +359,7 @@ int main(int argc, char **argv)
       test:
          suffix: estimate_distorted
          args: -distance 0.15 -order 2
+         output_file: output/elasticity_manufactured_estimate_order2.out
       test:
          suffix: estimate_tetrahedra
          args: -tetrahedra -order {{1 2}separate output} -below 0.4 -curved
@@ -377,12 +378,15 @@ int main(int argc, char **argv)
       test:
          suffix: estimate_stresses_tetrahedra
          args: -stresses -tetrahedra -order 2 -below 0.4
+         output_file: output/elasticity_manufactured_estimate_order2.out
       test:
          suffix: estimate_stresses_tetrahedra_long
          args: -stresses -tetrahedra -order 1 -below 0.4
+         output_file: output/elasticity_manufactured_estimate.out
       test:
          suffix: estimate_stresses_tetrahedra_bbar
          args: -stresses -tetrahedra -order 2 -element bbar -below 1.6
+         output_file: output/elasticity_manufactured_estimate_order2.out
 
    testset:
       args: -order 2 -pc_type pbjacobi

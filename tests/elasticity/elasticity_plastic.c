@@ -128,6 +128,7 @@ int main(int argc, char **argv)
    test:
       suffix: bbar
       args: -element bbar
+      output_file: output/elasticity_plastic_full.out
 
    test:
       suffix: incompatible
@@ -136,7 +137,7 @@ int main(int argc, char **argv)
 
    test:
       suffix: order2
-      args: -element {{full bbar}separate output} -order 2
+      args: -element {{full bbar}} -order 2
 
    test:
       suffix: tetrahedra
@@ -146,11 +147,11 @@ int main(int argc, char **argv)
    test:
       suffix: finite
       nsize: 2
-      args: -material j2_finite -element {{full bbar}separate output}
+      args: -material j2_finite -element {{full bbar}}
 
    test:
       suffix: finite_order2
-      args: -material j2_finite -element {{full bbar}separate output} -order 2
+      args: -material j2_finite -element {{full bbar}} -order 2
 
    test:
       suffix: finite_tetrahedra

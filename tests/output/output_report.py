@@ -1,5 +1,7 @@
-"""Parses a summary as strict JSON (no NaN, no Infinity) and prints it with its keys in order."""
+"""Parses a summary as strict JSON (no NaN, no Infinity) and prints it with its keys in order, lists of numbers on one
+line."""
 import json
+import re
 import sys
 
 
@@ -9,4 +11,4 @@ def refuse(word):
 
 with open(sys.argv[1], encoding="utf-8") as file:
     report = json.load(file, parse_constant=refuse)
-print(json.dumps(report, ensure_ascii=True, indent=1))
+print(re.sub(r"\[([^\[\]{}\"]*)\]", lambda m: "[" + " ".join(m[1].split()) + "]", json.dumps(report, indent=1)))

@@ -17,24 +17,22 @@ PYTHONPATH=$AMGF_DIR/share/plot:$AMGF_DIR/tests/lib "$PYTHON" -B "$AMGF_DIR/test
   bodies.png=base,punch below.png=base,-punch above.png=punch,-base one.png=base,-punch cut.png=base,-punch \
   status.png=closed,grey pressure.png=grey,high stress.png=high
 
-for refused in "--step 7" "--only base,lid" "--only 2" "--field heat" "--field stress" "--hide y" "--scale big" \
+for refused in "--section y" "--section 1,2=3" "--section z=-9" \
+  "--step 7" "--only base,lid" "--only 2" "--field heat" "--field stress" "--hide y" "--scale big" \
   "--hide z>-1"; do
   # shellcheck disable=SC2086
   draw boxes no.png $refused 2>&1 && echo "$refused: drawn"
 done
-# Two faces that touch are drawn one in front of the other, the finer one in front
-PYTHONPATH=$AMGF_DIR/share/plot "$PYTHON" -B -c 'import draw
-from vtkmodules.vtkCommonCore import reference
-(_, bodies), _ = draw.scene_of(draw.arguments("boxes no.png --field contact_pressure --contact-only".split()), \
-  draw.Files("boxes"))
-offsets, mappers = [], [actor.GetMapper() for actor in bodies.GetActors()]
-for mapper in (mapper for mapper in mappers if mapper.GetScalarVisibility()):
-    factor, units = reference(0.0), reference(0.0)
-    mapper.GetRelativeCoincidentTopologyPolygonOffsetParameters(factor, units)
-    offsets.append((mapper.GetInput().GetNumberOfCells(), float(units)))
-front = min(offsets, key=lambda face: face[1])
-units = {layer for _, layer in offsets}
-print("faces in contact, one in front:", len(offsets) == len(units) == 2 and front[0] == max(offsets)[0])'
+# One side of a pair is coloured, that with the largest pressure; the mark has the largest value and its place; colours
+# are not changed by light; a section omits what is in front of it; load steps have one range of colours and one view
+PYTHONPATH=$AMGF_DIR/share/plot:$AMGF_DIR/tests/lib "$PYTHON" -B "$AMGF_DIR/tests/output/pictures_parts.py"
+# A Python without modules finds the one of the build; where that has none, one sentence says what is missing
+"$PYTHON" -S -B "$AMGF_DIR/share/plot/draw.py" boxes other.png --field body && ls other.png
+mkdir -p bare/bin bare/share && cp -r "$AMGF_DIR/share/plot" "$AMGF_DIR/share/python" bare/share
+echo 'exec /nowhere/python3 -B' > bare/bin/contact-mesh
+for program in draw film curves; do
+  "$PYTHON" -S -B bare/share/plot/$program.py boxes no.png 2>&1 | sed 's|Python at [^ ]*|Python at PYTHON|'
+done
 draw nothing no.png 2>&1 || ls no.png 2> /dev/null
 PYTHONPATH=$AMGF_DIR/share/python "$PYTHON" -B -c 'from contact.files import Files
 for field in ("stress_xx", "contact_pressure", "contact_force", "displacement", "contact_area", \

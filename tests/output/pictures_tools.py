@@ -120,9 +120,32 @@ def distance(name, points):
     return np.linalg.norm(points[:, None] - corners[None], axis=2).min(axis=1)
 
 
+def paraview(run):
+    """The files of contact-mesh: surfaces instead of cubes, displaced as the tools are"""
+    from contact import vtu
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+    vtu.write(run, "tools.pvd")
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(f"tools_{run.step(None):04d}.vtu")
+    reader.Update()
+    grid = reader.GetOutput()
+    body, kinds = (vtk_to_numpy(grid.GetCellData().GetArray("body")), vtk_to_numpy(grid.GetCellTypesArray()))
+    places = vtk_to_numpy(grid.GetPoints().GetData()) + vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
+    ends, nodes = (vtk_to_numpy(values) for values in (grid.GetCells().GetOffsetsArray(),
+                                                       grid.GetCells().GetConnectivityArray()))
+    off = 0
+    for number in run.surfaces:
+        own = np.concatenate([nodes[ends[c]:ends[c + 1]] for c in np.flatnonzero(body == number)])
+        off = max(off, np.abs(distance(run.bodies[number], back(places[np.unique(own)]))).max())
+    print("files for ParaView: cells of tools are faces:", set(kinds[np.isin(body, list(run.surfaces))]) <= {5, 9},
+          "; on the exact surface, displaced:", off < 1e-9)
+
+
 def check():
     import draw
-    import tools
+    from contact import tools
     from contact.files import Files
 
     run = Files("tools")
@@ -138,6 +161,13 @@ def check():
         middles = np.abs(distance(name, points[faces].mean(axis=1))).max() if name != "facets" else 0
         print(f"{name}: on the surface: {'yes' if off < 1e-9 else off},",
               f"middles of the faces near it: {'yes' if middles < 0.02 else middles}")
+    paraview(run)
+    run = Files("roller")
+    colours = draw.field_values(draw.arguments(["roller", "roller.png", "--field", "nodal_von_mises"]), run, 1)
+    rigid = draw.body_of_vertices(run) == run.bodies.index("roller")
+    grey = np.isnan(colours)
+    print("rigid body with a mesh: without colour:", bool(grey[rigid].all() and not grey[~rigid].any()))
+    run = Files("tools")
     cells = draw.chosen_cells(draw.arguments(["tools", "tools.png"]), run)
     print("cells that are drawn:", len(cells), "of", {run.bodies[body] for body in run.body[cells]})
 

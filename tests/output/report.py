@@ -4,7 +4,7 @@ import json
 import re
 import sys
 
-VOID = {"meta", "img", "br"}
+VOID = {"meta", "img", "br", "input"}
 
 
 class Page(html.parser.HTMLParser):

@@ -51,6 +51,19 @@ load: {factors: [1, 0.5]}
 """
 
 
+BOLT = """
+problem: bolt
+units: mm, N, MPa
+bodies:
+  - screw: {lower: [0, 0, 0], upper: [10, 1, 1], cells: [10, 1, 1], young: 1000, poisson: 0}
+displacements:
+  - left: {face: screw.xmin, value: [0, 0, 0]}
+  - right: {face: screw.xmax, value: [0, 0, 0]}
+bolts:
+  - m1: {body: screw, point: [5, 0, 0], axis: [1, 0, 0], force: 3}
+"""
+
+
 def figure(run, quantity, name=""):
     found = [one for one in run["figures"] if (one["quantity"], one["name"]) == (quantity, name)]
     assert len(found) == 1, (quantity, name, found)
@@ -93,6 +106,8 @@ def tube(run):
         "tube: stress at the bore",
         within(stress["value"], mises, 0.02) and stress["unit"] == "N/m^2"
         and within(math.hypot(*stress["place"][:2]), inner, 1e-9), (stress, mises))
+    plane = figure(run, "symmetry reaction", "tube.amin")
+    say("tube: reaction of a symmetry plane", within(plane["value"], pressure * inner * 0.5, 1e-6), plane)
     say("tube: safety factor", within(figure(run, "safety against yield", "tube")["value"], 240 / mises, 0.02), mises)
 
 
@@ -133,6 +148,12 @@ def tool(run):
         and near(figure(run, "von Mises stress", "block")["place"], [0, 0, 0], 1e-12), run["figures"])
 
 
+def bolt(run):
+    force = figure(run, "bolt force", "m1")
+    say("bolt: force", within(force["value"], 3, 1e-6) and force["unit"] == "N", force)
+    say("bolt: reaction", within(figure(run, "reaction", "screw.xmin")["value"], 3, 1e-6), run["figures"])
+
+
 def terminal(name, run):
     with open(name + ".txt", encoding="utf-8") as file:
         lines = [line.split() for line in file]
@@ -170,7 +191,7 @@ def ranks(name, run):
 
 
 def check():
-    for name, test in (("cantilever", cantilever), ("tube", tube), ("tool", tool)):
+    for name, test in (("cantilever", cantilever), ("tube", tube), ("tool", tool), ("bolt", bolt)):
         run = load(name)
         test(run)
         terminal(name, run)
@@ -190,7 +211,7 @@ def check():
 
 
 if sys.argv[1] == "write":
-    for name, text in (("cantilever", CANTILEVER), ("tube", TUBE), ("tool", TOOL)):
+    for name, text in (("cantilever", CANTILEVER), ("tube", TUBE), ("tool", TOOL), ("bolt", BOLT)):
         with open(name + ".yaml", "w", encoding="utf-8") as file:
             file.write(text.lstrip())
 else:

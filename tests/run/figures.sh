@@ -4,7 +4,7 @@
 contact=$AMGF_DIR/bin/contact
 check="$AMGF_DIR/tests/run/figures.py"
 "$PYTHON" "$check" write
-for scene in cantilever tube tool; do
+for scene in cantilever tube tool bolt; do
   "$contact" $scene.yaml -output $scene -summary $scene.json > $scene.txt || echo "$scene: exit code $?"
   mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json || echo "$scene, 3: exit code $?"
 done

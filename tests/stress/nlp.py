@@ -229,8 +229,9 @@ def profile(problems, results, path):
 
 HEADER = """# Nonlinear programs: TAOIPFILTER compared with IPOPT and other solvers of TAO
 
-`make stress STRESS=nlp` makes this page (tests/stress/nlp.py). All solvers get the same formulas,
-derivatives and starting points, and use their default options. The time limit is %d s per problem.
+`make stress STRESS=nlp` makes this page (tests/stress/nlp.py), and build/nlp/nlp_all.md with a row
+for each problem. All solvers get the same formulas, derivatives and starting points, and use their
+default options. The time limit is %d s per problem.
 
 | result | meaning |
 | --- | --- |
@@ -288,9 +289,10 @@ def main():
             f"## {right} has right, {left} not", "", "| problem | | f | optimum | violation | its | said |",
             "|" + " --- |" * 7, *differences(problems, results, left, right), ""
         ]
-    lines += ["## All", "", *table(problems, results, (ours, none, ipopt))]
     with open(os.path.join(args.out, "nlp.md"), "w") as out:
-        out.write("\n".join(lines) + "\n")
+        out.write("\n".join(lines))
+    with open(os.path.join(args.folder, "nlp_all.md"), "w") as out:
+        out.write("\n".join(table(problems, results, (ours, none, ipopt))) + "\n")
     profile(problems, results, os.path.join(args.out, "nlp_profile.png"))
     print("\n".join(line for members in sets.values() for line in counts(members, results)))
 

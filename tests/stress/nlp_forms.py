@@ -85,7 +85,8 @@ def fits(p):
 HEADER = """# Nonlinear programs in other forms: TAOIPFILTER compared with IPOPT
 
 `make stress STRESS=nlp` makes this page (tests/stress/nlp_forms.py). The problems are those of
-[nlp.md](nlp.md), which also says which results are right.
+[nlp.md](nlp.md), which also says which results are right. The tables list the problems that IPOPT
+has right and TAOIPFILTER not; build/nlp/nlp_forms_other.md lists those that are the other way round.
 
 | form | how it is written |
 | --- | --- |
@@ -100,7 +101,7 @@ HEADER = """# Nonlinear programs in other forms: TAOIPFILTER compared with IPOPT
 
 def main():
     args = parse()
-    lines = [HEADER]
+    lines, others = [HEADER], ["# Problems that ipfilter has right and IPOPT not", ""]
     asked = [s for s in solvers(args.folder) if s.name in ("ipfilter", "IPOPT")]
     for form, rewrite in FORMS.items():
         problems = [p for p in map(rewrite, [*shipped(args.folder), *PROBLEMS, *KINDS, *TEXTBOOK]) if fits(p)]
@@ -108,15 +109,17 @@ def main():
         for found in results.values():
             for p in problems:
                 found[p.name].verdict = judge(p, found[p.name])
-        lines += [f"## {form}", "", *counts(problems, results), ""]
-        for left, right in (("ipfilter", "IPOPT"), ("IPOPT", "ipfilter")):
-            lines += [
-                f"{right} has right, {left} not:", "", "| problem | | f | optimum | violation | its | said |",
-                "|" + " --- |" * 7, *differences(problems, results, left, right), ""
-            ]
+        title = "| problem | | f | optimum | violation | its | said |\n|" + " --- |" * 7
+        lines += [
+            f"## {form}", "", *counts(problems, results), "", "IPOPT has right, ipfilter not:", "", title,
+            *differences(problems, results, "ipfilter", "IPOPT"), ""
+        ]
+        others += [f"## {form}", "", title, *differences(problems, results, "IPOPT", "ipfilter"), ""]
         print(form, *counts(problems, results), sep="\n", flush=True)
     with open(os.path.join(args.out, "nlp_forms.md"), "w") as out:
         out.write("\n".join(lines))
+    with open(os.path.join(args.folder, "nlp_forms_other.md"), "w") as out:
+        out.write("\n".join(others))
 
 
 if __name__ == "__main__":

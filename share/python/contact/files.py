@@ -106,6 +106,13 @@ class Files:
         with h5py.File(self.files[step], "r") as file:
             return ~np.isnan(file["contact_gap"][:]) if "contact_gap" in file else np.zeros(len(self.vertices), bool)
 
+    def pairs(self, step, field):
+        """Which vertices belong to each contact pair; of a field of one pair (contact_pressure_NAME), to that one"""
+        with h5py.File(self.files[step], "r") as file:
+            names = [name for name in file if name.startswith("contact_gap_")] or ["contact_gap"]
+            own = [name for name in names if field.endswith(name[len("contact_gap"):])]
+            return [~np.isnan(file[name][:]) for name in own or names if name in file]
+
     def in_contact(self, step):
         """Which vertices are closed"""
         with h5py.File(self.files[step], "r") as file:

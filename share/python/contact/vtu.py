@@ -7,9 +7,11 @@ from xml.sax.saxutils import quoteattr
 import h5py
 import numpy as np
 
+from . import tools
 from .files import ContactError
 
 VTK_CELLS = {4: 10, 10: 24, 8: 12}  # VTK's type of a cell by its number of nodes
+VTK_FACES = {3: 5, 4: 9}
 TYPES = {"f": "Float64", "i": "Int64", "u": "UInt8"}
 SYMMETRIC = [0, 3, 5, 1, 4, 2]  # xx xy xz yy yz zz in VTK's order xx yy zz xy yz xz
 
@@ -23,36 +25,65 @@ def array(name, values):
             f'format="binary">{base64.b64encode(data).decode()}</DataArray>\n')
 
 
-def fields_of(path, n):
-    """(name, values) of the fields with n rows; tensors in VTK's order"""
+def fields_of(path, n, keep, more):
+    """(name, values) of the fields with n rows: some of them, and more rows without a value; tensors in VTK's order"""
     with h5py.File(path, "r") as file:
         for name, values in file.items():
             if len(values) == n:
                 values = values[:].astype(np.float64)
                 values = values.reshape(n, -1) if values.size > n else values.ravel()
-                yield name, values[:, SYMMETRIC] if values.ndim > 1 and values.shape[1] == 6 else values
+                values = values[:, SYMMETRIC] if values.ndim > 1 and values.shape[1] == 6 else values
+                yield name, np.concatenate([values[keep], np.full((more, *values.shape[1:]), np.nan)])
+
+
+class Tools:
+    """The surfaces of rigid tools, which the mesh has as cubes of one cell"""
+
+    def __init__(self, files, step):
+        self.cubes = np.isin(files.body, list(files.surfaces))
+        nodes = np.unique(np.concatenate([files.cells[c] for c in np.flatnonzero(~self.cubes)] or [[0]]))
+        low, high = files.vertices[nodes].min(axis=0), files.vertices[nodes].max(axis=0)
+        displacement, at = files.displacement(step), len(files.vertices)
+        points, moves, self.faces, bodies = [np.zeros((0, 3))], [np.zeros((0, 3))], [], []
+        for body, note in files.surfaces.items():
+            cube = files.cells[np.flatnonzero(files.body == body)[0]]
+            own, faces = tools.surface(note, low, high)
+            points.append(own)
+            moves.append(tools.moved(own, files.vertices[cube], displacement[cube]))
+            self.faces += list(faces + at)
+            bodies += [body] * len(faces)
+            at += len(own)
+        self.points, self.displacement = np.concatenate(points), np.concatenate(moves)
+        self.body = np.array(bodies, np.int64)
 
 
 def write_step(files, step, path):
     """One load step"""
-    sizes = np.array([len(cell) for cell in files.cells], np.int64)
-    points, cells = len(files.vertices), len(sizes)
-    kinds = np.array([VTK_CELLS[n] for n in sizes], np.uint8)
+    tool = Tools(files, step)
+    solid, points = ~tool.cubes, len(files.vertices)
+    cells = [files.cells[c] for c in np.flatnonzero(solid)]
+    sizes = np.array([len(cell) for cell in (*cells, *tool.faces)], np.int64)
+    kinds = np.array([VTK_CELLS[len(cell)] for cell in cells] + [VTK_FACES[len(face)] for face in tool.faces], np.uint8)
     with open(path, "w", encoding="ascii") as out:
         out.write('<?xml version="1.0"?>\n'
                   '<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n'
                   '<UnstructuredGrid>\n')
-        out.write(f'<Piece NumberOfPoints="{points}" NumberOfCells="{cells}">\n<Points>\n')
-        out.write(array("Points", files.vertices.astype(np.float64)) + "</Points>\n<Cells>\n")
+        more = len(tool.points)
+        out.write(f'<Piece NumberOfPoints="{points + more}" NumberOfCells="{len(sizes)}">\n<Points>\n')
+        out.write(array("Points", np.concatenate([files.vertices, tool.points])) + "</Points>\n<Cells>\n")
         out.write(
             array("connectivity",
-                  np.concatenate(files.cells).astype(np.int64)) + array("offsets", np.cumsum(sizes)) +
+                  np.concatenate([*cells, *tool.faces]).astype(np.int64)) + array("offsets", np.cumsum(sizes)) +
             array("types", kinds))
         out.write('</Cells>\n<PointData Vectors="displacement">\n')
-        out.writelines(array(*field) for field in fields_of(files.files[step], points))
-        out.write("</PointData>\n<CellData>\n" + array("body", files.body.astype(np.int64)))
-        if cells != points:
-            out.writelines(array(*field) for field in fields_of(files.files[step], cells))
+        for name, values in fields_of(files.files[step], points, slice(None), more):
+            if name == "displacement":
+                values[points:] = tool.displacement
+            out.write(array(name, values))
+        out.write("</PointData>\n<CellData>\n" + array("body", np.concatenate([files.body[solid], tool.body])))
+        if len(files.cells) != points:
+            out.writelines(array(*field) for field in fields_of(files.files[step], len(files.cells), solid,
+                                                                len(tool.faces)))
         out.write("</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")
 
 

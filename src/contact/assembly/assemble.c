@@ -514,7 +514,6 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   if (contact->trace) PetscCall(LinearizationSetTrace(contact, *lin));
   PetscCall(ContactCyclicMerge(contact, *lin));
   (*lin)->gaps_only = (PetscBool)(as->parts == CONTACT_GAPS && contact->smooth.slopes);
-  PetscCall(MatGetSize((*lin)->J, &contact->nrows, NULL));
   PetscCall(PetscFree(kept));
   PetscCall(CouplingDestroy(&coupling));
   PetscFunctionReturn(0);

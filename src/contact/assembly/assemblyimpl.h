@@ -38,8 +38,6 @@ typedef struct {
   PetscReal      distance; /* search distance: facets farther apart are ignored [length] */
   PetscReal      depth; /* search depth: facets that overlap deeper are ignored, because they are on the far side of a
                        body [length] */
-  PetscInt nfacing;     /* number of overlapping facet pairs, or of vertices opposite a facet, on this rank in the last
-                         contact update */
   const SceneBody *formula;   /* the rigid surface on the mortar side; NULL if the mortar side is a face of facets */
   PetscInt         corner[4]; /* global numbers of four corners of the cube that represents the rigid surface in the
                                  mesh */
@@ -133,7 +131,6 @@ struct _n_Contact {
                             other whose normals make an angle of more than 90 degrees */
   PetscReal depth; /* search depth from the option -contact_search_depth [length]; 0: computed from the thickness of
                       the bodies */
-  PetscInt  nrows; /* number of rows in the last linearization, on all ranks */
 };
 
 /* rows.c: the list of all possible rows */
@@ -190,10 +187,6 @@ PETSC_INTERN PetscErrorCode ContactFindNoSlip(Contact);
 PETSC_INTERN PetscErrorCode ContactSlipCreate(Contact, Mat couplings, const PetscInt kept[], ContactLinearization);
 PETSC_INTERN PetscErrorCode ContactSlipCreateMortar(Contact, Mat couplings, const PetscInt kept[],
   ContactLinearization);
-
-/* What is computed for smooth pairs. CONTACT_GAPS: only the gap; CONTACT_FORCES: also J and lin->cover;
-   CONTACT_DERIVATIVE: also lin->derivative. For other pairs everything is always computed. */
-typedef enum { CONTACT_GAPS, CONTACT_FORCES, CONTACT_DERIVATIVE } ContactParts;
 
 /* assemble.c: the data of one contact update while it is assembled */
 typedef struct _n_ContactAssembly {

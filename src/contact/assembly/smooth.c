@@ -18,7 +18,7 @@ static PetscErrorCode PatchSurface(const ContactRing *ring, ContactSurface *s, P
   PetscFunctionBegin;
   *bulge = *curvature = 0.0;
   PetscCall(PetscMalloc1(3 * ring->nnormals, &normal));
-  for (PetscInt i = 0; i < ring->nnormals; ++i) ContactRingNormal(ring, ring->at[i], &normal[3 * i]);
+  for (PetscInt i = 0; i < ring->nnormals; ++i) MeshCornerNormal(&ring->s, ring->at[i], &normal[3 * i]);
   for (PetscInt f = 0; f < s->nfacets; ++f) {
     const PetscReal *x = &s->x[12 * f];
     PetscReal        a[3], size = 0.0;

@@ -16,7 +16,7 @@
 typedef struct {
   /* Enlarges the box to contain every mortar facet that may face this rank's part of the nonmortar face of pair p */
   PetscErrorCode (*box)(Contact, PetscInt p, PetscReal box[6]);
-  /* Adds the gap of pair p and its couplings to the assembly, and counts pair->nfacing */
+  /* Adds the gap of pair p and its couplings to the assembly */
   PetscErrorCode (*add)(Contact, PetscInt p, const ContactCandidates *, ContactAssembly *);
 } ContactGapOps;
 PETSC_INTERN const ContactGapOps ContactGapMortar, ContactGapNode, ContactGapRigidSurface;

@@ -280,7 +280,6 @@ static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const Conta
       (void)ContactFacetNormal(&pair->nonmortar.x[12 * f], &normal[3 * a]);
     PetscCall(OverlapsFind(&limits, rule, &pair->nonmortar, f, mortar, n, near.facet + first, &list));
     PetscCall(MortarAddFacet(rule, pair, f, normal, mortar, &list, assembly));
-    pair->nfacing += list.n;
   }
   PetscCall(OverlapsDestroy(&list));
   PetscCall(PetscFree(meets));

@@ -243,7 +243,6 @@ static PetscErrorCode ContactAdd_Node(Contact contact, PetscInt p, const Contact
     }
     if (gap.gap > pair->distance || gap.gap < -pair->depth) continue;
     PetscCall(NodeAddVertex(contact, i, rstart + i, PetscRealPart(mass[i]), mortar, &nearest, &gap, assembly));
-    ++pair->nfacing;
   }
   PetscCall(VecRestoreArrayRead(rows->mass, &mass));
   PetscCall(ContactTreeDestroy(&tree));

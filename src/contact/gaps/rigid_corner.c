@@ -192,7 +192,6 @@ PetscErrorCode ContactCornersAdd(ContactPairData *pair, ContactAssembly *assembl
     for (PetscInt k = 0; k < 2; ++k) value[k] = -corner->share * corner->phi[k];
     PetscCall(ContactAssemblyAdd(assembly, corner->row, 2, corner->node, value, corner->normal));
     PetscCall(VecSetValue(assembly->gap, corner->row, corner->share * corner->gap, ADD_VALUES));
-    ++pair->nfacing;
   }
   PetscFunctionReturn(0);
 }

@@ -177,7 +177,6 @@ static PetscErrorCode ContactAdd_RigidSurface(Contact contact, PetscInt p, PETSC
     offset /= 3;
     PetscCall(ContactAssemblyAdd(assembly, row, 1, &offset, &less, &rows->normal[3 * i]));
     PetscCall(VecSetValue(assembly->gap, row, area * distance, ADD_VALUES));
-    ++pair->nfacing;
   }
   PetscCall(VecRestoreArrayRead(rows->mass, &mass));
   PetscFunctionReturn(0);

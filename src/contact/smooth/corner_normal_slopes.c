@@ -52,7 +52,7 @@ static void AddBlock(PetscInt node, const PetscReal A[9], ContactNormalSlopes *s
 static void AddNode(const ContactRing *ring, PetscInt corner, PetscReal factor, const PetscReal A[9],
   ContactNormalSlopes *slopes)
 {
-  const PetscInt node  = ring->node[corner];
+  const PetscInt node  = ring->s.node[corner];
   ContactImage   image = {node, {-1, -1, -1}};
   PetscReal      B[9];
 
@@ -71,22 +71,22 @@ static void AddNode(const ContactRing *ring, PetscInt corner, PetscReal factor, 
 static void AddEdge(const ContactRing *ring, PetscInt corner, PetscBool after, const PetscReal A[9],
   ContactNormalSlopes *slopes)
 {
-  AddNode(ring, after ? ContactCornerAfter(ring, corner) : ContactCornerBefore(ring, corner), 1.0, A, slopes);
+  AddNode(ring, after ? MeshCornerAfter(&ring->s, corner) : MeshCornerBefore(&ring->s, corner), 1.0, A, slopes);
   AddNode(ring, corner, -1.0, A, slopes);
 }
 
-/* Adds A, a derivative with respect to the unit normal of ContactRingFanNormal() */
+/* Adds A, a derivative with respect to the unit normal of MeshCornerFanNormal() */
 static void AddFan(const ContactRing *ring, PetscInt first, PetscInt last, const PetscReal A[9],
   ContactNormalSlopes *slopes)
 {
   PetscReal n[3], S[9];
-  PetscReal length = ContactRingFanNormal(ring, first, last, n);
+  PetscReal length = MeshCornerFanNormal(&ring->s, first, last, n);
 
   ThroughUnit(A, n, length, S);
-  for (PetscInt corner = first;; corner = ring->twin[ContactCornerBefore(ring, corner)]) {
+  for (PetscInt corner = first;; corner = ring->s.twin[MeshCornerBefore(&ring->s, corner)]) {
     PetscReal edge[2][3], product[3], along[3], B[9], squares[2], weight;
 
-    ContactRingEdges(ring, corner, edge[0], edge[1]);
+    MeshCornerEdges(&ring->s, corner, edge[0], edge[1]);
     VectorCross(edge[0], edge[1], product);
     for (PetscInt k = 0; k < 2; ++k) squares[k] = VectorDot(edge[k], edge[k]);
     weight = squares[0] * squares[1] > 0.0 ? 1.0 / (squares[0] * squares[1]) : 0.0;
@@ -105,7 +105,7 @@ static void AddMean(const ContactRing *ring, PetscInt corner, const PetscReal A[
 {
   PetscInt first, last;
 
-  (void)ContactRingFan(ring, corner, &first, &last);
+  (void)MeshCornerFan(&ring->s, corner, &first, &last);
   AddFan(ring, first, last, A, slopes);
 }
 
@@ -119,14 +119,14 @@ static void AddCorrectedCorner(const ContactRing *ring, PetscInt corner, const P
 {
   PetscReal d[2][3], m[2][3], D[2][3] = {{0}}, G[3], b[2] = {0}, mean[9], B[9], AD[2][3], det;
 
-  ContactRingEdges(ring, corner, d[0], d[1]);
+  MeshCornerEdges(&ring->s, corner, d[0], d[1]);
   for (PetscInt i = 0; i < 2; ++i) {
-    ContactRingMeanNormal(ring, i ? ContactCornerBefore(ring, corner) : ContactCornerAfter(ring, corner), m[i]);
+    MeshCornerMeanNormal(&ring->s, i ? MeshCornerBefore(&ring->s, corner) : MeshCornerAfter(&ring->s, corner), m[i]);
     G[i] = VectorDot(d[i], d[i]);
   }
   G[2] = VectorDot(d[0], d[1]);
   det  = G[0] * G[1] - G[2] * G[2];
-  if (det > CONTACT_FLAT_CORNER * G[0] * G[1]) {
+  if (det > MESH_FLAT_CORNER * G[0] * G[1]) {
     for (PetscInt i = 0; i < 2; ++i) {
       for (PetscInt c = 0; c < 3; ++c) D[i][c] = (G[1 - i] * d[i][c] - G[2] * d[1 - i][c]) / det;
     }
@@ -139,7 +139,7 @@ static void AddCorrectedCorner(const ContactRing *ring, PetscInt corner, const P
     Times(A, D[i], AD[i]);
     AddOuter(mean, -1.0, AD[i], d[i], mean);
     AddOuter(NULL, -1.0, AD[i], d[i], B);
-    AddMean(ring, i ? ContactCornerBefore(ring, corner) : ContactCornerAfter(ring, corner), B, slopes);
+    AddMean(ring, i ? MeshCornerBefore(&ring->s, corner) : MeshCornerAfter(&ring->s, corner), B, slopes);
   }
   AddMean(ring, corner, mean, slopes);
   for (PetscInt i = 0; i < 2; ++i) {
@@ -163,15 +163,15 @@ static void BorderCreate(const ContactRing *ring, PetscInt first, PetscInt last,
 {
   PetscReal after[3], before[3], d[3], m[3], sum = 0.0;
 
-  ContactRingEdges(ring, first, after, d);
-  ContactRingEdges(ring, last, d, before);
+  MeshCornerEdges(&ring->s, first, after, d);
+  MeshCornerEdges(&ring->s, last, d, before);
   for (PetscInt c = 0; c < 3; ++c) border->along[c] = after[c] - before[c];
   VectorCross(n, border->along, border->across);
   border->length  = VectorScaleToUnit(border->across);
   border->squares = 0.0;
-  for (PetscInt corner = first; corner != last; corner = ring->twin[ContactCornerBefore(ring, corner)]) {
-    ContactRingEdges(ring, corner, after, d);
-    ContactRingMeanNormal(ring, ContactCornerBefore(ring, corner), m);
+  for (PetscInt corner = first; corner != last; corner = ring->s.twin[MeshCornerBefore(&ring->s, corner)]) {
+    MeshCornerEdges(&ring->s, corner, after, d);
+    MeshCornerMeanNormal(&ring->s, MeshCornerBefore(&ring->s, corner), m);
     sum -= (VectorDot(n, d) + VectorDot(m, d)) * VectorDot(border->across, d);
     border->squares += PetscSqr(VectorDot(border->across, d));
   }
@@ -192,12 +192,12 @@ static void AddCorrectedBorder(const ContactRing *ring, PetscInt first, PetscInt
     mean[i]   = A[i];
     across[i] = border.slope * A[i];
   }
-  for (PetscInt corner = first; corner != last; corner = ring->twin[ContactCornerBefore(ring, corner)]) {
+  for (PetscInt corner = first; corner != last; corner = ring->s.twin[MeshCornerBefore(&ring->s, corner)]) {
     PetscReal       after[3], d[3], m[3], c, r, by_edge[3];
     const PetscReal inverse = border.squares > 0.0 ? 1.0 / border.squares : 0.0;
 
-    ContactRingEdges(ring, corner, after, d);
-    ContactRingMeanNormal(ring, ContactCornerBefore(ring, corner), m);
+    MeshCornerEdges(&ring->s, corner, after, d);
+    MeshCornerMeanNormal(&ring->s, MeshCornerBefore(&ring->s, corner), m);
     c = VectorDot(border.across, d);
     r = -VectorDot(n, d) - VectorDot(m, d) - 2.0 * border.slope * c;
     for (PetscInt k = 0; k < 3; ++k) by_edge[k] = -c * (n[k] + m[k]) + r * border.across[k];
@@ -206,7 +206,7 @@ static void AddCorrectedBorder(const ContactRing *ring, PetscInt first, PetscInt
     AddOuter(NULL, inverse, AX, by_edge, B);
     AddEdge(ring, corner, PETSC_FALSE, B, slopes);
     AddOuter(NULL, -c * inverse, AX, d, B);
-    AddMean(ring, ContactCornerBefore(ring, corner), B, slopes);
+    AddMean(ring, MeshCornerBefore(&ring->s, corner), B, slopes);
   }
   ThroughUnit(across, border.across, border.length, across);
   ThroughCross(across, border.along, 1.0, B);
@@ -226,13 +226,13 @@ void ContactRingNormalSlopes(const ContactRing *ring, PetscInt corner, ContactNo
   PetscInt        first, last;
   PetscReal       n[3], corrected[3], length, A[9];
 
-  if (ContactRingFan(ring, corner, &first, &last)) {
+  if (MeshCornerFan(&ring->s, corner, &first, &last)) {
     AddFan(ring, first, last, identity, slopes);
     return;
   }
-  (void)ContactRingFanNormal(ring, first, last, n);
+  (void)MeshCornerFanNormal(&ring->s, first, last, n);
   for (PetscInt c = 0; c < 3; ++c) corrected[c] = n[c];
-  ContactRingCorrectNormal(ring, first, last, corrected);
+  MeshCornerCorrectNormal(&ring->s, first, last, corrected);
   length = VectorScaleToUnit(corrected);
   ThroughUnit(identity, corrected, length, A);
   if (first == last) AddCorrectedCorner(ring, corner, n, A, slopes);

@@ -32,9 +32,9 @@ static PetscBool MirrorIsOblique(const ContactRing *ring, PetscInt corner, Petsc
 {
   PetscReal x[12], facet[3], n[3];
 
-  for (PetscInt i = 0; i < 12; ++i) x[i] = ring->x[3 * ring->node[4 * (corner / 4) + i / 3] + i % 3];
+  for (PetscInt i = 0; i < 12; ++i) x[i] = ring->s.x[3 * ring->s.node[4 * (corner / 4) + i / 3] + i % 3];
   if (!ContactFacetNormal(x, facet)) return PETSC_TRUE;
-  ContactRingNormal(ring, corner, n);
+  MeshCornerNormal(&ring->s, corner, n);
   return (PetscBool)(PetscAbsReal(n[axis]) > MIRROR_OBLIQUE * PetscAbsReal(facet[axis]) + MIRROR_ROUNDING);
 }
 
@@ -56,10 +56,10 @@ static PetscErrorCode MirrorFindOwn(const ContactRing *ring, PetscInt nown, Pets
   PetscFunctionBegin;
   *n = 0;
   for (PetscInt i = 4 * ring->own; i < 4 * (ring->own + nown); ++i) {
-    const PetscInt   next = ContactCornerAfter(ring, i), v = ring->node[i], w = ring->node[next];
-    const PetscReal *x = &ring->x[3 * v], *y = &ring->x[3 * w];
+    const PetscInt   next = MeshCornerAfter(&ring->s, i), v = ring->s.node[i], w = ring->s.node[next];
+    const PetscReal *x = &ring->s.x[3 * v], *y = &ring->s.x[3 * w];
 
-    if (ring->twin[i] >= 0 || ContactCornerIsNone(ring, i)) continue;
+    if (ring->s.twin[i] >= 0 || MeshCornerIsNone(&ring->s, i)) continue;
     for (PetscInt axis = 0; axis < 3; ++axis) {
       if (!MirrorHolds(ring, v, axis) || !MirrorHolds(ring, w, axis) || PetscAbsReal(y[axis] - x[axis]) > tolerance)
         continue;
@@ -97,7 +97,7 @@ static PetscErrorCode MirrorMarkNodes(const ContactRing *ring, const MirrorPlane
   *any = -1;
   for (PetscInt v = 0; v < ring->nnodes; ++v) {
     on[v] = near[v] =
-      (PetscBool)(MirrorHolds(ring, v, axis) && PetscAbsReal(ring->x[3 * v + axis] - plane->place) <= tolerance);
+      (PetscBool)(MirrorHolds(ring, v, axis) && PetscAbsReal(ring->s.x[3 * v + axis] - plane->place) <= tolerance);
     if (on[v] && v < ring->nreal) *any = v;
   }
   for (PetscInt layer = 0; layer < 2; ++layer) {
@@ -106,7 +106,7 @@ static PetscErrorCode MirrorMarkNodes(const ContactRing *ring, const MirrorPlane
     PetscCall(PetscMalloc1(ring->nnodes, &grown));
     PetscCall(PetscArraycpy(grown, near, ring->nnodes));
     for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) {
-      for (PetscInt a = 0; near[ring->node[i]] && a < 4; ++a) grown[ring->node[4 * (i / 4) + a]] = PETSC_TRUE;
+      for (PetscInt a = 0; near[ring->s.node[i]] && a < 4; ++a) grown[ring->s.node[4 * (i / 4) + a]] = PETSC_TRUE;
     }
     PetscCall(PetscArraycpy(near, grown, ring->nnodes));
     PetscCall(PetscFree(grown));
@@ -125,7 +125,7 @@ static PetscErrorCode MirrorAddNode(ContactRing *ring, PetscInt v, PetscInt axis
   image.plane[axis] = at;
   PetscCall(PetscRealloc((g + 1) * sizeof(ContactImage), &ring->image));
   PetscCall(PetscRealloc((ring->nnodes + 1) * sizeof(PetscInt), &ring->prescribed));
-  PetscCall(PetscRealloc(3 * (ring->nnodes + 1) * sizeof(PetscReal), &ring->x));
+  PetscCall(PetscRealloc(3 * (ring->nnodes + 1) * sizeof(PetscReal), &ring->s.x));
   ring->image[g]                 = image;
   ring->prescribed[ring->nnodes] = ring->prescribed[v];
   ++ring->nnodes;
@@ -149,11 +149,11 @@ static PetscErrorCode MirrorReflect(ContactRing *ring, const MirrorPlane *plane,
     PetscInt *node;
 
     if ((*flips)[f] >> axis & 1) continue;
-    node = &ring->node[4 * f];
+    node = &ring->s.node[4 * f];
     if (!near[node[0]] || !near[node[1]] || !near[node[2]] || !near[node[3]]) continue;
-    PetscCall(PetscRealloc(4 * (ring->nfacets + 1) * sizeof(PetscInt), &ring->node));
+    PetscCall(PetscRealloc(4 * (ring->nfacets + 1) * sizeof(PetscInt), &ring->s.node));
     PetscCall(PetscRealloc((ring->nfacets + 1) * sizeof(PetscInt), flips));
-    node                    = &ring->node[4 * f];
+    node                    = &ring->s.node[4 * f];
     (*flips)[ring->nfacets] = (*flips)[f] | 1 << axis;
     for (PetscInt a = 0; a < 4; ++a) { /* The order is reversed, so that the vertices are counterclockwise seen from
                                           outside. */
@@ -164,7 +164,7 @@ static PetscErrorCode MirrorReflect(ContactRing *ring, const MirrorPlane *plane,
         image[v] = ring->nnodes;
         PetscCall(MirrorAddNode(ring, v, axis, at));
       }
-      ring->node[4 * ring->nfacets + a] = image[v];
+      ring->s.node[4 * ring->nfacets + a] = image[v];
     }
     ++ring->nfacets;
   }

@@ -59,15 +59,15 @@ static PetscErrorCode NumberNodes(Vec u, const ContactCandidates *facets, Contac
   PetscCall(PetscArraycpy(ring->global, facets->node, 4 * ring->nfacets));
   PetscCall(PetscSortRemoveDupsInt(&ring->nnodes, ring->global));
   for (PetscInt i = 0; i < 4 * ring->nfacets; ++i)
-    PetscCall(PetscFindInt(facets->node[i], ring->nnodes, ring->global, &ring->node[i]));
+    PetscCall(PetscFindInt(facets->node[i], ring->nnodes, ring->global, &ring->s.node[i]));
   ring->nreal = ring->nnodes;
   PetscCall(PetscMalloc1(3 * ring->nnodes, &ring->reference));
-  PetscCall(PetscMalloc1(3 * ring->nnodes, &ring->x));
+  PetscCall(PetscMalloc1(3 * ring->nnodes, &ring->s.x));
   PetscCall(PetscCalloc1(ring->nnodes, &ring->prescribed));
-  for (PetscInt i = 0; i < 12 * ring->nfacets; ++i) ring->reference[3 * ring->node[i / 3] + i % 3] = facets->x[i];
+  for (PetscInt i = 0; i < 12 * ring->nfacets; ++i) ring->reference[3 * ring->s.node[i / 3] + i % 3] = facets->x[i];
   for (PetscInt i = 0; i < 4 * ring->nfacets; ++i)
-    ring->prescribed[ring->node[i]] |= facets->border[i / 4] >> 3 * (i % 4) & 7;
-  PetscCall(PetscArraycpy(ring->x, ring->reference, 3 * ring->nnodes));
+    ring->prescribed[ring->s.node[i]] |= facets->border[i / 4] >> 3 * (i % 4) & 7;
+  PetscCall(PetscArraycpy(ring->s.x, ring->reference, 3 * ring->nnodes));
   PetscCall(ISCreateBlock(PETSC_COMM_SELF, 3, ring->nnodes, ring->global, PETSC_COPY_VALUES, &rows));
   PetscCall(VecCreateSeq(PETSC_COMM_SELF, 3 * ring->nnodes, &ring->u));
   PetscCall(VecScatterCreate(u, rows, ring->u, NULL, &ring->scatter));
@@ -79,11 +79,11 @@ static PetscErrorCode NumberNodes(Vec u, const ContactCandidates *facets, Contac
    there are several. */
 static PetscInt FindTwin(const ContactRing *ring, const PetscInt first[], const PetscInt corner[], PetscInt of)
 {
-  const PetscInt from = ring->node[ContactCornerAfter(ring, of)], to = ring->node[of];
+  const PetscInt from = ring->s.node[MeshCornerAfter(&ring->s, of)], to = ring->s.node[of];
   PetscInt       twin = -1;
 
   for (PetscInt i = first[from]; i < first[from + 1]; ++i) {
-    if (ring->node[ContactCornerAfter(ring, corner[i])] != to) continue;
+    if (ring->s.node[MeshCornerAfter(&ring->s, corner[i])] != to) continue;
     if (twin >= 0) return -1;
     twin = corner[i];
   }
@@ -95,7 +95,7 @@ static PetscBool FacetNormal(const ContactRing *ring, PetscInt f, PetscReal n[3]
 {
   PetscReal x[12];
 
-  for (PetscInt i = 0; i < 12; ++i) x[i] = ring->x[3 * ring->node[4 * f + i / 3] + i % 3];
+  for (PetscInt i = 0; i < 12; ++i) x[i] = ring->s.x[3 * ring->s.node[4 * f + i / 3] + i % 3];
   return ContactFacetNormal(x, n);
 }
 
@@ -106,22 +106,22 @@ static PetscErrorCode FindTwins(PetscReal cosine, ContactRing *ring)
   PetscInt *first, *corner; /* [first[v], first[v + 1]) is the range of node v's corners in `corner` */
 
   PetscFunctionBegin;
-  PetscCall(PetscFree(ring->twin));
-  PetscCall(PetscMalloc1(4 * ring->nfacets, &ring->twin));
+  PetscCall(PetscFree(ring->s.twin));
+  PetscCall(PetscMalloc1(4 * ring->nfacets, &ring->s.twin));
   PetscCall(PetscCalloc1(ring->nnodes + 2, &first));
   PetscCall(PetscMalloc1(4 * ring->nfacets, &corner));
-  for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) first[ring->node[i] + 2] += !ContactCornerIsNone(ring, i);
+  for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) first[ring->s.node[i] + 2] += !MeshCornerIsNone(&ring->s, i);
   for (PetscInt v = 0; v < ring->nnodes; ++v) first[v + 2] += first[v + 1];
   for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) {
-    if (!ContactCornerIsNone(ring, i)) corner[first[ring->node[i] + 1]++] = i;
+    if (!MeshCornerIsNone(&ring->s, i)) corner[first[ring->s.node[i] + 1]++] = i;
   }
   for (PetscInt i = 0; i < 4 * ring->nfacets; ++i) {
-    const PetscInt twin = ContactCornerIsNone(ring, i) ? -1 : FindTwin(ring, first, corner, i);
+    const PetscInt twin = MeshCornerIsNone(&ring->s, i) ? -1 : FindTwin(ring, first, corner, i);
     PetscReal      n[3], m[3];
     PetscBool      smooth = (PetscBool)(twin >= 0 && FindTwin(ring, first, corner, twin) == i);
 
-    smooth        = (PetscBool)(smooth && FacetNormal(ring, i / 4, n) && FacetNormal(ring, twin / 4, m));
-    ring->twin[i] = smooth && VectorDot(n, m) >= cosine ? twin : -1;
+    smooth          = (PetscBool)(smooth && FacetNormal(ring, i / 4, n) && FacetNormal(ring, twin / 4, m));
+    ring->s.twin[i] = smooth && VectorDot(n, m) >= cosine ? twin : -1;
   }
   PetscCall(PetscFree(first));
   PetscCall(PetscFree(corner));
@@ -144,13 +144,13 @@ static PetscErrorCode NumberNormals(ContactRing *ring, PetscInt nown)
     const PetscInt corner = 4 * ring->own + i;
     PetscInt       first, last;
 
-    if (ContactCornerIsNone(ring, corner)) {
+    if (MeshCornerIsNone(&ring->s, corner)) {
       ring->normal[i] = ring->normal[i - 1];
       continue;
     }
-    if (ContactRingFan(ring, corner, &first, &last)) {
-      for (PetscInt k = ring->twin[ContactCornerBefore(ring, corner)]; k != corner;
-           k          = ring->twin[ContactCornerBefore(ring, k)])
+    if (MeshCornerFan(&ring->s, corner, &first, &last)) {
+      for (PetscInt k = ring->s.twin[MeshCornerBefore(&ring->s, corner)]; k != corner;
+           k          = ring->s.twin[MeshCornerBefore(&ring->s, k)])
         first = PetscMin(first, k);
     }
     if (number[first] < 0) {
@@ -178,7 +178,7 @@ PetscErrorCode ContactRingCreate(MPI_Comm comm, Vec u, PetscReal cosine, const C
   PetscCall(ContactExchange(comm, box, &undeformed, &facets));
   ring->nfacets = facets.n;
   PetscCall(FindOwn(s, &facets, &ring->own));
-  PetscCall(PetscMalloc1(4 * facets.n, &ring->node));
+  PetscCall(PetscMalloc1(4 * facets.n, &ring->s.node));
   PetscCall(NumberNodes(u, &facets, ring));
   PetscCall(FindTwins(cosine, ring));
   PetscCall(ContactRingAddImages(comm, length, s->nfacets, ring));

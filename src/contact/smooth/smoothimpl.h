@@ -5,6 +5,7 @@
 #define SMOOTHIMPL_H
 
 #include "src/contact/search/searchimpl.h"
+#include "src/mesh/query/queryimpl.h"
 
 /* patch.c: the smooth surface over a facet */
 typedef struct {
@@ -39,39 +40,25 @@ typedef struct {
                             perpendicular to it, or -1 if the image is not mirrored along that axis */
 } ContactImage;
 typedef struct {
-  PetscInt   nfacets, own;  /* number of facets; the facets that this rank owns are numbers own, own + 1, ... */
-  PetscInt   nnodes, *node; /* number of nodes; [4 nfacets] number of the node at each corner */
-  PetscInt  *twin;   /* [4 nfacets] corner that represents the same edge in the neighbouring facet; -1 at a sharp edge
-                      or at the border */
-  PetscInt   nreal;  /* number of nodes of the mesh; nodes with numbers from nreal on are mirror images of these */
-  PetscInt  *global; /* [nreal] global numbers of the nodes */
+  PetscInt   nfacets, own; /* number of facets; the facets that this rank owns are numbers own, own + 1, ... */
+  PetscInt   nnodes;
+  MeshFacets s;           /* the facets and the deformed coordinates of the nodes */
+  PetscInt   nreal;       /* number of nodes of the mesh; nodes with numbers from nreal on are mirror images of these */
+  PetscInt  *global;      /* [nreal] global numbers of the nodes */
   PetscInt  *prescribed;  /* [nnodes] bit c is set if the face is held along axis c */
   PetscInt   nnormals;    /* number of normals at the corners of the facets that this rank owns. Corners of a node share
                           one normal unless a sharp edge separates them. */
   PetscInt  *normal, *at; /* [4 own facets] number of the normal at each corner; [nnormals] a corner that has the
                              normal */
-  PetscReal *reference, *x; /* coordinates of the nodes [length]: undeformed [3 nreal], and deformed [3 nnodes] */
-  Vec        u;             /* [3 nreal] displacements of the nodes [length] */
-  VecScatter scatter;       /* gathers u from the displacement of the mesh */
+  PetscReal *reference;   /* [3 nreal] undeformed coordinates of the nodes [length] */
+  Vec        u;           /* [3 nreal] displacements of the nodes [length] */
+  VecScatter scatter;     /* gathers u from the displacement of the mesh */
 
   ContactImage *image; /* [nnodes - nreal] the mirror images */
 } ContactRing;
-PETSC_INTERN PetscInt       ContactCornerAfter(const ContactRing *, PetscInt corner);
-PETSC_INTERN PetscInt       ContactCornerBefore(const ContactRing *, PetscInt corner);
-PETSC_INTERN PetscBool      ContactCornerIsNone(const ContactRing *, PetscInt corner);
 PETSC_INTERN void           ContactRingReflect(ContactRing *, PetscInt node);
 PETSC_INTERN PetscErrorCode ContactRingDeform(Vec u, ContactRing *);
-PETSC_INTERN PetscBool      ContactRingFan(const ContactRing *, PetscInt corner, PetscInt *first, PetscInt *last);
-PETSC_INTERN void ContactRingEdges(const ContactRing *, PetscInt corner, PetscReal after[3], PetscReal before[3]);
 PETSC_INTERN PetscErrorCode ContactRingDestroy(ContactRing *);
-
-/* corner_normals.c: normals of the smooth surface at the facets' corners. A corner counts as straight if the squared
-   sine of its angle is below CONTACT_FLAT_CORNER. */
-#define CONTACT_FLAT_CORNER 1e-4
-PETSC_INTERN PetscReal ContactRingFanNormal(const ContactRing *, PetscInt first, PetscInt last, PetscReal normal[3]);
-PETSC_INTERN void      ContactRingMeanNormal(const ContactRing *, PetscInt corner, PetscReal normal[3]);
-PETSC_INTERN void ContactRingCorrectNormal(const ContactRing *, PetscInt first, PetscInt last, PetscReal normal[3]);
-PETSC_INTERN void ContactRingNormal(const ContactRing *, PetscInt corner, PetscReal normal[3]);
 
 /* mirror.c: adds the mirror images of a ring in the symmetry planes on which the surface ends */
 PETSC_INTERN PetscErrorCode ContactRingAddImages(MPI_Comm, PetscReal length, PetscInt nown, ContactRing *);

@@ -56,6 +56,31 @@ PETSC_INTERN PetscErrorCode MeshQualityTableCreate(PetscInt nnodes, MeshQualityT
 PETSC_INTERN PetscReal      MeshCellQuality(const MeshQualityTable *, PetscReal x[][3]);
 PETSC_INTERN PetscErrorCode MeshCheckCells(DM, PetscInt nbodies, const SceneBody[], PetscBool mapped);
 
+/*
+   corner_normals.c: normals of the smooth surface through facets. Corner 4 f + a is vertex a of facet f.
+
+   - MeshCornerAfter(), MeshCornerBefore(): the next corner of the facet, counterclockwise, and the previous one
+   - MeshCornerIsNone(): whether it is the fourth corner of a triangle, which stores its last node twice
+   - MeshCornerFan(): the first (clockwise) and the last corner around a node before a sharp edge or the border
+   - MeshCornerNormal(): the unit normal; MeshCornerMeanNormal(): without the correction at the border
+*/
+#define MESH_FLAT_CORNER 1e-4 /* a corner counts as straight if the squared sine of its angle is smaller */
+typedef struct {
+  PetscInt  *node; /* number of the node at each corner */
+  PetscInt  *twin; /* corner that represents the same edge in the neighbouring facet; -1 at a sharp edge or at the
+                      border */
+  PetscReal *x;    /* 3 coordinates of each node [length] */
+} MeshFacets;
+PETSC_INTERN PetscInt  MeshCornerAfter(const MeshFacets *, PetscInt corner);
+PETSC_INTERN PetscInt  MeshCornerBefore(const MeshFacets *, PetscInt corner);
+PETSC_INTERN PetscBool MeshCornerIsNone(const MeshFacets *, PetscInt corner);
+PETSC_INTERN PetscBool MeshCornerFan(const MeshFacets *, PetscInt corner, PetscInt *first, PetscInt *last);
+PETSC_INTERN void      MeshCornerEdges(const MeshFacets *, PetscInt corner, PetscReal after[3], PetscReal before[3]);
+PETSC_INTERN PetscReal MeshCornerFanNormal(const MeshFacets *, PetscInt first, PetscInt last, PetscReal normal[3]);
+PETSC_INTERN void      MeshCornerMeanNormal(const MeshFacets *, PetscInt corner, PetscReal normal[3]);
+PETSC_INTERN void      MeshCornerCorrectNormal(const MeshFacets *, PetscInt first, PetscInt last, PetscReal normal[3]);
+PETSC_INTERN void      MeshCornerNormal(const MeshFacets *, PetscInt corner, PetscReal normal[3]);
+
 /* places.c: undeformed coordinates and body of each node that this rank owns, in the order of global vectors */
 typedef struct {
   Vec       x;    /* global vector of coordinates [length] */

@@ -38,7 +38,8 @@ static const SceneKey top_rows[] = {
   TEXT("problem", NULL, struct _n_Scene, name, OPTIONAL, "the file's name", "name of the scene, in reports"),
   TEXT("units", NULL, struct _n_Scene, units, OPTIONAL, "none",
     "units of the scene, for example `mm, N, MPa`; printed in tables and summary, not used in computations"),
-  SECTION("library", "none", "name of a file with a list of materials, see [materials](#materials)"),
+  SECTION("library", "none",
+    "name of a file with a list of materials, see [materials](../doc/modelling.md#named-materials-and-libraries)"),
   SECTION("materials", "none", "list of materials by name"), SECTION("bodies", "required", "list of bodies"),
   SECTION("faces", "none", "list of named parts of faces"),
   SECTION("displacements", "none", "list of prescribed displacements"),
@@ -62,7 +63,8 @@ static const SceneKey top_rows[] = {
   SECTION("probes", "none", "list of points and lines at which results are written"),
   SECTION("load", "one step", "the load program, see [load program](#load-program)"),
   SECTION("ramps", "none", "list of further load programs"),
-  SECTION("dynamics", "none: a static analysis", "inertia and time steps, see [dynamics](#dynamics)"),
+  SECTION("dynamics", "none: a static analysis",
+    "inertia and time steps, see [dynamics](../doc/modelling.md#bodies-that-move-and-hit-one-another)"),
   INTS("refine", NULL, 1, struct _n_Scene, refine, SHOWN, "0", "uniform refinements of level 0"),
   NAMED("model", NULL, CHOICE, struct _n_Scene, model, SHOWN, StepModels, "`energy`",
     "objective of a load step. `energy`: the exact energy. `quadratic`: its quadratic model at the state before "
@@ -85,7 +87,8 @@ static const SceneKey body_rows[] = {
     "strain, plasticity), `rigid`; or the name of a material. For its constants see below"),
   NAMED("element", "elastic", CHOICE, SceneBody, element, SHOWN, ElementTypes, "`auto`",
     "`full` (full integration), `bbar` (mean dilatation: does not lock as Poisson's ratio nears 1/2), `incompatible` "
-    "(modes for bending) or `auto`: the best of them for material and cells, see [which element](#which-element)"),
+    "(modes for bending) or `auto`: the best of them for material and cells, see [which "
+    "element](../doc/modelling.md#which-element)"),
   INTS("order", "elastic", 1, SceneBody, order, OPTIONAL, "1 for hexahedra, 2 for tetrahedra",
     "polynomial order of the displacements in a cell, 1 or 2. Hexahedra of order 2 have 27 nodes, tetrahedra 10; they "
     "are curved as the surface is"),
@@ -201,19 +204,21 @@ static const SceneKey temperature_rows[] = {NUMBER_OF("body", BODY, SceneTempera
     "coordinates `x`, `y`, `z`"),
   NUMBER_OF("ramp", RAMP, SceneTemperature, ramp, "`load`", "a ramp that the value follows"), {NULL}};
 
-static const SceneKey contact_rows[] = {
-  TEXT("mortar", NULL, SceneContactPair, mortar, OPTIONAL, "required, except in `auto`",
-    "the mortar (master) face, preferably the larger one; or a body, see [contact: auto](#contact-auto)"),
+static const SceneKey contact_rows[] = {TEXT("mortar", NULL, SceneContactPair, mortar, OPTIONAL,
+                                          "required, except in `auto`",
+                                          "the mortar (master) face, preferably the larger one; or a body, see "
+                                          "[contact: auto](../doc/modelling.md#contact-auto)"),
   TEXT("nonmortar", NULL, SceneContactPair, nonmortar, OPTIONAL, "required, except in `auto`",
     "the nonmortar (secondary) face, which carries the constraints; preferably the finer or softer one; or a body"),
   TEXT("self", NULL, SceneContactPair, self, OPTIONAL, "none",
     "instead of `mortar` and `nonmortar`: name of a face, or of a body (its whole surface), that comes into contact "
-    "with itself, see [Self contact](#self-contact). In `auto`: `true`, all bodies of finite strain"),
+    "with itself, see [Self contact](../doc/modelling.md#self-contact). In `auto`: `true`, all bodies of finite "
+    "strain"),
   NAMED("gap", NULL, CHOICE, SceneContactPair, gap, SHOWN, GapTypes, "`auto`",
     "`auto`: `mortar`, and `dual` from the first load step on for which `mortar` finds no equilibrium; "
     "`mortar`: integrated over the overlap of the faces; `node`: from nonmortar vertex to the closest point of the "
     "mortar face; `dual`: as `mortar`, with dual shape functions, whose forces act at the nonmortar vertices, see "
-    "[contact surfaces](#contact-surfaces-and-updates)"),
+    "[contact surfaces](../doc/modelling.md#contact-surfaces-and-updates)"),
   REALS("distance", NULL, 1, SceneContactPair, distance, OPTIONAL, FROM_0, "L", "chosen from the size of the faces",
     "largest distance of facets that can come into contact; facets further apart are not searched"),
   OWN("interference", NULL, SceneContactPair, interference, OPTIONAL, SceneOwnInterference, "L", "`false`",

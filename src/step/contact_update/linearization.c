@@ -16,9 +16,9 @@ PetscErrorCode ContactUpdateGetGaps(Simulation sim, PetscReal time, Vec u, Conta
   for (PetscInt p = 0; p < sim->scene->npairs; ++p)
     ramps = (PetscBool)(ramps || sim->scene->pairs[p].interference_ramp >= 0);
   if (ramps) {
-    PetscCall(ContactLinearizeForces(sim->contact, u, lin));
+    PetscCall(ContactLinearize(sim->contact, u, CONTACT_FORCES, lin));
     PetscCall(InterferenceAdd(sim, time, 1.0, *lin));
-  } else PetscCall(ContactGetGaps(sim->contact, u, lin));
+  } else PetscCall(ContactLinearize(sim->contact, u, CONTACT_GAPS, lin));
   PetscFunctionReturn(0);
 }
 
@@ -28,7 +28,7 @@ PetscErrorCode ContactUpdateLinearize(Simulation sim, PetscReal time, Vec u, Pet
   ContactLinearization *lin)
 {
   PetscFunctionBegin;
-  PetscCall((anticipates ? ContactLinearize : ContactLinearizeForces)(sim->contact, u, lin));
+  PetscCall(ContactLinearize(sim->contact, u, anticipates ? CONTACT_DERIVATIVE : CONTACT_FORCES, lin));
   PetscCall(InterferenceAdd(sim, time, 1.0, *lin));
   PetscFunctionReturn(0);
 }
@@ -117,8 +117,8 @@ PetscErrorCode ContactUpdateBegin(StepProblem *p, PetscBool foreseen, Vec u, con
     PetscCall(ContactLinearizationDestroy(&sim->solved->upcoming));
   }
   if (!sim->solved->upcoming)
-    PetscCall(
-      (foreseen ? ContactLinearize : ContactLinearizeForces)(sim->contact, *u_linearized, &sim->solved->upcoming));
+    PetscCall(ContactLinearize(sim->contact, *u_linearized, foreseen ? CONTACT_DERIVATIVE : CONTACT_FORCES,
+      &sim->solved->upcoming));
   sim->solved->linearization = sim->solved->upcoming;
   sim->solved->upcoming      = NULL;
   PetscCall(InterferenceAdd(sim, p->time, 1.0, sim->solved->linearization));

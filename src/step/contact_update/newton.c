@@ -62,7 +62,7 @@ static PetscErrorCode NewtonLinearize(GapNewton *s, Vec v, PetscBool gaps_only, 
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
-  PetscCall((gaps_only ? ContactGetGaps : ContactLinearizeForces)(contact, v, lin));
+  PetscCall(ContactLinearize(contact, v, gaps_only ? CONTACT_GAPS : CONTACT_FORCES, lin));
   PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
