@@ -381,12 +381,12 @@ static PetscErrorCode BodiesAreFactored(const SubspaceBodies b, const PetscReal 
   PetscFunctionBegin;
   *factored = (PetscBool)(b->F != NULL);
   PetscCall(VecGetLocalSize(b->rows, &n));
-  for (PetscInt i = 0; i < n / 3 && *factored; i++) {
+  for (PetscInt k = 0; k < n && *factored; k++) { /* column k % 3 of the contact k / 3, whose columns differ in size */
     PetscReal change = 0.0, size = 0.0;
 
-    for (PetscInt k = 9 * i; k < 9 * i + 9; k++) {
-      change = PetscMax(change, PetscAbsReal(D[k] - b->factored_D[k]));
-      size   = PetscMax(size, PetscAbsReal(b->factored_D[k]));
+    for (PetscInt j = 9 * (k / 3) + k % 3; j < 9 * (k / 3) + 9; j += 3) {
+      change = PetscMax(change, PetscAbsReal(D[j] - b->factored_D[j]));
+      size   = PetscMax(size, PetscAbsReal(b->factored_D[j]));
     }
     *factored = (PetscBool)(change <= small * size);
   }

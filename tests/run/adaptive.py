@@ -110,11 +110,11 @@ def judge():
                 Cylinder().share * Cylinder().loaded()[0]))
     for name, start, tolerance in (("cylinder", "cold", 1e-4), ("slide", "slide_cold", 2e-3)):
         warm, cold = load(name), load(start)
-        say(name + ": started from the mesh before, the same energies",
-            all(within(a, b, tolerance) for a, b in zip(each(warm, "energy"), each(cold, "energy"))),
+        say(
+            name + ": started from the mesh before, fewer applications of AMG, the same energies",
+            later(warm) < 0.9 * later(cold)
+            and all(within(a, b, tolerance) for a, b in zip(each(warm, "energy"), each(cold, "energy"))),
             (levels(warm), levels(cold)))
-    warm, cold = later(load("cylinder")), later(load("cold"))  # with friction the start saves nothing
-    say("cylinder: started from the mesh before, fewer applications of AMG", warm < 0.9 * cold, (warm, cold))
     beam, energy = load("cantilever"), load("energy")
     truth = cantilever.ENERGY + (cantilever.ENERGY - beam["steps"][-1]["energy"]) / 3
     reached("cantilever", beam, off(beam["steps"][-1]["energy"], truth))

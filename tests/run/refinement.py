@@ -137,9 +137,9 @@ def judge():
     runs = [load("slide_%d" % n) for n in ranks]
     one = runs[0]
     say(
-        "%s ranks: the same unknowns, energies to 1e-7" % ", ".join(map(str, ranks)),
+        "%s ranks: the same unknowns, energies to 1e-9" % ", ".join(map(str, ranks)),
         all(r["dofs"] == one["dofs"] and all(
-            within(a, b, 1e-7)
+            within(a, b, 1e-9)
             for a, b in zip(each(r, "energy"), each(one, "energy")))
             for r in runs), [each(r, "energy") for r in runs])
     say("with friction: the forces balance",

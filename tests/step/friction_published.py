@@ -308,8 +308,8 @@ def judge_cost():
     with_friction, without = (load(name)["steps"] for name in ("torque_42_amg", "smooth_42_amg"))
     rubbing, smooth = (sum(step["amg_applications"] for step in steps) for steps in (with_friction, without))
     verdict("torque_42, applications of AMG without friction", smooth, 60)
-    verdict("torque_42, with it", rubbing, 150)
-    verdict("torque_42, with it against without", rubbing / smooth, 2.6)
+    verdict("torque_42, with it", rubbing, 90)
+    verdict("torque_42, with it against without", rubbing / smooth, 1.85)
     verdict("torque_42, KKT error", max(step["kkt_error"] for step in with_friction), 1e-8)
 
 
