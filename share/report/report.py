@@ -261,10 +261,7 @@ def model_part(data, colours, centre, radius, lines=False, clear=False):
     return {
         "places": encoded(((points - centre) / radius).astype(np.float32)),
         "colours": encoded(np.broadcast_to(colours, (len(points), 4)).astype(np.uint8)),
-        "numbers": encoded(numbers.astype(np.uint32)),
-        "count": len(numbers),
-        "lines": lines,
-        "clear": clear
+        "numbers": encoded(numbers.astype(np.uint32)), "count": len(numbers), "lines": lines, "clear": clear
     }
 
 

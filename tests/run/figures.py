@@ -50,7 +50,6 @@ contact:
 load: {factors: [1, 0.5]}
 """
 
-
 BOLT = """
 problem: bolt
 units: mm, N, MPa

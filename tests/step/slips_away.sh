@@ -1,7 +1,7 @@
 # A flat wedge between a floor and an inclined lid that moves down by 0.002 slips out without friction, to a place where
-# no force acts on it: a warning says so. Held at its thick end it remains. With friction it slips out as well, since
-# the vertex at its tip touches both planes and finds no place between them. Where only its thick end touches the lid,
-# friction holds it, whatever its law
+# no force acts on it: a warning says so. Held at its thick end it remains. With friction the
+# vertex at its tip touches both planes and finds no place between them: the load step fails. Where only its thick end
+# touches the lid, friction holds it, whatever its law
 contact=$AMGF_DIR/bin/contact
 wedge() { # law, friction, slope of the lid, further support
   cat > wedge.yaml <<YAML
