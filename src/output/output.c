@@ -55,8 +55,8 @@ static PetscErrorCode OutputBegin(Output output)
    load step. Times are those of the load program: load step k ends at time k.
 
    The mesh consists of vertices, cells in VTK's order, and the body number of every cell. A hexahedron of order 2 is
-   cut by its nodes into 8, which have the values of the cell. A cell that stands for a rigid surface is not written; the
-   dataset `tools` has its body and its nodes. If there are tetrahedra (4 or 10 nodes), the dataset is
+   cut by its nodes into 8, which have the values of the cell. A cell that stands for a rigid surface is not
+   written; the dataset `tools` has its body and its nodes. If there are tetrahedra (4 or 10 nodes), the dataset is
    called mixed_cells instead of cells, and XDMF's number of the cell type precedes the nodes of each cell.
 
    Every file is written under a temporary name and renamed when it is complete, and the .xmf is written last. The
