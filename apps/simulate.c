@@ -26,24 +26,27 @@ static PetscErrorCode AppCreateSimulation(const AppOptions *app, Scene scene, Ac
 static PetscErrorCode AppCreateOutput(const AppOptions *app, Scene scene, Simulation sim, Output *output)
 {
   const char **names;
+  char       **surfaces;
   DM           dm;
 
   PetscFunctionBeginUser;
   *output = NULL;
   if (!app->write) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(scene->nbodies, &names));
-  for (PetscInt b = 0; b < scene->nbodies; ++b) names[b] = scene->bodies[b].name;
+  PetscCall(PetscCalloc1(scene->nbodies, &surfaces));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    names[b] = scene->bodies[b].name;
+    if (!SceneBodyIsSurface(&scene->bodies[b])) continue;
+    PetscCall(PetscMalloc1(PETSC_MAX_PATH_LEN, &surfaces[b]));
+    PetscCall(
+      SceneSurfaceWrite(&scene->bodies[b], BodyShapes[scene->bodies[b].shape], surfaces[b], PETSC_MAX_PATH_LEN));
+  }
   PetscCall(SimulationGetDM(sim, &dm));
-  PetscCall(OutputCreate(dm, scene->nbodies, names, app->output, output));
+  PetscCall(OutputCreate(dm, scene->nbodies, names, (const char *const *)surfaces, app->output, output));
   PetscCall(OutputSetUnits(*output, scene->units));
   PetscCall(OutputSetEvery(*output, app->every));
-  for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    char text[PETSC_MAX_PATH_LEN];
-
-    if (!SceneBodyIsSurface(&scene->bodies[b])) continue;
-    PetscCall(SceneSurfaceWrite(&scene->bodies[b], BodyShapes[scene->bodies[b].shape], text, sizeof(text)));
-    PetscCall(OutputSetSurface(*output, b, text));
-  }
+  for (PetscInt b = 0; b < scene->nbodies; ++b) PetscCall(PetscFree(surfaces[b]));
+  PetscCall(PetscFree(surfaces));
   PetscCall(PetscFree(names));
   PetscFunctionReturn(0);
 }

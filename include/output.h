@@ -7,10 +7,9 @@
 
 typedef struct _n_Output *Output;
 
-PETSC_EXTERN PetscErrorCode OutputCreate(DM, PetscInt nbodies, const char *const bodynames[], const char basename[],
-  Output *);
+PETSC_EXTERN PetscErrorCode OutputCreate(DM, PetscInt nbodies, const char *const bodynames[],
+  const char *const surfaces[], const char basename[], Output *);
 PETSC_EXTERN PetscErrorCode OutputSetUnits(Output, const char units[]);
-PETSC_EXTERN PetscErrorCode OutputSetSurface(Output, PetscInt body, const char text[]);
 PETSC_EXTERN PetscErrorCode OutputSetEvery(Output, PetscInt every);
 PETSC_EXTERN PetscErrorCode OutputContinue(Output, PetscInt step, PetscReal increment, PetscBool same);
 PETSC_EXTERN PetscErrorCode OutputWrite(Output, const StepState *);

@@ -122,7 +122,7 @@ def arguments(words=None):
 
 def chosen_cells(args, run):
     """Numbers of the cells to draw"""
-    keep = ~np.isin(run.body, list(run.surfaces))  # cubes that stand for rigid surfaces
+    keep = np.ones(len(run.cells), bool)
     if args.only:
         keep &= np.isin(run.body, run.body_numbers(args.only))
     if args.hide:
@@ -225,7 +225,7 @@ def tool_surfaces(args, run, cells, displacement, scale):
     nodes = nodes_of(run, cells)
     low, high = run.vertices[nodes].min(axis=0), run.vertices[nodes].max(axis=0)
     for body in run.surfaces if not args.only else set(run.surfaces) & set(run.body_numbers(args.only)):
-        cube = run.cells[np.flatnonzero(run.body == body)[0]]
+        cube = run.tools[body]
         points, faces = tools.surface(run.surfaces[body], low, high)
         points = points + scale * tools.moved(points, run.vertices[cube], displacement[cube])
         data, array, places = vtkPolyData(), vtkCellArray(), vtkPoints()

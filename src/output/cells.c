@@ -12,13 +12,27 @@
 static const PetscInt around[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1},
   {0, 1, 1}};
 
+/* Returns the body of a cell if it is a rigid surface, for which the cell stands; negative otherwise */
+PetscErrorCode OutputGetTool(Output output, PetscInt cell, PetscInt *body)
+{
+  DMLabel label;
+
+  PetscFunctionBegin;
+  *body = PETSC_DECIDE;
+  if (!output->hides) PetscFunctionReturn(0);
+  PetscCall(DMGetLabel(output->dm, MESH_BODY_LABEL, &label));
+  PetscCall(DMLabelGetValue(label, cell, body));
+  if (!output->surfaces[*body]) *body = PETSC_DECIDE;
+  PetscFunctionReturn(0);
+}
+
 /*
    Divides a cell into the pieces that are written. pieces->nodes: mesh points of the nodes of each piece in the order
    of VTK.
 */
 PetscErrorCode OutputGetPieces(Output output, PetscInt cell, OutputPieces *pieces)
 {
-  PetscInt nnodes, nodes[MESH_MAX_NODES], width;
+  PetscInt nnodes, nodes[MESH_MAX_NODES], width, tool;
 
   PetscFunctionBegin;
   PetscCall(MeshGetCellNodes(output->dm, cell, &nnodes, nodes));
@@ -31,6 +45,8 @@ PetscErrorCode OutputGetPieces(Output output, PetscInt cell, OutputPieces *piece
       pieces->nodes[p][i] =
         nodes[(p & 1) + around[i][0] + width * ((p >> 1 & 1) + around[i][1] + width * ((p >> 2) + around[i][2]))];
   }
+  PetscCall(OutputGetTool(output, cell, &tool));
+  if (tool >= 0) pieces->n = 0;
   PetscFunctionReturn(0);
 }
 
@@ -57,6 +73,7 @@ PetscErrorCode OutputCountPieces(Output output)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &output->mixed, 1, MPI_PETSCBOOL, MPI_LOR, output->comm));
   output->nindiceslocal = output->mixed ? total : 8 * output->ncellslocal;
   PetscCallMPI(MPI_Allreduce(&output->nindiceslocal, &output->nindices, 1, MPIU_INT, MPI_SUM, output->comm));
+  PetscCallMPI(MPI_Allreduce(&output->ncellslocal, &output->ncells, 1, MPIU_INT, MPI_SUM, output->comm));
   PetscFunctionReturn(0);
 }
 

@@ -75,6 +75,15 @@ static PetscErrorCode FieldsWriteVertices(Output output, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
+/* Name under which indices are attached to the DM. A checkpoint of the same DM has the cells of all bodies. */
+static PetscErrorCode FieldsGetIndices(Output output, const char name[], IS *is, char key[64])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(key, 64, "%s%s", output->hides ? "shown_" : "", name));
+  PetscCall(PetscObjectQuery((PetscObject)output->dm, key, (PetscObject *)is));
+  PetscFunctionReturn(0);
+}
+
 /*
    Attaches indices to the DM, so that the next file reuses them. The number of columns of the dataset is the block size
    of the layout. ISSetBlockSize() cannot be used, because it requires blocks of consecutive indices.
@@ -84,13 +93,15 @@ static PetscErrorCode FieldsKeepIndices(Output output, const char name[], PetscI
 {
   IS          is;
   PetscLayout layout;
+  char        key[64];
 
   PetscFunctionBegin;
+  PetscCall(FieldsGetIndices(output, name, &is, key));
   PetscCall(ISCreateGeneral(output->comm, n, indices, PETSC_OWN_POINTER, &is));
   PetscCall(ISGetLayout(is, &layout));
   PetscCall(PetscLayoutSetBlockSize(layout, components));
   PetscCall(PetscObjectSetName((PetscObject)is, name));
-  PetscCall(PetscObjectCompose((PetscObject)output->dm, name, (PetscObject)is));
+  PetscCall(PetscObjectCompose((PetscObject)output->dm, key, (PetscObject)is));
   PetscCall(ISDestroy(&is));
   PetscFunctionReturn(0);
 }
@@ -122,17 +133,45 @@ static PetscErrorCode FieldsNumberCells(Output output)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode FieldsWriteCells(Output output, PetscViewer viewer)
+/* Bodies and nodes of the cells that stand for rigid surfaces, and are not among the written cells */
+static PetscErrorCode FieldsNumberTools(Output output)
 {
-  IS cells, body;
+  PetscSection global;
+  PetscInt     cstart, cend, *tools, n = 0, nnodes, nodes[MESH_MAX_NODES], body;
 
   PetscFunctionBegin;
-  PetscCall(PetscObjectQuery((PetscObject)output->dm, OutputCellsName(output), (PetscObject *)&cells));
-  if (!cells) PetscCall(FieldsNumberCells(output));
-  PetscCall(PetscObjectQuery((PetscObject)output->dm, OutputCellsName(output), (PetscObject *)&cells));
-  PetscCall(PetscObjectQuery((PetscObject)output->dm, "body", (PetscObject *)&body));
-  PetscCall(DatasetWriteIndices(cells, viewer));
-  PetscCall(DatasetWriteIndices(body, viewer));
+  PetscCall(DMGetGlobalSection(output->dm, &global));
+  PetscCall(DMPlexGetHeightStratum(output->dm, 0, &cstart, &cend));
+  for (PetscInt c = cstart; c < cend; ++c) {
+    PetscCall(OutputGetTool(output, c, &body));
+    if (body >= 0) ++n;
+  }
+  PetscCall(PetscMalloc1(9 * n, &tools));
+  for (PetscInt c = cstart, at = 0; c < cend; ++c) {
+    PetscCall(OutputGetTool(output, c, &body));
+    if (body < 0) continue;
+    PetscCall(MeshGetCellNodes(output->dm, c, &nnodes, nodes));
+    tools[at++] = body;
+    for (PetscInt i = 0; i < 8; ++i) PetscCall(FieldsGetVertex(global, nodes[i], &tools[at++]));
+  }
+  PetscCall(FieldsKeepIndices(output, "tools", 9 * n, 9, tools));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode FieldsWriteCells(Output output, PetscViewer viewer)
+{
+  const char *const names[] = {OutputCellsName(output), "body", "tools"};
+  IS                is;
+  char              key[64];
+
+  PetscFunctionBegin;
+  PetscCall(FieldsGetIndices(output, names[0], &is, key));
+  if (!is) PetscCall(FieldsNumberCells(output));
+  if (!is && output->hides) PetscCall(FieldsNumberTools(output));
+  for (int i = 0; i < (output->hides ? 3 : 2); ++i) {
+    PetscCall(FieldsGetIndices(output, names[i], &is, key));
+    PetscCall(DatasetWriteIndices(is, viewer));
+  }
   PetscFunctionReturn(0);
 }
 

@@ -17,7 +17,6 @@ static PetscErrorCode OutputCount(Output output)
   output->nvertices = N / 3;
   output->first     = start / 3;
   PetscCall(OutputCountPieces(output));
-  PetscCallMPI(MPI_Allreduce(&output->ncellslocal, &output->ncells, 1, MPIU_INT, MPI_SUM, output->comm));
   PetscFunctionReturn(0);
 }
 

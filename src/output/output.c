@@ -42,6 +42,7 @@ static PetscErrorCode OutputBegin(Output output)
 +  dm        - mesh with 3 displacement components per node, as MeshCreate() makes it
 .  nbodies   - number of bodies
 .  bodynames - their names
+.  surfaces  - for each body NULL, or the rigid surface that its cell stands for, see SceneSurfaceWrite(); or NULL
 -  basename  - path of the files without ending
 
    Output Parameter:
@@ -54,7 +55,8 @@ static PetscErrorCode OutputBegin(Output output)
    load step. Times are those of the load program: load step k ends at time k.
 
    The mesh consists of vertices, cells in VTK's order, and the body number of every cell. A hexahedron of order 2 is
-   cut by its nodes into 8, which have the values of the cell. If there are tetrahedra (4 or 10 nodes), the dataset is
+   cut by its nodes into 8, which have the values of the cell. A cell that stands for a rigid surface is not
+   written; the dataset `tools` has its body and its nodes. If there are tetrahedra (4 or 10 nodes), the dataset is
    called mixed_cells instead of cells, and XDMF's number of the cell type precedes the nodes of each cell.
 
    Every file is written under a temporary name and renamed when it is complete, and the .xmf is written last. The
@@ -68,8 +70,8 @@ static PetscErrorCode OutputBegin(Output output)
 
 .seealso: `OutputWrite()`, `OutputDestroy()`
 @*/
-PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames[], const char basename[],
-  Output *output)
+PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames[], const char *const surfaces[],
+  const char basename[], Output *output)
 {
   Output    o;
   PetscBool earlier;
@@ -83,7 +85,12 @@ PetscErrorCode OutputCreate(DM dm, PetscInt nbodies, const char *const bodynames
   o->every   = 1;
   PetscCall(PetscMalloc1(nbodies, &o->bodynames));
   PetscCall(PetscCalloc1(nbodies, &o->surfaces));
-  for (PetscInt b = 0; b < nbodies; ++b) PetscCall(PetscStrallocpy(bodynames[b], &o->bodynames[b]));
+  for (PetscInt b = 0; b < nbodies; ++b) {
+    PetscCall(PetscStrallocpy(bodynames[b], &o->bodynames[b]));
+    PetscCall(PetscStrallocpy(surfaces ? surfaces[b] : NULL, &o->surfaces[b]));
+    if (o->surfaces[b]) o->hides = PETSC_TRUE;
+  }
+  PetscCall(OutputCountPieces(o));
   PetscCall(OutputGetMeshFile(o, file, sizeof(file)));
   PetscCall(OutputCheckWritable(o->comm, file));
   PetscCall(LockFileBegin(o->comm, file, &o->lock));
@@ -111,28 +118,6 @@ PetscErrorCode OutputSetUnits(Output output, const char units[])
   PetscFunctionBegin;
   PetscCall(PetscFree(output->units));
   PetscCall(PetscStrallocpy(units, &output->units));
-  PetscFunctionReturn(0);
-}
-
-/*@C
-   OutputSetSurface - Writes into the XDMF file which surface a rigid body of one cell represents
-
-   Not Collective
-
-   Input Parameters:
-+  output - the output, before OutputWrite()
-.  body   - number of the body
--  text   - its shape and parameters, see SceneSurfaceWrite()
-
-   Level: intermediate
-
-.seealso: `OutputCreate()`
-@*/
-PetscErrorCode OutputSetSurface(Output output, PetscInt body, const char text[])
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree(output->surfaces[body]));
-  PetscCall(PetscStrallocpy(text, &output->surfaces[body]));
   PetscFunctionReturn(0);
 }
 

@@ -17,18 +17,19 @@ typedef struct {
 } OutputStep;
 
 struct _n_Output {
-  MPI_Comm comm;
-  DM       dm;
-  char    *base; /* folder and first part of the names of all files */
-  int      lock; /* descriptor of the lock on the mesh file, see LockFileBegin() */
-  PetscInt nbodies;
-  char   **bodynames;
-  char   **surfaces; /* of each body: the rigid surface that its cell represents, see OutputSetSurface(); NULL: none */
-  char    *units;    /* units of the scene; NULL if the scene does not state them */
-  PetscInt npairs;   /* number of contact pairs that have fields of their own; 0 if there are fewer than two pairs */
-  char   **pairnames;
-  PetscInt nvertices, ncells; /* number of nodes and of cells on all ranks */
-  PetscInt nowned, ncellslocal,
+  MPI_Comm  comm;
+  DM        dm;
+  char     *base; /* folder and first part of the names of all files */
+  int       lock; /* descriptor of the lock on the mesh file, see LockFileBegin() */
+  PetscInt  nbodies;
+  char    **bodynames;
+  char    **surfaces; /* of each body: the rigid surface that its cell stands for; NULL: none */
+  PetscBool hides;    /* true if any body is a rigid surface, whose cell is not among the written ones */
+  char     *units;    /* units of the scene; NULL if the scene does not state them */
+  PetscInt  npairs;   /* number of contact pairs that have fields of their own; 0 if there are fewer than two pairs */
+  char    **pairnames;
+  PetscInt  nvertices, ncells; /* number of nodes and of cells on all ranks */
+  PetscInt  nowned, ncellslocal,
     first;         /* number of nodes and of cells on this rank, and global number of its first node; a hexahedron of
                       order 2 counts as 8 cells */
   PetscBool mixed; /* true if any rank has other cells than hexahedra */
@@ -64,6 +65,7 @@ typedef struct {
   PetscInt n, nnodes, nodes[8][10];
 } OutputPieces;
 PETSC_INTERN PetscErrorCode OutputCountPieces(Output);
+PETSC_INTERN PetscErrorCode OutputGetTool(Output, PetscInt cell, PetscInt *body);
 PETSC_INTERN PetscErrorCode OutputGetPieces(Output, PetscInt cell, OutputPieces *);
 PETSC_INTERN const char    *OutputCellsName(Output);
 PETSC_INTERN PetscInt       OutputPieceKind(PetscInt nnodes);

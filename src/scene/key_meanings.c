@@ -50,7 +50,7 @@ static const KeyMeaning shape_meanings[] = {
   {"length_cells", "", "number of cells along the axis", ""},
   {"lower", " [L]", "lower corner", ""},
   {"mass", " [M]",
-    "mass of a rigid surface, with the moments of inertia of a uniform ball, or of the cube that shows its position; "
+    "mass of a rigid surface, with the moments of inertia of a uniform ball, or of a cube in its place; "
     "required in `dynamics` if some of its motions are free",
     "0"},
   {"mesh", "", "the mesh or STL file, relative to the folder of the scene", ""},
@@ -80,7 +80,7 @@ static const KeyMeaning shape_meanings[] = {
   {"section_radius", " [L]", "radius of the cross-section of the ring", ""},
   {"semi_axes", " [L]", "semi-axes along `depth` and perpendicular to it", ""},
   {"side_cells", "", "number of cells along half of a side", ""},
-  {"size", " [L]", "edge length of the cube that shows the position of the surface in the output", "1"},
+  {"size", " [L]", "edge length of the cube whose moments of inertia the surface has in `dynamics`", "1"},
   {"tip", " [L]", "the tip", ""},
   {"upper", " [L]", "upper corner", ""},
   {"volume", "", "name of the volume in the file", ""},

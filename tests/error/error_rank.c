@@ -254,7 +254,7 @@ static PetscErrorCode TestRow(void)
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
   PetscCall(MeshCreate(PETSC_COMM_WORLD, 1, &body, 0, &dm));
-  PetscCall(OutputCreate(dm, 1, names, "error_rank", &output));
+  PetscCall(OutputCreate(dm, 1, names, NULL, "error_rank", &output));
   PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, &cend));
   PetscCall(DMPlexGetDepthStratum(dm, 0, &vstart, &vend));
   PetscCall(DMGetGlobalSection(dm, &global));

@@ -168,7 +168,7 @@ int main(int argc, char **argv)
   PetscCall(PetscOptionsGetString(NULL, NULL, "-base", base, sizeof(base), NULL));
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-full", &full, NULL));
   PetscCall(MeshCreate(PETSC_COMM_WORLD, 2, bodies, 1, &dm));
-  PetscCall(OutputCreate(dm, 2, names, base, &output));
+  PetscCall(OutputCreate(dm, 2, names, NULL, base, &output));
   PetscCall(WriteSteps(dm, output, full));
   PetscCall(OutputDestroy(&output));
   PetscCall(OutputDestroy(&output));

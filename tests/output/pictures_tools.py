@@ -155,7 +155,7 @@ def check():
     for body, note in run.surfaces.items():
         name = run.bodies[body]
         points, faces = tools.surface(note, low, high)
-        cube = run.cells[np.flatnonzero(run.body == body)[0]]
+        cube = run.tools[body]
         after = points + tools.moved(points, run.vertices[cube], moves[cube])
         off = max(np.abs(distance(name, points)).max(), np.abs(distance(name, back(after))).max())
         middles = np.abs(distance(name, points[faces].mean(axis=1))).max() if name != "facets" else 0

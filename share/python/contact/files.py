@@ -47,6 +47,8 @@ class Files:
         with h5py.File(base + ".h5", "r") as mesh:
             self.cells, self.vertices = self.read_cells(mesh), mesh["vertices"][:]
             self.body = mesh["body"][:].ravel()
+            rows = mesh["tools"][:] if "tools" in mesh else []
+            self.tools = {row[0]: row[1:] for row in rows}  # nodes of a cube that moves with the body
 
     @staticmethod
     def read_cells(mesh):

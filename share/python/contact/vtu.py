@@ -25,28 +25,27 @@ def array(name, values):
             f'format="binary">{base64.b64encode(data).decode()}</DataArray>\n')
 
 
-def fields_of(path, n, keep, more):
-    """(name, values) of the fields with n rows: some of them, and more rows without a value; tensors in VTK's order"""
+def fields_of(path, n, more):
+    """(name, values) of the fields with n rows, and more rows without a value; tensors in VTK's order"""
     with h5py.File(path, "r") as file:
         for name, values in file.items():
             if len(values) == n:
                 values = values[:].astype(np.float64)
                 values = values.reshape(n, -1) if values.size > n else values.ravel()
                 values = values[:, SYMMETRIC] if values.ndim > 1 and values.shape[1] == 6 else values
-                yield name, np.concatenate([values[keep], np.full((more, *values.shape[1:]), np.nan)])
+                yield name, np.concatenate([values, np.full((more, *values.shape[1:]), np.nan)])
 
 
 class Tools:
-    """The surfaces of rigid tools, which the mesh has as cubes of one cell"""
+    """The surfaces of rigid tools"""
 
     def __init__(self, files, step):
-        self.cubes = np.isin(files.body, list(files.surfaces))
-        nodes = np.unique(np.concatenate([files.cells[c] for c in np.flatnonzero(~self.cubes)] or [[0]]))
+        nodes = np.unique(np.concatenate(files.cells))
         low, high = files.vertices[nodes].min(axis=0), files.vertices[nodes].max(axis=0)
         displacement, at = files.displacement(step), len(files.vertices)
         points, moves, self.faces, bodies = [np.zeros((0, 3))], [np.zeros((0, 3))], [], []
         for body, note in files.surfaces.items():
-            cube = files.cells[np.flatnonzero(files.body == body)[0]]
+            cube = files.tools[body]
             own, faces = tools.surface(note, low, high)
             points.append(own)
             moves.append(tools.moved(own, files.vertices[cube], displacement[cube]))
@@ -60,10 +59,9 @@ class Tools:
 def write_step(files, step, path):
     """One load step"""
     tool = Tools(files, step)
-    solid, points = ~tool.cubes, len(files.vertices)
-    cells = [files.cells[c] for c in np.flatnonzero(solid)]
-    sizes = np.array([len(cell) for cell in (*cells, *tool.faces)], np.int64)
-    kinds = np.array([VTK_CELLS[len(cell)] for cell in cells] + [VTK_FACES[len(face)] for face in tool.faces], np.uint8)
+    points, cells = len(files.vertices), len(files.cells)
+    sizes = np.array([len(cell) for cell in (*files.cells, *tool.faces)], np.int64)
+    kinds = [VTK_CELLS[len(cell)] for cell in files.cells] + [VTK_FACES[len(face)] for face in tool.faces]
     with open(path, "w", encoding="ascii") as out:
         out.write('<?xml version="1.0"?>\n'
                   '<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n'
@@ -73,17 +71,16 @@ def write_step(files, step, path):
         out.write(array("Points", np.concatenate([files.vertices, tool.points])) + "</Points>\n<Cells>\n")
         out.write(
             array("connectivity",
-                  np.concatenate([*cells, *tool.faces]).astype(np.int64)) + array("offsets", np.cumsum(sizes)) +
-            array("types", kinds))
+                  np.concatenate([*files.cells, *tool.faces]).astype(np.int64)) + array("offsets", np.cumsum(sizes)) +
+            array("types", np.array(kinds, np.uint8)))
         out.write('</Cells>\n<PointData Vectors="displacement">\n')
-        for name, values in fields_of(files.files[step], points, slice(None), more):
+        for name, values in fields_of(files.files[step], points, more):
             if name == "displacement":
                 values[points:] = tool.displacement
             out.write(array(name, values))
-        out.write("</PointData>\n<CellData>\n" + array("body", np.concatenate([files.body[solid], tool.body])))
-        if len(files.cells) != points:
-            out.writelines(array(*field) for field in fields_of(files.files[step], len(files.cells), solid,
-                                                                len(tool.faces)))
+        out.write("</PointData>\n<CellData>\n" + array("body", np.concatenate([files.body, tool.body])))
+        if cells != points:
+            out.writelines(array(*field) for field in fields_of(files.files[step], cells, len(tool.faces)))
         out.write("</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")
 
 

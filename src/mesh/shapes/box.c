@@ -27,35 +27,22 @@ static PetscErrorCode ShapeSize_Box(MPI_Comm comm, const SceneBody *body, PetscI
   PetscFunctionReturn(0);
 }
 
-static PetscInt BoxVertex(const void *context, PetscInt i, PetscInt j, PetscInt k)
+static PetscInt BoxVertex(const SceneBody *body, PETSC_UNUSED const void *context, PetscInt i, PetscInt j, PetscInt k,
+  PetscReal x[3])
 {
-  const PetscInt *n = (const PetscInt *)context;
+  const PetscInt *n = body->cells, index[3] = {i, j, k};
 
+  for (PetscInt d = 0; x && d < 3; ++d) x[d] = ShapeBetween(body, d, index[d], body->lower[d], body->upper[d]);
   return i + (n[0] + 1) * (j + (n[1] + 1) * k);
 }
 
 static PetscErrorCode ShapeCreate_Box(const SceneBody *body, ShapeGrid *grid)
 {
   const PetscInt  *n     = body->cells;
-  const ShapeBlock block = {{n[0], n[1], n[2]}, {0, 1, 2, 3, 4, 5}, n, BoxVertex};
-  PetscReal       *x;
+  const ShapeBlock block = {{n[0], n[1], n[2]}, {0, 1, 2, 3, 4, 5}, NULL, BoxVertex};
 
   PetscFunctionBegin;
-  PetscCall(ShapeGridCreate(1, &block, (n[0] + 1) * (n[1] + 1) * (n[2] + 1), PETSC_FALSE, grid));
-  x = grid->coordinates;
-  for (PetscInt k = 0; k <= n[2]; ++k) {
-    for (PetscInt j = 0; j <= n[1]; ++j) {
-      for (PetscInt i = 0; i <= n[0]; ++i, x += 3) {
-        const PetscInt index[3] = {i, j, k};
-
-        for (PetscInt d = 0; d < 3; ++d) {
-          const PetscReal t = ShapeGraded(body->grading[d], body->even[d], n[d], index[d]);
-
-          x[d] = (1 - t) * body->lower[d] + t * body->upper[d];
-        }
-      }
-    }
-  }
+  PetscCall(ShapeGridCreate(body, 1, &block, (n[0] + 1) * (n[1] + 1) * (n[2] + 1), PETSC_FALSE, grid));
   PetscFunctionReturn(0);
 }
 

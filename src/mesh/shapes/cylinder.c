@@ -47,11 +47,6 @@ static PetscErrorCode ShapeSize_Cylinder(MPI_Comm comm, const SceneBody *body, P
   PetscFunctionReturn(0);
 }
 
-typedef struct {
-  const PetscInt *n;
-  PetscInt        side; /* number of the core's side, counterclockwise from 0 at a = 1 */
-} CylinderPatch;
-
 /* Computes the lattice point of the core that is i steps along a side */
 static void CylinderSide(PetscInt n, PetscInt side, PetscInt i, PetscInt at[2])
 {
@@ -59,73 +54,49 @@ static void CylinderSide(PetscInt n, PetscInt side, PetscInt i, PetscInt at[2])
   at[1] = side == 0 ? i : side == 1 ? n : side == 2 ? n - i : 0;
 }
 
-/* Returns the number of the vertex that is i steps along a side, in a layer (0: on the core's side) of cross-section
-   k */
-static PetscInt CylinderVertex(const PetscInt n[3], PetscInt layer, PetscInt side, PetscInt i, PetscInt k)
-{
-  const PetscInt plane = k * (CylinderCore(n) + 4 * n[0] * n[1]);
-  PetscInt       at[2];
-
-  if (layer) return plane + CylinderCore(n) + (layer - 1) * 4 * n[0] + (side * n[0] + i) % (4 * n[0]);
-  CylinderSide(n[0], side, i, at);
-  return plane + at[0] + (n[0] + 1) * at[1];
-}
-
-static PetscInt CylinderPatchVertex(const void *context, PetscInt layer, PetscInt i, PetscInt k)
-{
-  const CylinderPatch *patch = (const CylinderPatch *)context;
-
-  return CylinderVertex(patch->n, layer, patch->side, i, k);
-}
-
-static PetscInt CylinderCoreVertex(const void *context, PetscInt i, PetscInt j, PetscInt k)
-{
-  const PetscInt *n = ((const CylinderPatch *)context)->n;
-
-  return i + (n[0] + 1) * j + k * (CylinderCore(n) + 4 * n[0] * n[1]);
-}
-
-/* Computes the parameters of all vertices */
-static void CylinderPlace(const SceneBody *body, PetscReal x[])
+/* The vertex (a, b) of the core */
+static PetscInt CylinderCoreVertex(const SceneBody *body, PETSC_UNUSED const void *context, PetscInt a, PetscInt b,
+  PetscInt k, PetscReal p[3])
 {
   const PetscInt *n = body->cells;
 
-  for (PetscInt k = 0; k <= n[2]; ++k) {
-    const PetscReal part  = ShapeGraded(body->grading[2], body->even[2], n[2], k);
-    const PetscReal along = (1 - part) * body->tube.extent[0] + part * body->tube.extent[1];
-
-    for (PetscInt i = 0; i < CylinderCore(n); ++i, x += 3) {
-      x[0] = -1 + 2 * (PetscReal)(i % (n[0] + 1)) / (PetscReal)n[0];
-      x[1] = -1 + 2 * (PetscReal)(i / (n[0] + 1)) / (PetscReal)n[0];
-      x[2] = along;
-    }
-    for (PetscInt i = 0; i < 4 * n[0] * n[1]; ++i, x += 3) {
-      const PetscReal m = 1 + ShapeGraded(body->grading[1], body->even[1], n[1], i / (4 * n[0]) + 1);
-      PetscInt        at[2];
-
-      CylinderSide(n[0], i % (4 * n[0]) / n[0], i % n[0], at);
-      for (PetscInt c = 0; c < 2; ++c) x[c] = m * (-1 + 2 * (PetscReal)at[c] / (PetscReal)n[0]);
-      x[2] = along;
-    }
+  if (p) {
+    p[0] = -1 + 2 * (PetscReal)a / (PetscReal)n[0];
+    p[1] = -1 + 2 * (PetscReal)b / (PetscReal)n[0];
+    p[2] = ShapeBetween(body, 2, k, body->tube.extent[0], body->tube.extent[1]);
   }
+  return a + (n[0] + 1) * b + k * (CylinderCore(n) + 4 * n[0] * n[1]);
+}
+
+/* The vertex that is i steps along a side, in a layer (0: on the core's side) of cross-section k */
+static PetscInt CylinderPatchVertex(const SceneBody *body, const void *context, PetscInt layer, PetscInt i, PetscInt k,
+  PetscReal p[3])
+{
+  const PetscInt *n = body->cells, side = *(const PetscInt *)context;
+  const PetscReal m = p ? 1 + ShapeBetween(body, 1, layer, 0, 1) : 0;
+  PetscInt        at[2], core;
+
+  CylinderSide(n[0], side, i, at);
+  core = CylinderCoreVertex(body, NULL, at[0], at[1], k, p);
+  for (PetscInt c = 0; p && c < 2; ++c) p[c] *= m;
+  if (!layer) return core;
+  return k * (CylinderCore(n) + 4 * n[0] * n[1]) + CylinderCore(n) + (layer - 1) * 4 * n[0] +
+         (side * n[0] + i) % (4 * n[0]);
 }
 
 static PetscErrorCode ShapeCreate_Cylinder(const SceneBody *body, ShapeGrid *grid)
 {
-  const PetscInt *n = body->cells, nvertices = (CylinderCore(n) + 4 * n[0] * n[1]) * (n[2] + 1);
-  ShapeBlock      blocks[5];
-  CylinderPatch   patches[4];
+  static const PetscInt sides[4] = {0, 1, 2, 3}; /* of the core, counterclockwise from a = 1 */
+  const PetscInt       *n        = body->cells;
+  ShapeBlock            blocks[5];
 
   PetscFunctionBegin;
-  for (PetscInt side = 0; side < 4; ++side) {
-    patches[side] = (CylinderPatch){n, side};
-    blocks[side] = (ShapeBlock){{n[1], n[0], n[2]}, {PETSC_DECIDE, 0, PETSC_DECIDE, PETSC_DECIDE, 1, 2}, &patches[side],
+  for (PetscInt side = 0; side < 4; ++side)
+    blocks[side] = (ShapeBlock){{n[1], n[0], n[2]}, {PETSC_DECIDE, 0, PETSC_DECIDE, PETSC_DECIDE, 1, 2}, &sides[side],
       CylinderPatchVertex};
-  }
-  blocks[4] = (ShapeBlock){{n[0], n[0], n[2]}, {PETSC_DECIDE, PETSC_DECIDE, PETSC_DECIDE, PETSC_DECIDE, 1, 2},
-    &patches[0], CylinderCoreVertex};
-  PetscCall(ShapeGridCreate(5, blocks, nvertices, PETSC_FALSE, grid));
-  CylinderPlace(body, grid->coordinates);
+  blocks[4] = (ShapeBlock){{n[0], n[0], n[2]}, {PETSC_DECIDE, PETSC_DECIDE, PETSC_DECIDE, PETSC_DECIDE, 1, 2}, NULL,
+    CylinderCoreVertex};
+  PetscCall(ShapeGridCreate(body, 5, blocks, (CylinderCore(n) + 4 * n[0] * n[1]) * (n[2] + 1), PETSC_FALSE, grid));
   PetscFunctionReturn(0);
 }
 

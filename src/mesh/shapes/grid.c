@@ -2,7 +2,7 @@
 #include "shapesimpl.h"
 
 /* Adds the facets of both sides of a block that are perpendicular to direction d */
-static void ShapeBlockFacets(const ShapeBlock *block, PetscInt d, ShapeGrid *grid)
+static void ShapeBlockFacets(const SceneBody *body, const ShapeBlock *block, PetscInt d, ShapeGrid *grid)
 {
   const PetscInt s = (d + 1) % 3, t = (d + 2) % 3;
 
@@ -18,7 +18,7 @@ static void ShapeBlockFacets(const ShapeBlock *block, PetscInt d, ShapeGrid *gri
           at[d]                               = end ? block->n[d] : 0;
           at[s]                               = i + around[a][0];
           at[t]                               = j + around[a][1];
-          grid->facets[4 * grid->nfacets + a] = block->vertex(block->context, at[0], at[1], at[2]);
+          grid->facets[4 * grid->nfacets + a] = block->vertex(body, block->context, at[0], at[1], at[2], NULL);
         }
         grid->facetface[grid->nfacets++] = block->faces[2 * d + end];
       }
@@ -28,21 +28,36 @@ static void ShapeBlockFacets(const ShapeBlock *block, PetscInt d, ShapeGrid *gri
 
 /* Adds the cells of a block. flip: 1 if the cells' first direction is reversed, so that they are right-handed in space;
    else 0 */
-static void ShapeBlockCells(const ShapeBlock *block, PetscInt flip, ShapeGrid *grid)
+static void ShapeBlockCells(const SceneBody *body, const ShapeBlock *block, PetscInt flip, ShapeGrid *grid)
 {
   for (PetscInt k = 0; k < block->n[2]; ++k) {
     for (PetscInt j = 0; j < block->n[1]; ++j) {
       for (PetscInt i = 0; i < block->n[0]; ++i, ++grid->ncells) {
         for (PetscInt a = 0; a < 8; ++a)
           grid->cells[8 * grid->ncells + (a ^ flip)] =
-            block->vertex(block->context, i + (a & 1), j + (a >> 1 & 1), k + (a >> 2));
+            block->vertex(body, block->context, i + (a & 1), j + (a >> 1 & 1), k + (a >> 2), NULL);
       }
     }
   }
 }
 
-PetscErrorCode ShapeGridCreate(PetscInt nblocks, const ShapeBlock blocks[], PetscInt nvertices, PetscBool mirrored,
-  ShapeGrid *grid)
+/* Sets the parameters of the vertices of a block */
+static void ShapeBlockVertices(const SceneBody *body, const ShapeBlock *block, ShapeGrid *grid)
+{
+  for (PetscInt k = 0; k <= block->n[2]; ++k) {
+    for (PetscInt j = 0; j <= block->n[1]; ++j) {
+      for (PetscInt i = 0; i <= block->n[0]; ++i) {
+        PetscReal      p[3];
+        const PetscInt vertex = block->vertex(body, block->context, i, j, k, p);
+
+        for (PetscInt d = 0; d < 3; ++d) grid->coordinates[3 * vertex + d] = p[d];
+      }
+    }
+  }
+}
+
+PetscErrorCode ShapeGridCreate(const SceneBody *body, PetscInt nblocks, const ShapeBlock blocks[], PetscInt nvertices,
+  PetscBool mirrored, ShapeGrid *grid)
 {
   PetscInt ncells = 0, nfacets = 0;
 
@@ -63,8 +78,9 @@ PetscErrorCode ShapeGridCreate(PetscInt nblocks, const ShapeBlock blocks[], Pets
   grid->ncells    = 0;
   grid->nfacets   = 0;
   for (PetscInt b = 0; b < nblocks; ++b) {
-    ShapeBlockCells(&blocks[b], mirrored ? 1 : 0, grid);
-    for (PetscInt d = 0; d < 3; ++d) ShapeBlockFacets(&blocks[b], d, grid);
+    ShapeBlockCells(body, &blocks[b], mirrored ? 1 : 0, grid);
+    for (PetscInt d = 0; d < 3; ++d) ShapeBlockFacets(body, &blocks[b], d, grid);
+    ShapeBlockVertices(body, &blocks[b], grid);
   }
   PetscFunctionReturn(0);
 }
@@ -96,6 +112,13 @@ PetscReal ShapeGraded(PetscReal grading, PetscInt even, PetscInt n, PetscInt i)
   if (grading < 1) return 1 - ShapeGraded(1 / grading, even, n, n - i);
   ratio = PetscPowReal(grading, 1 / (PetscReal)(n - even));
   return ShapeGradedLength(ratio, even, i) / ShapeGradedLength(ratio, even, n);
+}
+
+PetscReal ShapeBetween(const SceneBody *body, PetscInt d, PetscInt i, PetscReal from, PetscReal to)
+{
+  const PetscReal t = ShapeGraded(body->grading[d], body->even[d], body->cells[d], i);
+
+  return (1 - t) * from + t * to;
 }
 
 void ShapeCircle(const PetscReal q[2], PetscReal x[2])

@@ -75,47 +75,6 @@ static PetscErrorCode ShapeSize_HalfEllipse(MPI_Comm comm, const SceneBody *body
   PetscFunctionReturn(0);
 }
 
-static PetscInt EllipseCoreVertex(const void *context, PetscInt i, PetscInt j, PetscInt k)
-{
-  const HalfEllipse *e = (const HalfEllipse *)context;
-
-  return k * e->nsection + i + (e->core[0] + 1) * j;
-}
-
-/* Returns the number of a vertex of the ring: layer (0: on the core's outline), position `at` on the outline in the
-   direction of growing v, cross-section k */
-static PetscInt EllipseRingVertex(const HalfEllipse *e, PetscInt layer, PetscInt at, PetscInt k)
-{
-  const PetscInt below = e->middle ? e->core[0] : 0, across = e->middle + e->core[1];
-
-  if (layer) return k * e->nsection + (e->core[0] + 1) * (across + 1) + (layer - 1) * e->nring + at;
-  if (at < below) return EllipseCoreVertex(e, at, 0, k);
-  if (at <= below + across) return EllipseCoreVertex(e, e->core[0], at - below, k);
-  return EllipseCoreVertex(e, e->core[0] - (at - below - across), across, k);
-}
-
-/* Functions that number the vertices of the three blocks of the ring, each right-handed: below, at the crown, above */
-static PetscInt EllipseBelowVertex(const void *context, PetscInt i, PetscInt layer, PetscInt k)
-{
-  const HalfEllipse *e = (const HalfEllipse *)context;
-
-  return EllipseRingVertex(e, e->ring - layer, i, k);
-}
-
-static PetscInt EllipseCrownVertex(const void *context, PetscInt layer, PetscInt j, PetscInt k)
-{
-  const HalfEllipse *e = (const HalfEllipse *)context;
-
-  return EllipseRingVertex(e, layer, (e->middle ? e->core[0] : 0) + j, k);
-}
-
-static PetscInt EllipseAboveVertex(const void *context, PetscInt i, PetscInt layer, PetscInt k)
-{
-  const HalfEllipse *e = (const HalfEllipse *)context;
-
-  return EllipseRingVertex(e, layer, e->nring - 1 - i, k);
-}
-
 /* Returns the parameter of the core's vertex i along the depth (d = 0), or across (d = 1). Across, i counts from the
    plane of symmetry and is negative on one side. */
 static PetscReal EllipseCoreParameter(const SceneBody *body, PetscInt d, PetscInt i)
@@ -125,44 +84,58 @@ static PetscReal EllipseCoreParameter(const SceneBody *body, PetscInt d, PetscIn
   return i < 0 ? -place : place;
 }
 
-/* Computes the parameters u, v of a vertex on the core's outline */
-static void EllipseOutlineParameters(const SceneBody *body, const HalfEllipse *e, PetscInt at, PetscReal uv[2])
+static PetscInt EllipseCoreVertex(const SceneBody *body, const void *context, PetscInt i, PetscInt j, PetscInt k,
+  PetscReal p[3])
 {
-  const PetscInt below = e->middle ? e->core[0] : 0, across = e->middle + e->core[1];
+  const HalfEllipse *e = (const HalfEllipse *)context;
 
-  uv[0] = uv[1] = 1;
-  if (at < below) {
-    uv[0] = EllipseCoreParameter(body, 0, at);
-    uv[1] = -1;
-  } else if (at <= below + across) uv[1] = EllipseCoreParameter(body, 1, at - below - e->middle);
-  else uv[0] = EllipseCoreParameter(body, 0, e->core[0] - (at - below - across));
+  if (p) {
+    p[0] = EllipseCoreParameter(body, 0, i);
+    p[1] = EllipseCoreParameter(body, 1, j - e->middle);
+    p[2] = (PetscReal)k / (PetscReal)e->length;
+  }
+  return k * e->nsection + i + (e->core[0] + 1) * j;
 }
 
-/* Computes the parameters of the vertices of cross-section k */
-static void EllipseSectionCoordinates(const SceneBody *body, const HalfEllipse *e, PetscInt k, ShapeGrid *grid)
+/* A vertex of the ring: layer (0: on the core's outline), position `at` on the outline in the direction of growing v,
+   cross-section k */
+static PetscInt EllipseRingVertex(const SceneBody *body, const HalfEllipse *e, PetscInt layer, PetscInt at, PetscInt k,
+  PetscReal p[3])
 {
-  const PetscReal w = (PetscReal)k / e->length;
+  const PetscInt  below = e->middle ? e->core[0] : 0, across = e->middle + e->core[1];
+  const PetscReal m = p ? 1 + ShapeBetween(body, 2, layer, 0, 1) : 0;
+  PetscInt        core;
 
-  for (PetscInt j = 0; j <= e->middle + e->core[1]; ++j) {
-    for (PetscInt i = 0; i <= e->core[0]; ++i) {
-      PetscReal *p = grid->coordinates + 3 * EllipseCoreVertex(e, i, j, k);
+  if (at < below) core = EllipseCoreVertex(body, e, at, 0, k, p);
+  else if (at <= below + across) core = EllipseCoreVertex(body, e, e->core[0], at - below, k, p);
+  else core = EllipseCoreVertex(body, e, e->core[0] - (at - below - across), across, k, p);
+  for (PetscInt d = 0; p && d < 2; ++d) p[d] *= m;
+  return layer ? k * e->nsection + (e->core[0] + 1) * (across + 1) + (layer - 1) * e->nring + at : core;
+}
 
-      p[0] = EllipseCoreParameter(body, 0, i);
-      p[1] = EllipseCoreParameter(body, 1, j - e->middle);
-      p[2] = w;
-    }
-  }
-  for (PetscInt layer = 1; layer <= e->ring; ++layer) {
-    for (PetscInt at = 0; at < e->nring; ++at) {
-      const PetscReal m = 1 + ShapeGraded(body->grading[2], body->even[2], e->ring, layer);
-      PetscReal      *p = grid->coordinates + 3 * EllipseRingVertex(e, layer, at, k), uv[2];
+/* The vertices of the three blocks of the ring, each right-handed: below, at the crown, above */
+static PetscInt EllipseBelowVertex(const SceneBody *body, const void *context, PetscInt i, PetscInt layer, PetscInt k,
+  PetscReal p[3])
+{
+  const HalfEllipse *e = (const HalfEllipse *)context;
 
-      EllipseOutlineParameters(body, e, at, uv);
-      p[0] = m * uv[0];
-      p[1] = m * uv[1];
-      p[2] = w;
-    }
-  }
+  return EllipseRingVertex(body, e, e->ring - layer, i, k, p);
+}
+
+static PetscInt EllipseCrownVertex(const SceneBody *body, const void *context, PetscInt layer, PetscInt j, PetscInt k,
+  PetscReal p[3])
+{
+  const HalfEllipse *e = (const HalfEllipse *)context;
+
+  return EllipseRingVertex(body, e, layer, (e->middle ? e->core[0] : 0) + j, k, p);
+}
+
+static PetscInt EllipseAboveVertex(const SceneBody *body, const void *context, PetscInt i, PetscInt layer, PetscInt k,
+  PetscReal p[3])
+{
+  const HalfEllipse *e = (const HalfEllipse *)context;
+
+  return EllipseRingVertex(body, e, layer, e->nring - 1 - i, k, p);
 }
 
 /* Returns whether the directions depth, across and axis form a left-handed system. The direction across points into the
@@ -197,9 +170,9 @@ static PetscErrorCode ShapeCreate_HalfEllipse(const SceneBody *body, ShapeGrid *
         {ELLIPSE_FLAT, PETSC_DECIDE, ELLIPSE_ARC, PETSC_DECIDE, ELLIPSE_LMIN, ELLIPSE_LMAX}, &e, EllipseBelowVertex},
     };
 
-    PetscCall(ShapeGridCreate(e.middle ? 4 : 3, blocks, (e.length + 1) * e.nsection, EllipseIsMirrored(body), grid));
+    PetscCall(
+      ShapeGridCreate(body, e.middle ? 4 : 3, blocks, (e.length + 1) * e.nsection, EllipseIsMirrored(body), grid));
   }
-  for (PetscInt k = 0; k <= e.length; ++k) EllipseSectionCoordinates(body, &e, k, grid);
   PetscFunctionReturn(0);
 }
 

@@ -92,19 +92,6 @@ static PetscErrorCode ShapeSize_HoledBox(MPI_Comm comm, const SceneBody *body, P
   PetscFunctionReturn(0);
 }
 
-/* Returns the number of a vertex. at: position around the hole in cells, from the first eighth */
-static PetscInt HoledNumber(const HoledBox *h, PetscInt layer, PetscInt at, PetscInt k)
-{
-  return at % h->around + h->around * (layer + (h->layers + 1) * k);
-}
-
-static PetscInt HoledVertex(const void *context, PetscInt layer, PetscInt i, PetscInt k)
-{
-  const HoledBox *h = (const HoledBox *)context;
-
-  return HoledNumber(h, layer, (h->eighth - h->first) * h->n + i, k);
-}
-
 /* Computes the point q at i/n of one eighth of the outline of the square max(|a|, |b|) = 1 */
 static void HoledSquare(PetscInt eighth, PetscInt i, PetscInt n, PetscReal q[2])
 {
@@ -114,6 +101,24 @@ static void HoledSquare(PetscInt eighth, PetscInt i, PetscInt n, PetscReal q[2])
     q[c] =
       ((PetscReal)(n - i) * (PetscReal)corners[eighth % 8][c] + (PetscReal)i * (PetscReal)corners[eighth % 8 + 1][c]) /
       (PetscReal)n;
+}
+
+/* The vertex i cells along the block's eighth of a turn */
+static PetscInt HoledVertex(const SceneBody *body, const void *context, PetscInt layer, PetscInt i, PetscInt k,
+  PetscReal p[3])
+{
+  const HoledBox *h    = (const HoledBox *)context;
+  const PetscInt  axis = body->tube.axis, at = (h->eighth - h->first) * h->n + i;
+  const PetscReal m = p ? 1 + ShapeBetween(body, 0, layer, 0, 1) : 0;
+  PetscReal       q[2];
+
+  if (p) {
+    HoledSquare(h->eighth, i, h->n, q);
+    p[0] = m * q[0];
+    p[1] = m * q[1];
+    p[2] = ShapeBetween(body, 2, k, body->lower[axis], body->upper[axis]);
+  }
+  return at % h->around + h->around * (layer + (h->layers + 1) * k);
 }
 
 /* Returns the number of the box's side in the direction of 0, 2, 4 or 6 eighths of a turn */
@@ -143,25 +148,7 @@ static PetscErrorCode ShapeCreate_HoledBox(const SceneBody *body, ShapeGrid *gri
         last ? HoledSide(body, eighth + 3) : PETSC_DECIDE, 2 * axis, 2 * axis + 1},
       &parts[b], HoledVertex};
   }
-  PetscCall(ShapeGridCreate(h.count, blocks, h.around * (h.layers + 1) * (length + 1), PETSC_FALSE, grid));
-  for (PetscInt k = 0; k <= length; ++k) {
-    const PetscReal part = ShapeGraded(body->grading[2], body->even[2], length, k);
-
-    for (PetscInt layer = 0; layer <= h.layers; ++layer) {
-      const PetscReal m = 1 + ShapeGraded(body->grading[0], body->even[0], h.layers, layer);
-
-      for (PetscInt at = 0; at < h.around; ++at) {
-        PetscReal     *p      = grid->coordinates + 3 * HoledNumber(&h, layer, at, k);
-        const PetscInt eighth = PetscMin(at / h.n, h.count - 1);
-        PetscReal      q[2];
-
-        HoledSquare(h.first + eighth, at - eighth * h.n, h.n, q);
-        p[0] = m * q[0];
-        p[1] = m * q[1];
-        p[2] = (1 - part) * body->lower[axis] + part * body->upper[axis];
-      }
-    }
-  }
+  PetscCall(ShapeGridCreate(body, h.count, blocks, h.around * (h.layers + 1) * (length + 1), PETSC_FALSE, grid));
   PetscFunctionReturn(0);
 }
 

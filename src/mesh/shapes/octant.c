@@ -110,35 +110,6 @@ static PetscInt OctantLattice(const Octant *o, const PetscInt at[3])
   return at[0] + (o->n[0] + 1) * (at[1] + (o->n[1] + 1) * at[2]);
 }
 
-/* Returns the number of the vertex at the lattice point `at` in a layer */
-static PetscInt OctantVertex(const Octant *o, PetscInt layer, const PetscInt at[3])
-{
-  const PetscInt lattice = OctantLattice(o, at);
-
-  if (!o->core) return layer * o->nsurface + o->surface[lattice];
-  return layer ? o->ncore + (layer - 1) * o->nsurface + o->surface[lattice] : lattice;
-}
-
-static PetscInt OctantCoreVertex(const void *context, PetscInt i, PetscInt j, PetscInt k)
-{
-  const PetscInt at[3] = {i, j, k};
-
-  return OctantVertex(((const OctantPatch *)context)->octant, 0, at);
-}
-
-/* Returns the number of a patch's vertex. The directions are the layers and the two other axes, in the order that is
-   right-handed. */
-static PetscInt OctantPatchVertex(const void *context, PetscInt layer, PetscInt i, PetscInt j)
-{
-  const OctantPatch *patch = (const OctantPatch *)context;
-  PetscInt           at[3];
-
-  at[patch->axis]           = patch->low ? 0 : patch->octant->n[patch->axis];
-  at[(patch->axis + 1) % 3] = patch->low ? j : i;
-  at[(patch->axis + 2) % 3] = patch->low ? i : j;
-  return OctantVertex(patch->octant, layer, at);
-}
-
 /* Numbers the lattice points on the core's outer sides */
 static PetscErrorCode OctantNumberSurface(Octant *o)
 {
@@ -169,26 +140,37 @@ static PetscReal OctantParameter(const SceneBody *body, const Octant *o, PetscIn
   return i < o->middle[d] ? -place : place;
 }
 
-/* Computes the parameters of all vertices */
-static PetscErrorCode OctantCoordinates(const SceneBody *body, const Octant *o, ShapeGrid *grid)
+/* The vertex at the lattice point `at` in a layer */
+static PetscInt OctantVertex(const SceneBody *body, const Octant *o, PetscInt layer, const PetscInt at[3],
+  PetscReal p[3])
 {
-  PetscFunctionBegin;
-  for (PetscInt layer = 0; layer <= o->layers; ++layer) {
-    const PetscReal m = 1 + ShapeGraded(body->octant.layer_grading, body->octant.layer_even, o->layers, layer);
+  const PetscReal m = p ? 1 + ShapeGraded(body->octant.layer_grading, body->octant.layer_even, o->layers, layer) : 0;
+  const PetscInt  lattice = OctantLattice(o, at);
 
-    for (PetscInt k = 0; k <= o->n[2]; ++k) {
-      for (PetscInt j = 0; j <= o->n[1]; ++j) {
-        for (PetscInt i = 0; i <= o->n[0]; ++i) {
-          const PetscInt at[3] = {i, j, k};
+  for (PetscInt d = 0; p && d < 3; ++d) p[d] = m * OctantParameter(body, o, d, at[d]);
+  if (!o->core) return layer * o->nsurface + o->surface[lattice];
+  return layer ? o->ncore + (layer - 1) * o->nsurface + o->surface[lattice] : lattice;
+}
 
-          if (o->surface[OctantLattice(o, at)] < 0 && (layer || !o->core)) continue;
-          for (PetscInt d = 0; d < 3; ++d)
-            grid->coordinates[3 * OctantVertex(o, layer, at) + d] = m * OctantParameter(body, o, d, at[d]);
-        }
-      }
-    }
-  }
-  PetscFunctionReturn(0);
+static PetscInt OctantCoreVertex(const SceneBody *body, const void *context, PetscInt i, PetscInt j, PetscInt k,
+  PetscReal p[3])
+{
+  const PetscInt at[3] = {i, j, k};
+
+  return OctantVertex(body, ((const OctantPatch *)context)->octant, 0, at, p);
+}
+
+/* A patch's vertex. The directions are the layers and the two other axes, in the order that is right-handed. */
+static PetscInt OctantPatchVertex(const SceneBody *body, const void *context, PetscInt layer, PetscInt i, PetscInt j,
+  PetscReal p[3])
+{
+  const OctantPatch *patch = (const OctantPatch *)context;
+  PetscInt           at[3];
+
+  at[patch->axis]           = patch->low ? 0 : patch->octant->n[patch->axis];
+  at[(patch->axis + 1) % 3] = patch->low ? j : i;
+  at[(patch->axis + 2) % 3] = patch->low ? i : j;
+  return OctantVertex(body, patch->octant, layer, at, p);
 }
 
 /* Returns the block of a patch */
@@ -223,9 +205,8 @@ PetscErrorCode OctantCreate(const SceneBody *body, PetscBool core, ShapeGrid *gr
     blocks[n++] = (ShapeBlock){{o.n[0], o.n[1], o.n[2]},
       {OctantFace(body, 0), PETSC_DECIDE, OctantFace(body, 1), PETSC_DECIDE, OctantFace(body, 2), PETSC_DECIDE},
       &patches[0], OctantCoreVertex};
-  PetscCall(ShapeGridCreate(n, blocks, o.ncore + (core ? o.layers : o.layers + 1) * o.nsurface,
+  PetscCall(ShapeGridCreate(body, n, blocks, o.ncore + (core ? o.layers : o.layers + 1) * o.nsurface,
     sign < 0 ? PETSC_TRUE : PETSC_FALSE, grid));
-  PetscCall(OctantCoordinates(body, &o, grid));
   PetscCall(PetscFree(o.surface));
   PetscFunctionReturn(0);
 }

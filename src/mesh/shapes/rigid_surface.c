@@ -70,26 +70,25 @@ static PetscErrorCode ShapeSize_RigidSurface(MPI_Comm comm, const SceneBody *bod
   PetscFunctionReturn(0);
 }
 
-static PetscInt RigidSurfaceVertex(PETSC_UNUSED const void *context, PetscInt i, PetscInt j, PetscInt k)
+static PetscInt RigidSurfaceVertex(PETSC_UNUSED const SceneBody *body, const void *context, PetscInt i, PetscInt j,
+  PetscInt k, PetscReal x[3])
 {
+  const SceneSurfaceCube *cube = context;
+
+  for (PetscInt c = 0; x && c < 3; ++c)
+    x[c] = cube->corner[c] + i * cube->size * cube->edge[0][c] + j * cube->size * cube->edge[1][c] +
+           k * cube->size * cube->edge[2][c];
   return i + 2 * j + 4 * k;
 }
 
 static PetscErrorCode ShapeCreate_RigidSurface(const SceneBody *body, ShapeGrid *grid)
 {
-  const ShapeBlock block = {{1, 1, 1}, {0, 0, 0, 0, 0, 0}, NULL, RigidSurfaceVertex};
   SceneSurfaceCube cube;
+  const ShapeBlock block = {{1, 1, 1}, {0, 0, 0, 0, 0, 0}, &cube, RigidSurfaceVertex};
 
   PetscFunctionBegin;
   SceneSurfaceGetCube(body, &cube);
-  PetscCall(ShapeGridCreate(1, &block, 8, PETSC_FALSE, grid));
-  for (PetscInt v = 0; v < 8; ++v) {
-    for (PetscInt c = 0; c < 3; ++c) {
-      grid->coordinates[3 * v + c] = cube.corner[c];
-      for (PetscInt i = 0; i < 3; ++i)
-        if (v >> i & 1) grid->coordinates[3 * v + c] += cube.size * cube.edge[i][c];
-    }
-  }
+  PetscCall(ShapeGridCreate(body, 1, &block, 8, PETSC_FALSE, grid));
   PetscFunctionReturn(0);
 }
 

@@ -34,17 +34,18 @@ PETSC_INTERN PetscErrorCode ShapeGridDestroy(ShapeGrid *);
 typedef struct {
   PetscInt    n[3], faces[6];
   const void *context;
-  /* returns the number of the vertex (i, j, k) */
-  PetscInt (*vertex)(const void *context, PetscInt i, PetscInt j, PetscInt k);
+  /* returns the number of the vertex (i, j, k), and sets its parameters p unless p is NULL */
+  PetscInt (*vertex)(const SceneBody *, const void *context, PetscInt i, PetscInt j, PetscInt k, PetscReal p[3]);
 } ShapeBlock;
 
-/* Allocates a grid of blocks and fills all but its coordinates. mirrored: whether the map of the shape converts
-   right-handed cells into left-handed ones */
-PETSC_INTERN PetscErrorCode ShapeGridCreate(PetscInt nblocks, const ShapeBlock[], PetscInt nvertices,
+/* Creates a grid of blocks. mirrored: whether the map of the shape converts right-handed cells into left-handed ones */
+PETSC_INTERN PetscErrorCode ShapeGridCreate(const SceneBody *, PetscInt nblocks, const ShapeBlock[], PetscInt nvertices,
   PetscBool mirrored, ShapeGrid *);
 /* Returns the position in [0, 1] of vertex i of n graded cells. The last cell is `grading` times as large as the first
    (0 stands for 1). `even` cells at the fine end are equal (0 stands for 1), and the other cells grow geometrically. */
 PETSC_INTERN PetscReal ShapeGraded(PetscReal grading, PetscInt even, PetscInt n, PetscInt i);
+/* Returns the position of vertex i between two others, with the numbers of cells and the grading of direction d */
+PETSC_INTERN PetscReal ShapeBetween(const SceneBody *, PetscInt d, PetscInt i, PetscReal from, PetscReal to);
 /* Computes the point x on the unit circle for a point q on the sides of a square. Along a side the angle is linear. */
 PETSC_INTERN void ShapeCircle(const PetscReal q[2], PetscReal x[2]);
 /*

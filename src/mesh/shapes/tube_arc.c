@@ -74,47 +74,27 @@ static void TubeFromPolygon(const SceneBody *body, const PetscReal place[2], Pet
   p[1] = (first + middle + 0.5 * step * PetscTanReal(off) / PetscTanReal(0.5 * step)) * 180 / PETSC_PI;
 }
 
-static PetscInt TubeVertex(const void *context, PetscInt i, PetscInt j, PetscInt k)
+static PetscInt TubeVertex(const SceneBody *body, PETSC_UNUSED const void *context, PetscInt i, PetscInt j, PetscInt k,
+  PetscReal p[3])
 {
-  const PetscInt *n = (const PetscInt *)context;
+  const PetscReal *range[3] = {body->tube.radii, body->tube.angles, body->tube.extent};
+  const PetscBool  whole    = TubeIsWhole(body);
+  const PetscInt  *n = body->cells, around = whole ? n[1] : n[1] + 1, index[3] = {i, j % around, k};
 
-  return i + (n[0] + 1) * (j + (n[1] + 1) * k);
-}
-
-static PetscInt TubeWholeVertex(const void *context, PetscInt i, PetscInt j, PetscInt k)
-{
-  const PetscInt *n = (const PetscInt *)context;
-
-  return i + (n[0] + 1) * (j % n[1] + n[1] * k);
+  for (PetscInt d = 0; p && d < 3; ++d) p[d] = ShapeBetween(body, d, index[d], range[d][0], range[d][1]);
+  if (p && whole) TubeToPolygon(p);
+  return i + (n[0] + 1) * (j % around + around * k);
 }
 
 static PetscErrorCode ShapeCreate_TubeArc(const SceneBody *body, ShapeGrid *grid)
 {
-  const PetscReal *range[3] = {body->tube.radii, body->tube.angles, body->tube.extent};
-  const PetscInt  *n        = body->cells;
-  const PetscBool  full     = TubeIsWhole(body);
-  const PetscInt   around   = full ? n[1] : n[1] + 1;
-  const ShapeBlock arc      = {{n[0], n[1], n[2]}, {0, 1, 2, 3, 4, 5}, n, TubeVertex};
-  const ShapeBlock whole    = {{n[0], n[1], n[2]}, {0, 1, PETSC_DECIDE, PETSC_DECIDE, 2, 3}, n, TubeWholeVertex};
-  PetscReal       *p;
+  const PetscInt  *n     = body->cells;
+  const PetscBool  whole = TubeIsWhole(body);
+  const ShapeBlock block = {{n[0], n[1], n[2]},
+    {0, 1, whole ? PETSC_DECIDE : 2, whole ? PETSC_DECIDE : 3, whole ? 2 : 4, whole ? 3 : 5}, NULL, TubeVertex};
 
   PetscFunctionBegin;
-  PetscCall(ShapeGridCreate(1, full ? &whole : &arc, (n[0] + 1) * around * (n[2] + 1), PETSC_FALSE, grid));
-  p = grid->coordinates;
-  for (PetscInt k = 0; k <= n[2]; ++k) {
-    for (PetscInt j = 0; j < around; ++j) {
-      for (PetscInt i = 0; i <= n[0]; ++i, p += 3) {
-        const PetscInt index[3] = {i, j, k};
-
-        for (PetscInt d = 0; d < 3; ++d) {
-          const PetscReal part = ShapeGraded(body->grading[d], body->even[d], n[d], index[d]);
-
-          p[d] = (1 - part) * range[d][0] + part * range[d][1];
-        }
-        if (full) TubeToPolygon(p);
-      }
-    }
-  }
+  PetscCall(ShapeGridCreate(body, 1, &block, (n[0] + 1) * (whole ? n[1] : n[1] + 1) * (n[2] + 1), PETSC_FALSE, grid));
   PetscFunctionReturn(0);
 }
 

@@ -56,13 +56,6 @@ static PetscInt WedgeSection(PetscInt n, PetscInt corner, PetscInt i, PetscInt j
   return 1 + corner * n * (n + 1) + (i - 1) * (n + 1) + j;
 }
 
-static PetscInt WedgeVertex(const void *context, PetscInt i, PetscInt j, PetscInt k)
-{
-  const WedgeBlock *b = (const WedgeBlock *)context;
-
-  return WedgeSection(b->n, b->corner, i, j) + k * (1 + 3 * b->n * (b->n + 1));
-}
-
 /* Computes the point at the fractions a and b of the way from the centre to the middles of the sides after and before a
    corner */
 static void WedgePlace(const SceneBody *body, PetscInt corner, PetscReal a, PetscReal b, PetscReal place[2])
@@ -75,10 +68,26 @@ static void WedgePlace(const SceneBody *body, PetscInt corner, PetscReal a, Pets
                (1 - a) * b * (at[d] + last[d]) / 2 + a * b * at[d];
 }
 
+static PetscInt WedgeVertex(const SceneBody *body, const void *context, PetscInt i, PetscInt j, PetscInt k,
+  PetscReal x[3])
+{
+  const WedgeBlock *b    = (const WedgeBlock *)context;
+  const PetscInt    axis = body->tube.axis;
+  const PetscReal   part = (PetscReal)k / (PetscReal)body->cells[1];
+  PetscReal         place[2];
+
+  if (x) {
+    WedgePlace(body, b->corner, (PetscReal)i / (PetscReal)b->n, (PetscReal)j / (PetscReal)b->n, place);
+    x[(axis + 1) % 3] = place[0];
+    x[(axis + 2) % 3] = place[1];
+    x[axis]           = (1 - part) * body->tube.extent[0] + part * body->tube.extent[1];
+  }
+  return WedgeSection(b->n, b->corner, i, j) + k * (1 + 3 * b->n * (b->n + 1));
+}
+
 static PetscErrorCode ShapeCreate_Wedge(const SceneBody *body, ShapeGrid *grid)
 {
-  const PetscInt n = body->cells[0], length = body->cells[1], section = 1 + 3 * n * (n + 1), axis = body->tube.axis;
-  const PetscInt s = (axis + 1) % 3, t = (axis + 2) % 3;
+  const PetscInt n = body->cells[0], length = body->cells[1], section = 1 + 3 * n * (n + 1);
   WedgeBlock     corners[3];
   ShapeBlock     blocks[3];
 
@@ -88,23 +97,7 @@ static PetscErrorCode ShapeCreate_Wedge(const SceneBody *body, ShapeGrid *grid)
     blocks[c] =
       (ShapeBlock){{n, n, length}, {PETSC_DECIDE, c, PETSC_DECIDE, (c + 2) % 3, 3, 4}, &corners[c], WedgeVertex};
   }
-  PetscCall(ShapeGridCreate(3, blocks, section * (length + 1), (PetscBool)(WedgeArea(body) > 0), grid));
-  for (PetscInt c = 0; c < 3; ++c) {
-    for (PetscInt k = 0; k <= length; ++k) {
-      const PetscReal part = (PetscReal)k / (PetscReal)length;
-
-      for (PetscInt j = 0; j <= n; ++j) {
-        for (PetscInt i = 0; i <= n; ++i) {
-          PetscReal *x = grid->coordinates + 3 * WedgeVertex(&corners[c], i, j, k), place[2];
-
-          WedgePlace(body, c, (PetscReal)i / (PetscReal)n, (PetscReal)j / (PetscReal)n, place);
-          x[s]    = place[0];
-          x[t]    = place[1];
-          x[axis] = (1 - part) * body->tube.extent[0] + part * body->tube.extent[1];
-        }
-      }
-    }
-  }
+  PetscCall(ShapeGridCreate(body, 3, blocks, section * (length + 1), (PetscBool)(WedgeArea(body) > 0), grid));
   PetscFunctionReturn(0);
 }
 
