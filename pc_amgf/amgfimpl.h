@@ -49,11 +49,11 @@ typedef struct {
 /* A factorization of the operator, which is used instead of the AMG as the preconditioner B */
 typedef struct {
   PCAMGFFactorUse use;
-  PetscBool       on;                /* whether the last set-up used the factorization */
-  PetscBool       failed;            /* the last factorization failed */
-  PetscBool       considered, small; /* whether PCAMGFReconsiderFactor() has analysed the operator, and found small
-                                        factors */
-  PetscInt        applies;           /* number of applications of the AMG before the last set-up */
+  PetscBool       on;      /* whether the last set-up used the factorization */
+  PetscBool       failed;  /* the last factorization failed */
+  PetscBool       small;   /* whether PCAMGFReconsiderFactor() has found that a factorization costs less */
+  PetscInt        applies; /* number of applications of the AMG before the last set-up */
+  PetscReal       fill;    /* entries of the factor divided by those of the operator's upper triangle; 0: not known */
   Mat             F;
   PetscInt        negative; /* number of negative pivots */
   AMGFStamp       analysed; /* stamp of the operator that was analysed */

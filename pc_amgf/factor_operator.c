@@ -11,12 +11,14 @@ const char *const PCAMGFFactorUses[] = {"false", "true", "auto", "PCAMGFFactorUs
 #define FACTOR_UNKNOWNS 15000
 
 /*
-   Later, when the AMG has been applied to the same operator so often that it is slow, `auto` factors a larger operator
-   whose factor is small. The entries of the factor are counted in those of the operator's upper triangle. The ratio is
-   7.3 for a cube of 13,000 unknowns, 15 for one of 94,000, and 6 for a plate of 86,000.
+   Later `auto` factors a larger operator when the AMG has been applied to it so often that a factorization would have
+   taken about the same time. That time grows with the square of the fill, the entries of the factor divided by those of
+   the operator's upper triangle. The fill is 7.3 for a cube of 13,000 unknowns, 8.5 for a bolted bracket of 79,000, 15
+   for a cube of 94,000, and 6 for a plate of 86,000. With the largest one, a run needs twice the memory of the AMG.
 */
-#define FACTOR_APPLICATIONS 60
+#define FACTOR_APPLICATIONS 60 /* for the fill FACTOR_FILL */
 #define FACTOR_FILL         8.0
+#define FACTOR_FILL_MOST    12.0
 
 PetscErrorCode PCAMGFFactorReset_Private(AMGFFactor *f)
 {
@@ -24,6 +26,7 @@ PetscErrorCode PCAMGFFactorReset_Private(AMGFFactor *f)
   PetscCall(MatDestroy(&f->F));
   f->analysed = (AMGFStamp){.id = 0};
   f->on = f->failed = f->small = PETSC_FALSE;
+  f->fill                      = 0.0;
   PetscFunctionReturn(0);
 }
 
@@ -85,21 +88,23 @@ PetscErrorCode PCAMGFSetFactor_AMGF(PC pc, PCAMGFFactorUse use)
 
 PetscErrorCode PCAMGFReconsiderFactor_AMGF(PC pc, PetscBool *changed)
 {
-  PC_AMGF    *amgf = (PC_AMGF *)pc->data;
-  AMGFFactor *f    = &amgf->factor;
-  PetscReal   fill;
+  PC_AMGF       *amgf = (PC_AMGF *)pc->data;
+  AMGFFactor    *f    = &amgf->factor;
+  const PetscInt n    = amgf->counts.amg_applies - f->applies;
+  PetscReal      most;
 
   PetscFunctionBegin;
   *changed = PETSC_FALSE;
-  if (f->use != PC_AMGF_FACTOR_AUTO || f->on || f->failed || f->considered ||
-      amgf->counts.amg_applies < f->applies + FACTOR_APPLICATIONS)
-    PetscFunctionReturn(0);
-  f->considered = PETSC_TRUE;
-  PetscCall(MatDestroy(&f->F));
-  PetscCall(MatGetStamp_AMGF(pc->pmat, &f->analysed));
-  PetscCall(AMGFSymmetricFill(pc->pmat, NULL, &f->F, &fill));
-  *changed = f->small = (PetscBool)(fill <= FACTOR_FILL);
-  if (!*changed) PetscCall(MatDestroy(&f->F));
+  if (f->use != PC_AMGF_FACTOR_AUTO || f->on || f->failed || n < FACTOR_APPLICATIONS) PetscFunctionReturn(0);
+  if (f->fill == 0.0) {
+    PetscCall(MatDestroy(&f->F));
+    PetscCall(MatGetStamp_AMGF(pc->pmat, &f->analysed));
+    PetscCall(AMGFSymmetricFill(pc->pmat, NULL, &f->F, &f->fill));
+    PetscCall(PetscInfo(pc, "The factor has %g times the entries of the operator's triangle\n", (double)f->fill));
+  }
+  most     = FACTOR_FILL * PetscSqrtReal((PetscReal)n / FACTOR_APPLICATIONS);
+  *changed = f->small = (PetscBool)(f->fill <= PetscMin(most, FACTOR_FILL_MOST));
+  if (!*changed && f->fill > FACTOR_FILL_MOST) PetscCall(MatDestroy(&f->F));
   if (!*changed) PetscFunctionReturn(0);
   amgf->lag.built = PETSC_FALSE;
   pc->setupcalled = 0;
@@ -162,9 +167,9 @@ PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
 
   Notes:
   Call it between solves: a Krylov method needs the same preconditioner in all of its iterations. The AMG must have been
-  applied 60 times. The factors must have at most eight times as many entries as the upper triangle of the operator, so
-  that they need about the memory of the AMG. Thin and plane bodies have such factors, and the AMG is slow for thin
-  cells. On one rank only, if PETSc has CHOLMOD.
+  applied to this operator 60 times if the factors have eight times as many entries as its upper triangle, and more
+  often for larger factors, which may have twelve times as many. Thin and plane bodies have small factors, and the AMG is
+  slow for thin cells. On one rank only, if PETSc has CHOLMOD.
 
 .seealso: `PCAMGF`, `PCAMGFSetFactor()`, `PCAMGFGetFactored()`
 @*/
