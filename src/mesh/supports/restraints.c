@@ -205,8 +205,8 @@ PetscErrorCode SupportAddScene(Support *support, Scene scene)
     const SceneContactPair *pair = &scene->pairs[p];
 
     if (pair->self) continue;
-    PetscCall(SupportAddFaces(support, scene, pair->mortar, pair->nonmortar,
-      SceneContactPairHasFriction(pair) ? all : NULL));
+    PetscCall(
+      SupportAddFaces(support, scene, pair->mortar, pair->nonmortar, SceneContactPairHasFriction(pair) ? all : NULL));
   }
   for (PetscInt t = 0; t < scene->nties; ++t)
     PetscCall(SupportAddFaces(support, scene, scene->ties[t].mortar, scene->ties[t].nonmortar, all));
