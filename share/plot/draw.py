@@ -485,7 +485,7 @@ def caption(args, run, step, scale, cells, displacement):
     largest = np.linalg.norm(displacement[nodes], axis=1).max()
     unit = run.unit("displacement")
     size = f"largest displacement {largest:.3g}" + (f" {unit}" if unit != "length" else "")
-    drawn = "to scale" if scale == 1 else f"{scale:.3g} times as large"
+    drawn = "to scale" if scale == 1 else f"{scale:.3g} times as large (bodies may seem to overlap)"
     return f"load step {step}; {size}, drawn {drawn}; grey lines: undeformed"
 
 
