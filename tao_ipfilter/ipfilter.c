@@ -306,7 +306,7 @@ PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao tao)
   PetscCall(IPOptionsInitialize(ip->opt));
   PetscCall(IPRegisterMethods(ip));
   if (ip->method->ops) PetscCall(ip->method->ops->create(tao));
-  PetscObjectParameterSetDefault(tao, max_it, 500);
+  PetscObjectParameterSetDefault(tao, max_it, 3000);
   PetscObjectParameterSetDefault(tao, gatol, 1e-8);
   PetscObjectParameterSetDefault(tao, catol, PETSC_INFINITY);
   PetscObjectParameterSetDefault(tao, crtol, PETSC_INFINITY);
