@@ -152,8 +152,9 @@ static PetscErrorCode SolverCreate(Tao tao)
 
   Notes:
   Slacks, multipliers and bounds are eliminated from the Newton system. The remaining matrix is A = H + Sigma + J^T D J.
-  A Krylov method solves its systems. The unknowns in nonzero columns of J are composed on A as an IS under
-  `PCAMGF_FILTER_KEY`; `PCAMGF` uses them as filter.
+  MUMPS factors systems of up to 500 unknowns, if the types of Krylov method and preconditioner are the defaults and
+  `-tao_ipfilter_direct_memory` is not 0. A Krylov method solves all others. The unknowns in nonzero columns of J are
+  composed on A as an IS under `PCAMGF_FILTER_KEY`; `PCAMGF` uses them as filter.
 
   Equality constraints are kept in the symmetric augmented system of A and their Jacobian, which is factored by MUMPS.
   PETSc must have MUMPS. Linearly dependent constraints are regularized by proximal terms, which vanish at the solution.
@@ -304,7 +305,7 @@ PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao tao)
   PetscCall(IPOptionsInitialize(ip->opt));
   PetscCall(IPRegisterMethods(ip));
   if (ip->method->ops) PetscCall(ip->method->ops->create(tao));
-  PetscObjectParameterSetDefault(tao, max_it, 500);
+  PetscObjectParameterSetDefault(tao, max_it, 3000);
   PetscObjectParameterSetDefault(tao, gatol, 1e-8);
   PetscObjectParameterSetDefault(tao, catol, PETSC_INFINITY);
   PetscObjectParameterSetDefault(tao, crtol, PETSC_INFINITY);

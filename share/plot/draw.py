@@ -485,8 +485,8 @@ def caption(args, run, step, scale, cells, displacement):
     largest = np.linalg.norm(displacement[nodes], axis=1).max()
     unit = run.unit("displacement")
     size = f"largest displacement {largest:.3g}" + (f" {unit}" if unit != "length" else "")
-    drawn = "to scale" if scale == 1 else f"{scale:.3g} times as large"
-    return f"load step {step}; {size}, drawn {drawn}; grey lines: undeformed"
+    drawn = "to scale" if scale == 1 else f"{scale:.3g} times as large (bodies may seem to overlap)"
+    return f"load step {step}; {size}, drawn {drawn}; grey: undeformed"
 
 
 def contact_box(args, run, step, cells, points):
@@ -712,7 +712,7 @@ def scene_of(args, run, frame=None):
     bodies.SetViewport(*part)
     for actor in legend(args, run, table, pixels):
         page.AddActor2D(actor)
-    page.AddActor2D(text_at(caption(args, run, step, scale, cells, displacement), 20, 14, 16))
+    page.AddActor2D(text_at(caption(args, run, step, scale, cells, displacement), 20, 14, 14))
     if args.title:
         page.AddActor2D(text_at(args.title, 20, pixels - 36, 22))
     best = largest_place(args, run, cells, values, points)

@@ -7,7 +7,7 @@
 #include <elasticity.h>
 #include "src/output/outputimpl.h"
 
-/* fields.c: gets a field with its size; a missing field is an error */
+/* checkpoint_fields.c: gets a field with its size; a missing field is an error */
 PETSC_INTERN PetscErrorCode CheckpointFindField(Checkpoint, const char name[], const CheckpointField **);
 
 /*

@@ -7,54 +7,48 @@
 #define AWAY_SIDE   (2 * AWAY_STEPS + 1)
 #define AWAY_BINS   (AWAY_SIDE * AWAY_SIDE * AWAY_SIDE)
 
-/* Collective. Lists the normals of all facets of a face, rounded, each once. The caller frees *list. */
-static PetscErrorCode AwayNormals(MPI_Comm comm, const ContactSurface *s, PetscInt *n, PetscReal **list)
+/* Computes the unit normal that is rounded to a bin */
+static void AwayNormal(PetscInt bin, PetscReal normal[3])
 {
-  PetscInt *has;
+  const PetscInt at[3] = {bin / (AWAY_SIDE * AWAY_SIDE), bin / AWAY_SIDE % AWAY_SIDE, bin % AWAY_SIDE};
 
-  PetscFunctionBegin;
-  PetscCall(PetscCalloc1(AWAY_BINS, &has));
-  for (PetscInt f = 0; f < s->nfacets; ++f) {
-    PetscReal normal[3];
-    PetscInt  bin = 0;
-
-    if (!ContactFacetNormal(&s->x[12 * f], normal)) continue;
-    for (PetscInt c = 0; c < 3; ++c)
-      bin = AWAY_SIDE * bin + (PetscInt)PetscFloorReal(AWAY_STEPS * (normal[c] + 1.0) + 0.5);
-    has[bin] = 1;
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, has, AWAY_BINS, MPIU_INT, MPI_MAX, comm));
-  *n = 0;
-  for (PetscInt b = 0; b < AWAY_BINS; ++b) *n += has[b];
-  PetscCall(PetscMalloc1(3 * *n, list));
-  *n = 0;
-  for (PetscInt b = 0; b < AWAY_BINS; ++b) {
-    const PetscInt at[3] = {b / (AWAY_SIDE * AWAY_SIDE), b / AWAY_SIDE % AWAY_SIDE, b % AWAY_SIDE};
-
-    if (!has[b]) continue;
-    for (PetscInt c = 0; c < 3; ++c) (*list)[3 * *n + c] = (PetscReal)at[c] / AWAY_STEPS - 1.0;
-    (void)VectorScaleToUnit(&(*list)[3 * (*n)++]);
-  }
-  PetscCall(PetscFree(has));
-  PetscFunctionReturn(0);
+  for (PetscInt c = 0; c < 3; ++c) normal[c] = (PetscReal)at[c] / AWAY_STEPS - 1.0;
+  (void)VectorScaleToUnit(normal);
 }
 
 /* Collective. Determines whether all normals of the mortar face look away from all normals of the nonmortar face */
 static PetscErrorCode AwayFromFace(MPI_Comm comm, const ContactPairData *pair, PetscBool *away)
 {
-  PetscReal *mortar, *nonmortar;
-  PetscInt   nmortar, nnonmortar;
+  PetscInt *has; /* whether the mortar face, and then whether the nonmortar face, has a facet with this normal */
 
   PetscFunctionBegin;
-  PetscCall(AwayNormals(comm, &pair->mortar, &nmortar, &mortar));
-  PetscCall(AwayNormals(comm, &pair->nonmortar, &nnonmortar, &nonmortar));
-  *away = PETSC_TRUE;
-  for (PetscInt i = 0; i < nmortar && *away; ++i) {
-    for (PetscInt j = 0; j < nnonmortar && *away; ++j)
-      *away = (PetscBool)(VectorDot(&mortar[3 * i], &nonmortar[3 * j]) > AWAY_COSINE);
+  PetscCall(PetscCalloc1(2 * AWAY_BINS, &has));
+  for (PetscInt side = 0; side < 2; ++side) {
+    const ContactSurface *s = side ? &pair->nonmortar : &pair->mortar;
+
+    for (PetscInt f = 0; f < s->nfacets; ++f) {
+      PetscReal normal[3];
+      PetscInt  bin = 0;
+
+      if (!ContactFacetNormal(&s->x[12 * f], normal)) continue;
+      for (PetscInt c = 0; c < 3; ++c)
+        bin = AWAY_SIDE * bin + (PetscInt)PetscFloorReal(AWAY_STEPS * (normal[c] + 1.0) + 0.5);
+      has[side * AWAY_BINS + bin] = 1;
+    }
   }
-  PetscCall(PetscFree(mortar));
-  PetscCall(PetscFree(nonmortar));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, has, 2 * AWAY_BINS, MPIU_INT, MPI_MAX, comm));
+  *away = PETSC_TRUE;
+  for (PetscInt a = 0; a < AWAY_BINS && *away; ++a) {
+    for (PetscInt b = 0; has[a] && b < AWAY_BINS && *away; ++b) {
+      PetscReal m[3], n[3];
+
+      if (!has[AWAY_BINS + b]) continue;
+      AwayNormal(a, m);
+      AwayNormal(b, n);
+      *away = (PetscBool)(VectorDot(m, n) > AWAY_COSINE);
+    }
+  }
+  PetscCall(PetscFree(has));
   PetscFunctionReturn(0);
 }
 

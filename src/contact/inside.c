@@ -9,6 +9,7 @@
 
 #define INSIDE_MOST  500 /* largest number of points of a face and a rank that are tested; it bounds the time */
 #define INSIDE_PARTS 5   /* number of points of a depth that are tested */
+#define INSIDE_EDGE  0.1 /* distance of points from the corners of their facets, relative to that of the center */
 
 /* A point of a facet. All fields are real, so that points can be sent as one array. */
 typedef struct {
@@ -17,9 +18,10 @@ typedef struct {
 } InsidePoint;
 #define INSIDE_REALS ((PetscInt)(sizeof(InsidePoint) / sizeof(PetscReal)))
 
-/* Collects corners and centers of n facets that are in a box. body: the bodies of the facets, of which those of the
-   body `own` count; NULL: all count. x0, x: [12 n] coordinates at the start and at present [length]. point:
-   [INSIDE_MOST], a sample of them. */
+/* Collects points near the corners, and the centers, of n facets that are in a box. At the corners themselves, bodies
+   may touch beside the facets, and a point in the plane of a facet is neither inside nor outside. body: the bodies of
+   the facets, of which those of the body `own` count; NULL: all count. x0, x: [12 n] coordinates at the start and at
+   present [length]. point: [INSIDE_MOST], a sample of them. */
 static void InsideCollect(PetscInt n, const PetscInt body[], PetscInt own, const PetscReal x0[], const PetscReal x[],
   const PetscReal box[6], PetscInt *npoints, InsidePoint point[])
 {
@@ -35,7 +37,8 @@ static void InsideCollect(PetscInt n, const PetscInt body[], PetscInt own, const
 
       if ((body && body[f] != own) || !ContactFacetNormal(&x[12 * f], at.normal)) continue;
       for (PetscInt k = 0; k < 12; ++k) {
-        const PetscReal weight = i % 5 == 4 ? 0.25 : (PetscReal)(k / 3 == i % 5);
+        const PetscReal center = i % 5 == 4 ? 1.0 : INSIDE_EDGE;
+        const PetscReal weight = 0.25 * center + (1.0 - center) * (PetscReal)(k / 3 == i % 5);
 
         at.from[k % 3] += weight * x0[12 * f + k];
         at.x[k % 3] += weight * x[12 * f + k];
@@ -109,7 +112,7 @@ static PetscErrorCode InsideMeasure(const ContactBoundary *b, PetscInt body, Pet
     else high = at;
     PetscCall(PetscFree(deeper));
   }
-  *deepest = PetscMax(*deepest, low);
+  *deepest = PetscMax(*deepest, high);
   PetscFunctionReturn(0);
 }
 

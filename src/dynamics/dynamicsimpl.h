@@ -64,7 +64,7 @@ PETSC_INTERN PetscErrorCode DriveBegin(const Constraints *, PetscReal time, Pets
   Vec previous, Dynamics *);
 PETSC_INTERN PetscErrorCode DriveEnd(const Dynamics *, Vec velocity);
 
-/* start.c: velocities and accelerations at time 0 */
+/* initial_state.c: velocities and accelerations at time 0 */
 PETSC_INTERN PetscErrorCode DynamicsCreate(const Constraints *, const DeadLoads *, Springs *, Dynamics *);
 PETSC_INTERN PetscErrorCode DynamicsSetRest(const Constraints *, const DeadLoads *, PetscReal time, Vec u, Dynamics *);
 PETSC_INTERN PetscErrorCode DynamicsDestroy(Dynamics *);

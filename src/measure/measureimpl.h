@@ -53,15 +53,15 @@ PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
 */
 PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 
-/* penetration.c: penetration of single vertices, whereas the gaps of mortar pairs are means */
+/* penetration_warnings.c: penetration of single vertices, whereas the gaps of mortar pairs are means */
 PETSC_INTERN PetscErrorCode PenetrationMeasure(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode PenetrationTest(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode PenetrationFail(Simulation, StepReport *, const char reason[]);
 PETSC_INTERN PetscErrorCode PenetrationWarn(Simulation);
 
 /*
-   pair_mesh.c, strain.c: warn of contact meshes that are too coarse, and of strains that are too large for laws of
-   small strain
+   pair_mesh.c, strain_warnings.c: warn of contact meshes that are too coarse, and of strains that are too large for
+   laws of small strain
 */
 PETSC_INTERN PetscErrorCode PairMeshWarn(Simulation);
 PETSC_INTERN PetscErrorCode StrainTest(Simulation, StepReport *);

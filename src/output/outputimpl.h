@@ -1,7 +1,7 @@
 /*
    Declarations that the files of src/output share. The files are listed such that each depends only on those before it.
    Fields of bodies and surfaces are written to HDF5 (output.c). The report is written as JSON (json.c) and printed
-   (view.c).
+   (print_report.c).
 */
 #ifndef OUTPUTIMPL_H
 #define OUTPUTIMPL_H
@@ -80,8 +80,8 @@ PETSC_INTERN PetscErrorCode StressWriteQuadrature(Output, const StepState *, Pet
 PETSC_INTERN PetscErrorCode OutputCreateMesh(DM, Output *);
 
 /*
-   fields.c: writes the mesh and the fields of a load step; FieldsGetVertices() returns the nodes of this rank and their
-   bodies
+   hdf5_fields.c: writes the mesh and the fields of a load step; FieldsGetVertices() returns the nodes of this rank and
+   their bodies
 */
 PETSC_INTERN PetscErrorCode FieldsGetVertices(Output, Vec *vertices, PetscInt body[]);
 PETSC_INTERN PetscErrorCode FieldsWriteMesh(PetscViewer, void *output);
@@ -200,6 +200,6 @@ PETSC_INTERN PetscErrorCode TableViewRows(const RunReport *, ReportTable, const 
 PETSC_INTERN const char    *TableGetText(const RunReport *, ReportTable, const ReportField *, const void *record,
      char text[], size_t length);
 
-/* json.c, accuracy.c, view.c: their functions are declared in the public header */
+/* json.c, accuracy.c, print_report.c: their functions are declared in the public header */
 
 #endif

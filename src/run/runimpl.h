@@ -28,6 +28,7 @@ PETSC_INTERN PetscErrorCode PlausibleTest(Simulation);
 /* figures.c */
 PETSC_INTERN PetscErrorCode FiguresCollect(RunReport *);
 
-/* simulation.c, setup.c, contact_free.c, adapt.c, accuracy.c: their functions are declared in step.h and accuracy.h */
+/* simulation.c, set_up_simulation.c, contact_free.c, adapt.c, accuracy.c: their functions are declared in step.h and
+   accuracy.h */
 
 #endif

@@ -18,6 +18,6 @@ PETSC_INTERN PetscErrorCode SceneViewShapeKeys(PetscViewer), SceneViewConstantKe
 PETSC_INTERN PetscErrorCode SceneDescribeLoads(Scene, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneDescribeVelocity(const SceneBody *, PetscViewer);
 
-/* view.c, describe.c, scene.c: their functions are declared in the public header */
+/* print_scene.c, describe.c, scene.c: their functions are declared in the public header */
 
 #endif

@@ -21,7 +21,7 @@ struct _n_Results {
   PetscReal *stress; /* stress of the cells of this rank, 7 values per cell */
   Probes     probes;
   PetscBool  estimate; /* true if the discretization error is estimated at the end of every load step */
-  PetscBool *beyond;   /* [nbodies] true for bodies about whose strain strain.c has warned; NULL before the first
+  PetscBool *beyond; /* [nbodies] true for bodies about whose strain strain_warnings.c has warned; NULL before the first
                           load step */
 };
 

@@ -105,28 +105,21 @@ static PetscErrorCode CountTinySteps(Tao tao)
 }
 
 /*
-   Ends the iteration, since the KKT error is within the tolerance. The reason is `acceptable` or a failure in two
-   cases: the multipliers with which the error is measured grow without limit, or the relaxation of the constraints
-   changes the objective by more than the tolerance.
+   Ends the iteration, since the KKT error is within the tolerance. The reason is `acceptable` or a failure if the
+   relaxation of the constraints changes the objective by more than the tolerance.
 */
-static PetscErrorCode ConvergeUnlessDegenerate(Tao tao)
+static PetscErrorCode Converge(Tao tao)
 {
-  TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
-  const PetscReal limit = 1e4, trace = 1e-3;
-  PetscReal       times = 0.0, work = 0.0;
+  TAO_IPFILTER   *ip          = (TAO_IPFILTER *)tao->data;
+  const PetscReal trace       = 1e-3;
+  PetscReal       work        = 0.0;
   char            relaxed[64] = "";
 
   PetscFunctionBegin;
-  PetscCall(IPCancellation(tao, &times));
   PetscCall(IPErrorBoundOfRelaxation(tao, &work));
   if (ip->relax->times)
     PetscCall(PetscSNPrintf(relaxed, sizeof(relaxed), ", with constraints relaxed by %g", (double)ip->relax->told));
-  if (times > limit)
-    PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
-      "acceptable: KKT error %g%s, but the multipliers are %g times larger than the gradient that they balance: "
-      "bounded multipliers may not exist",
-      (double)ip->kkt->error, relaxed, (double)times));
-  else if (work > ip->tol) {
+  if (work > ip->tol) {
     const PetscReal share = IPErrorBoundOfWork(ip, work) / IPDegenerateObjective(ip);
 
     PetscCall(IPSetReason(tao, share <= trace ? TAO_CONVERGED_STEPTOL : TAO_DIVERGED_USER,
@@ -211,7 +204,7 @@ PetscErrorCode IPConvergeRefined(Tao tao)
   PetscFunctionBegin;
   if (ip->rec->nrefined && !ip->rec->best_falls && tao->reason != TAO_CONVERGED_GATOL && Converged(ip) &&
       IPConstraintsMet(tao))
-    PetscCall(ConvergeUnlessDegenerate(tao));
+    PetscCall(Converge(tao));
   PetscFunctionReturn(0);
 }
 
@@ -307,7 +300,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL,
       "converged: the gradient of the objective is zero, and the constraints are met"));
   } else if (Converged(ip) && IPConstraintsMet(tao)) {
-    PetscCall(ConvergeUnlessDegenerate(tao));
+    PetscCall(Converge(tao));
   } else if (fritz_john && OwnMet(ip, IP_ACCEPTABLE_TOL) && IPConstraintsMet(tao)) {
     const PetscBool acceptable = (PetscBool)(IPBothErrors(ip) <= IP_ACCEPTABLE_TOL);
 

@@ -265,7 +265,7 @@ static PetscErrorCode RenewMultipliers(Tao tao)
 static PetscErrorCode RestoreIfCut(Tao tao)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscInt patience = 10;
+  const PetscInt patience = 11; /* one more than that of the watchdog, which comes first */
   PetscBool      ok, infeasible;
 
   PetscFunctionBegin;

@@ -164,11 +164,8 @@ PetscErrorCode IPTestUnboundedRays(Tao tao, PetscReal *f, PetscBool *unbounded)
   PetscFunctionReturn(0);
 }
 
-/*
-   Finds whether the objective is unbounded: it has fallen far, and a ray proves that it falls further, or the iterates
-   diverge: the unknowns have grown by the same factor. The fall alone may be large only beside a start at which the
-   objective happened to be small.
-*/
+/* Finds whether the objective has fallen far, and the unknowns have grown by the same factor, or a ray shows that it
+   falls further */
 PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
 {
   const PetscReal first = ((TAO_IPFILTER *)tao->data)->first->x;
@@ -178,8 +175,8 @@ PetscErrorCode IPTestUnbounded(Tao tao, PetscReal *f, PetscBool *unbounded)
   *f = ((TAO_IPFILTER *)tao->data)->at.f;
   PetscCall(UnboundedAtIterate(tao, unbounded));
   if (!*unbounded) PetscFunctionReturn(0);
-  PetscCall(IPTestUnboundedRays(tao, f, unbounded));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
-  if (size > IP_UNBOUNDED_FACTOR * (first > 0.0 ? first : 1.0)) *unbounded = PETSC_TRUE;
+  *unbounded = (PetscBool)(size > IP_UNBOUNDED_FACTOR * (first > 0.0 ? first : 1.0));
+  if (!*unbounded) PetscCall(IPTestUnboundedRays(tao, f, unbounded));
   PetscFunctionReturn(0);
 }

@@ -175,21 +175,24 @@ static PetscErrorCode ConcludeDirect(Tao tao, IPLinearVerdict *verdict)
 }
 
 /*
-   Solves a small system by MUMPS, whose rounding errors are smaller than those of a Krylov method where A is badly
-   conditioned. Larger systems are left alone, since the factors of the whole matrix may cost too much. *verdict is not
-   changed if MUMPS fails or finds the matrix singular.
+   Solves a small system by MUMPS, unless the user has chosen another solver: Newton's method is then exact, and its
+   factors have the inertia of A. Larger systems are left alone, since factors of the whole matrix may cost too much.
+   *verdict is not changed if MUMPS fails or finds the matrix singular.
 */
 static PetscErrorCode SolveSmall(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
   const PetscInt  few    = 500;
   IPLinearVerdict direct = IP_LINEAR_FAILED;
-  PetscBool       sound  = PETSC_TRUE;
+  PetscBool       sound  = PETSC_TRUE, cg;
   PetscInt        n;
+  PC              pc;
 
   PetscFunctionBegin;
   PetscCall(VecGetSize(d, &n));
-  if (n > few || DirectOnly(ip)) PetscFunctionReturn(0);
+  PetscCall(GetAMGF(tao, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)tao->ksp, KSPCG, &cg));
+  if (n > few || !cg || !pc || ip->opt->forcing == IP_FORCING_FIXED || DirectOnly(ip)) PetscFunctionReturn(0);
   PetscCall(CheckNumbers(tao, &sound));
   if (sound) PetscCall(IPDirectSolve(tao, b, d, &direct));
   ip->lin->why[0] = '\0';
@@ -198,9 +201,7 @@ static PetscErrorCode SolveSmall(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict
 }
 
 /*
-   Makes the attempts one by one until *verdict is not IP_LINEAR_FAILED. Small systems are solved directly where the
-   iterate is refined, or where CG calls the matrix indefinite, since rounding errors may have changed the sign of a
-   product p^T A p.
+   Makes the attempts one by one until *verdict is not IP_LINEAR_FAILED. Small systems are solved directly.
 */
 static PetscErrorCode MakeAttempts(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
 {
@@ -210,7 +211,7 @@ static PetscErrorCode MakeAttempts(Tao tao, Vec b, Vec d, IPLinearVerdict *verdi
   PetscBool     sound = PETSC_TRUE, possible;
 
   PetscFunctionBegin;
-  if (ip->rec->nrefined) PetscCall(SolveSmall(tao, b, d, verdict));
+  PetscCall(SolveSmall(tao, b, d, verdict));
   for (size_t k = first; k < n && *verdict == IP_LINEAR_FAILED; k++) {
     if (k == PetscMax(first, 1)) PetscCall(CheckNumbers(tao, &sound));
     if (!sound) PetscFunctionReturn(0);
@@ -219,8 +220,6 @@ static PetscErrorCode MakeAttempts(Tao tao, Vec b, Vec d, IPLinearVerdict *verdi
     if (possible) PetscCall((*attempts[k].solve)(tao, b, d, verdict));
     if (k == n - 1) PetscCall(ConcludeDirect(tao, verdict));
   }
-  if (*verdict == IP_LINEAR_INDEFINITE && ip->lin->reason == KSP_DIVERGED_INDEFINITE_MAT && !ip->rec->nrefined)
-    PetscCall(SolveSmall(tao, b, d, verdict));
   PetscFunctionReturn(0);
 }
 

@@ -79,15 +79,13 @@ static PetscErrorCode OwnLargest(Tao tao, IPSpace space, Mat J, Vec c, Vec viola
 }
 
 /*
-   Computes the largest violation of all constraints relative to the terms of their rows. For relaxed constraints this
-   includes the violation without the relaxation; its terms are at least the contribution of the largest unknown, since
-   the terms of such rows may vanish.
+   Computes the largest violation of all constraints relative to the terms of their rows.
 */
 PetscErrorCode IPOwnViolation(Tao tao, PetscReal *own)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
   const IPFirst  *first = ip->first;
-  const PetscReal trace = 1e-6, small = 1e-4 / PETSC_MACHINE_EPSILON, rounding = trace * PETSC_MACHINE_EPSILON,
+  const PetscReal trace = 1e-6, rounding = trace * PETSC_MACHINE_EPSILON,
                   rows = PetscMax(PetscMax(first->length, first->jacobian * first->x),
                     first->jacobian * ip->given->rounding / rounding);
   PetscReal other      = 0.0;
@@ -99,12 +97,6 @@ PetscErrorCode IPOwnViolation(Tao tao, PetscReal *own)
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v));
     PetscCall(IPSlackViolation(tao, ip->at.c, v));
     PetscCall(OwnLargest(tao, IP_INEQUALITIES, ip->jac->inequality, ip->at.c, v, trace, rows, own));
-    if (ip->relax->by > 0.0) { /* add the violation of the constraints as they are without the relaxation */
-      PetscCall(VecWAXPY(v, -1.0, ip->at.s, ip->at.c));
-      PetscCall(VecShift(v, -ip->relax->by));
-      PetscCall(OwnLargest(tao, IP_INEQUALITIES, ip->jac->inequality, ip->at.c, v, 1.0, small * rows, &other));
-    }
-    *own = PetscMax(*own, other);
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &v));
   }
   if (ip->me)

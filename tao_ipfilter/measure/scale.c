@@ -8,11 +8,8 @@
 
 #define IP_VANISHING 1e-3 /* fraction of a first value that replaces a vanishing scale */
 #define IP_AMPLE \
-  30.0 /* a gradient is small if its Newton step moves the unknowns by less than this multiple of
+  30.0                   /* a gradient is small if its Newton step moves the unknowns by less than this multiple of
                             the tolerance */
-#define IP_STEEP \
-  0.1                    /* The first value of the largest row sum of |J| is used as a scale until the row sum
-                            falls below this fraction of it. */
 #define IP_RUNAWAY 100.0 /* largest size of an iterate relative to its first size that scales follow */
 
 /*
@@ -34,22 +31,19 @@ static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   IPScale      *s  = ip->scale;
-  PetscReal     c, t, gradient, now, jacobian, upper = 0.0;
+  PetscReal     c, t, gradient, upper = 0.0;
   PetscReal     transmitted;
 
   PetscFunctionBegin;
-  PetscCall(MatNorm(ip->jac->inequality, NORM_INFINITY, &now));
-  jacobian =
-    now < IP_STEEP * ip->first->jacobian ? PetscMax(now, IP_VANISHING * ip->first->jacobian) : ip->first->jacobian;
-  transmitted = jacobian * ip->pair[IP_SLACK].weight / ip->mi;
+  transmitted = ip->first->jacobian * ip->pair[IP_SLACK].weight / ip->mi;
   PetscCall(IPSizeWithinReach(tao, ip->at.c, &c));
   PetscCall(IPSizeWithinReach(tao, ip->pair[IP_SLACK].t, &t));
   PetscCall(VecNorm(ip->pair[IP_SLACK].z, NORM_INFINITY, &s->pressure));
   if (ip->pair[IP_CEILING].n) PetscCall(VecNorm(ip->pair[IP_CEILING].z, NORM_INFINITY, &upper));
   s->pressure = PetscMax(s->pressure, upper);
   s->length   = PetscMax(Within(PetscMax(c, t), IP_RUNAWAY * ip->first->length),
-      10.0 * IP_VANISHING * PetscMax(ip->first->length, jacobian * xsize));
-  s->length   = PetscMax(s->length, jacobian * ip->given->rounding / ip->tol);
+      10.0 * IP_VANISHING * PetscMax(ip->first->length, ip->first->jacobian * xsize));
+  s->length   = PetscMax(s->length, ip->first->jacobian * ip->given->rounding / ip->tol);
   s->pressure = PetscMax(s->pressure, IP_VANISHING * ip->stiff->mean * s->length);
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
   if (transmitted > 0.0) s->balance = gradient / transmitted;

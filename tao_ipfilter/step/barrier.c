@@ -133,14 +133,10 @@ PetscErrorCode IPBarrierHold(Tao tao, PetscInt iterations)
   PetscFunctionReturn(0);
 }
 
-#define IP_BARRIER_SHORT \
-  10 /* number of consecutive shortened steps that end Mehrotra's rule; also the number of
-                               iterations before the rule may be used again */
-
 /*
    Chooses mu for the next step, and clears the filter if mu changed. Mehrotra's rule suits convex objectives with
-   linear constraints, for which the affine step predicts mu. The monotone rule is used for other problems, while the
-   KKT error does not fall, and after many consecutive shortened steps.
+   linear constraints, for which the affine step predicts mu. The monotone rule is used for other problems, and while
+   the KKT error does not fall.
 */
 PetscErrorCode IPBarrierUpdate(Tao tao)
 {
@@ -152,8 +148,7 @@ PetscErrorCode IPBarrierUpdate(Tao tao)
     PetscCall(BarrierMonotone(tao));
     PetscFunctionReturn(0);
   }
-  was_free = ip->bar->free;
-  if (was_free && ip->watch->nshort >= IP_BARRIER_SHORT) ip->bar->hold = IP_BARRIER_SHORT;
+  was_free      = ip->bar->free;
   ip->bar->free = (PetscBool)(BarrierProgresses(ip) && ip->bar->hold == 0 && !ip->bar->curved);
   if (ip->bar->hold > 0) ip->bar->hold--;
   if (ip->bar->free) PetscFunctionReturn(0);

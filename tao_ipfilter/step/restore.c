@@ -22,9 +22,7 @@
 #define IP_RESTORE_MAX    200  /* largest number of restoration steps */
 #define IP_RESTORE_METRIC 0.1  /* smallest delta of the metric, in its unit; needed for Hessians without curvature */
 #define IP_RESTORE_SMALL  1e-3 /* psi may have a minimum if its relative gradient is below this value */
-#define IP_RESTORE_DROWNED \
-  1e8 /* if multipliers have enlarged the Hessian by more than this factor, the objective no longer affects the steps */
-#define IP_RESTORE_LEAST 1e-6 /* psi has a minimum if its relative gradient is below this value and psi does not fall */
+#define IP_RESTORE_LEAST  1e-6 /* psi has a minimum if its relative gradient is below it and psi does not fall */
 
 /* Computes psi of an iterate */
 static PetscErrorCode RestoreViolation(Tao tao, const IPIterate *it, PetscReal *psi)
@@ -280,19 +278,6 @@ static PetscErrorCode RestoreMetricGrowth(Tao tao, PetscReal *growth)
   PetscFunctionReturn(0);
 }
 
-/* Evaluates the Hessian without multipliers, so that the metric is that of the objective alone */
-static PetscErrorCode RestoreForgetMultipliers(Tao tao)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-
-  PetscFunctionBegin;
-  if (ip->mi) PetscCall(VecSet(ip->at.lambda, 0.0));
-  if (ip->me) PetscCall(VecSet(ip->at.y, 0.0));
-  PetscCall(IPSetMultipliers(tao));
-  PetscCall(IPHessianEvaluate(tao));
-  PetscFunctionReturn(0);
-}
-
 /*
    Chooses the initial zeta such that the metric and the model of the violation are of equal size, using the stiffness
    of the constraints
@@ -308,10 +293,6 @@ static PetscErrorCode RestoreFirstZeta(Tao tao)
     ip->restore->zeta = 1.0 / rho;
   } else ip->restore->zeta = PetscSqr(ip->search->equality_weight * ip->scale->equality) / ip->scale->product;
   PetscCall(RestoreMetricGrowth(tao, &growth));
-  if (growth > IP_RESTORE_DROWNED) {
-    PetscCall(RestoreForgetMultipliers(tao));
-    PetscCall(RestoreMetricGrowth(tao, &growth));
-  }
   ip->restore->zeta /= growth;
   PetscFunctionReturn(0);
 }
@@ -484,7 +465,8 @@ PetscErrorCode IPRestore(Tao tao, PetscBool *ok, PetscBool *infeasible)
   PetscCall(RestoreIterate(tao, theta0, &psi, ok, &stuck, &least));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &ip->restore->D));
   *infeasible = (PetscBool)(!*ok && stuck && least <= IP_RESTORE_SMALL &&
-                            (PetscSqrtReal(2.0 * psi) > 1e-6 * ip->search->theta_ref || ip->kkt->own > 1e-6));
+                            (PetscSqrtReal(2.0 * psi) > 1e-6 * ip->search->theta_ref ||
+                              (!ip->relax->times && ip->kkt->own > 1e-6))); /* terms of relaxed rows may vanish */
   PetscCall(IPBoundsCenter(tao));
   if (*ok) PetscCall(RestoreLeave(tao));
   PetscFunctionReturn(0);

@@ -158,25 +158,6 @@ static PetscErrorCode BoundsWork(Tao tao, PetscReal *mean)
 }
 
 /*
-   Increases the stiffness such that slacks on the central path are at most of the size of the constraints. Needed if mu
-   was computed from the bounds alone.
-*/
-static PetscErrorCode StiffenForBarrier(Tao tao, PetscReal length)
-{
-  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal size = PetscMax(length, ip->first->length), least = size > 0.0 ? ip->mu / PetscSqr(size) : 0.0;
-  PetscScalar    *rho;
-  PetscInt        n;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(ip->stiff->rho, &n));
-  PetscCall(VecGetArray(ip->stiff->rho, &rho));
-  for (PetscInt i = 0; i < n; i++) rho[i] = PetscMax(PetscRealPart(rho[i]), least);
-  PetscCall(VecRestoreArray(ip->stiff->rho, &rho));
-  PetscFunctionReturn(0);
-}
-
-/*
    Predicted start: s and z follow from the constraints' values after a penalty step and are moved to the central path.
    mu is a fraction of length x pressure there. If all constraints happen to be active this mu is zero; the pairs then
    start with a complementarity gap that is noticeable relative to the objective.
@@ -184,7 +165,7 @@ static PetscErrorCode StiffenForBarrier(Tao tao, PetscReal length)
 static PetscErrorCode StartPredicted(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     length, pressure, mean, terms, bound;
+  PetscReal     length, pressure, mean, terms;
   PetscBool     moved = PETSC_FALSE;
   Vec           z;
 
@@ -205,11 +186,6 @@ static PetscErrorCode StartPredicted(Tao tao)
   ip->mu = moved ? IP_PREDICT_MU * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * PetscMax(mean, length * pressure);
   PetscCall(IPErrorBoundTerms(tao, &terms));
   ip->mu = PetscMax(ip->mu, IP_LEAST_START * terms / ip->pair[IP_SLACK].weight);
-  PetscCall(BoundsWork(tao, &bound));
-  if (ip->mu < IP_PREDICT_MU * bound) {
-    ip->mu = IP_PREDICT_MU * bound;
-    PetscCall(StiffenForBarrier(tao, length));
-  }
   if (!(ip->mu > 0.0)) ip->mu = ip->opt->mu0;
   PetscCall(IPSlackCentral(tao, ip->at.c, ip->mu, ip->at.s, ip->at.z[IP_SLACK]));
   PetscCall(IPSlackCenterUpper(tao, ip->mu));
@@ -323,39 +299,14 @@ static PetscErrorCode StartBounds(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscReal     x, mean;
-  PetscBool     moved = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (!ip->mi && !ip->me && (ip->pair[IP_LOWER].n || ip->pair[IP_UPPER].n) && ip->opt->start != IP_START_COLD)
-    PetscCall(IPFreeStep(tao, &moved, &mean));
-  if (moved) ip->mu = IP_PREDICT_MU * mean;
-  else if (!ip->mi && ip->opt->scaling == IP_SCALING_PROBLEM && ip->opt->start != IP_START_COLD) {
+  if (!ip->mi && ip->opt->scaling == IP_SCALING_PROBLEM && ip->opt->start != IP_START_COLD) {
     PetscCall(VecNorm(tao->solution, NORM_INFINITY, &x));
     PetscCall(BoundsWork(tao, &mean));
     ip->mu = IP_PREDICT_MU * (mean > 0.0 ? mean : ip->stiff->hscale * (x > 0.0 ? x * x : 1.0));
   }
   PetscCall(IPBoundsCenter(tao));
-  PetscFunctionReturn(0);
-}
-
-/*
-   If the objective is linear, computes the stiffness again, from the curvature of the constraints with their first
-   multipliers
-*/
-static PetscErrorCode StartCurvature(Tao tao)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscScalar   sum;
-  PetscInt      n;
-
-  PetscFunctionBegin;
-  if (!ip->stiff->flat || (!ip->mi && !ip->me)) PetscFunctionReturn(0);
-  PetscCall(IPSetMultipliers(tao));
-  PetscCall(IPHessianEvaluate(tao));
-  PetscCall(IPStiffnessUpdate(tao));
-  PetscCall(VecSum(ip->stiff->hdiag, &sum));
-  PetscCall(VecGetSize(ip->stiff->hdiag, &n));
-  if (PetscRealPart(sum) > 0.0) ip->stiff->hscale = PetscRealPart(sum) / n;
   PetscFunctionReturn(0);
 }
 
@@ -379,7 +330,6 @@ PetscErrorCode IPStartPoint(Tao tao)
   if (IPWarmBounds(ip)) PetscCall(IPWarmCenterBounds(tao));
   else PetscCall(StartBounds(tao));
   if (ip->me && !IPWarmEquality(ip)) PetscCall(IPEqualityMultipliers(tao));
-  PetscCall(StartCurvature(tao));
   PetscCall(IPBarrierAverage(tao, &ip->bar->first));
   ip->bar->first = PetscMax(ip->bar->first, ip->mu);
   PetscCall(PetscLogEventEnd(TAO_IPFilterStart, tao, NULL, NULL, NULL));

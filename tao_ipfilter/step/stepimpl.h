@@ -65,9 +65,6 @@ PETSC_INTERN PetscErrorCode IPWarmSetEquality(Tao);
 PETSC_INTERN PetscErrorCode IPWarmMeanProduct(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPWarmCenterBounds(Tao);
 
-/* freestep.c */
-PETSC_INTERN PetscErrorCode IPFreeStep(Tao, PetscBool *, PetscReal *);
-
 /* start.c */
 PETSC_INTERN PetscErrorCode IPStartPoint(Tao);
 

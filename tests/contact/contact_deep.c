@@ -58,6 +58,8 @@ int main(int argc, char **argv)
   for (GapType gap = GAP_MORTAR; gap <= GAP_NODE; ++gap) {
     PetscCall(Try("touching", 1.0, 1.0, "lower.zmax", "upper.zmin", gap, NULL));
     PetscCall(Try("touching, the faces turned away", 1.0, 1.0, "lower.zmin", "upper.zmax", gap, NULL));
+    /* an edge of the nonmortar face lies in the plane in which the bodies touch */
+    PetscCall(Try("touching beside the face", 1.0, 1.0, "lower.ymin", "upper.ymin", gap, NULL));
     PetscCall(Try("apart", 1.0, 1.5, "lower.zmax", "upper.zmin", gap, NULL));
     PetscCall(Try("overlap that contact sees", 1.0, 0.75, "lower.zmax", "upper.zmin", gap, NULL));
     PetscCall(Try("deeper", 1.0, 0.5, "lower.zmax", "upper.zmin", gap, NULL));

@@ -151,7 +151,7 @@ static PetscErrorCode Test(const char name[], const char text[], PetscReal strin
     "-tao_ipfilter_subspace false -tao_ipfilter_amgf_amg_pc_type jacobi -tao_max_it 100"));
   PetscCall(PetscOptionsInsertString(options, text));
   PetscCall(PetscOptionsPush(options));
-  PetscCall(CreateString(240, &s, &x));
+  PetscCall(CreateString(520, &s, &x));
   PetscCall(MatDuplicate(s.K, MAT_COPY_VALUES, &H));
   PetscCall(MatCreateVecs(s.J, NULL, &c));
   PetscCall(TaoCreate(PETSC_COMM_WORLD, &tao));

@@ -133,7 +133,7 @@ struct _n_Contact {
                       the bodies */
 };
 
-/* rows.c: the list of all possible rows */
+/* gap_rows.c: the list of all possible rows */
 PETSC_INTERN PetscErrorCode ContactRowsCreate(Contact);
 PETSC_INTERN PetscErrorCode ContactRowsDestroy(Contact);
 PETSC_INTERN PetscErrorCode ContactGatherEntries(Vec, IS from, Vec *gathered);

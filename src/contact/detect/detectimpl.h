@@ -35,20 +35,20 @@ typedef struct {
                                      represents it */
 } DetectModel;
 
-/* fall.c: the motion in free flight; the body to which a face belongs */
+/* free_flight.c: the motion in free flight; the body to which a face belongs */
 PETSC_INTERN PetscErrorCode DetectFall(const DetectModel *, Scene, PetscReal time, DetectMove moves[]);
 PETSC_INTERN PetscInt       DetectFindBody(Scene, const char face[]);
 
-/* moves.c: the motion that the scene prescribes, or else the motion in free flight */
+/* prescribed_motions.c: the motion that the scene prescribes, or else the motion in free flight */
 PETSC_INTERN PetscErrorCode DetectMoves(const DetectModel *, Scene, PetscReal time, DetectMove moves[]);
 PETSC_INTERN void           DetectMovePoints(const DetectMove *, PetscInt n, const PetscReal from[], PetscReal to[]);
 
-/* times.c: the times at which the bodies are tested [load steps] */
+/* load_times.c: the times at which the bodies are tested [load steps] */
 #define DETECT_STATES 32 /* largest number of times */
 PETSC_INTERN PetscErrorCode DetectChooseTimes(const DetectModel *, Scene, PetscReal *extent, PetscInt *nstates,
   PetscReal time[DETECT_STATES]);
 
-/* rules.c: the rule that applies to two surfaces. It is NULL if they get no contact. The public function is in
+/* contact_rules.c: the rule that applies to two surfaces. It is NULL if they get no contact. The public function is in
    detect.c. */
 PETSC_INTERN const SceneContactPair *DetectFindRule(const DetectModel *, Scene, PetscInt surface, PetscInt other);
 PETSC_INTERN PetscBool               DetectWantsSelf(Scene, const SceneContactPair *rule, const SceneBody *);
@@ -100,7 +100,7 @@ typedef struct {
 } DetectPair;
 PETSC_INTERN PetscErrorCode DetectFacing(const DetectModel *, Scene, PetscInt *n, DetectPair **);
 
-/* sides.c: returns which of two surfaces is nonmortar, and the reason as a text */
+/* nonmortar_side.c: returns which of two surfaces is nonmortar, and the reason as a text */
 PETSC_INTERN PetscInt DetectNonmortar(const DetectModel *, Scene, const DetectPair *, const char **why);
 
 #endif

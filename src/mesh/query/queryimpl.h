@@ -81,7 +81,7 @@ PETSC_INTERN void      MeshCornerMeanNormal(const MeshFacets *, PetscInt corner,
 PETSC_INTERN void      MeshCornerCorrectNormal(const MeshFacets *, PetscInt first, PetscInt last, PetscReal normal[3]);
 PETSC_INTERN void      MeshCornerNormal(const MeshFacets *, PetscInt corner, PetscReal normal[3]);
 
-/* places.c: undeformed coordinates and body of each node that this rank owns, in the order of global vectors */
+/* node_places.c: undeformed coordinates and body of each node that this rank owns, in the order of global vectors */
 typedef struct {
   Vec       x;    /* global vector of coordinates [length] */
   PetscInt *body; /* body of each owned node */

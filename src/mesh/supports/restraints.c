@@ -97,40 +97,27 @@ static PetscErrorCode SupportFindPlane(Support *support, const SceneBody *body, 
   PetscFunctionReturn(0);
 }
 
-/* Adds the restraint of a contact pair without friction: the relative motion along the normals of its nonmortar facets,
-   or along that of a plane mortar face */
-static PetscErrorCode SupportAddPair(Support *support, Scene scene, const SceneContactPair *pair)
+/* Adds the restraint of the relative motion of two faces at the vertices of the nonmortar one. along: its components,
+   for a tie, springs between faces, or a contact pair with friction; NULL for a pair without friction: the component
+   along the normals of the nonmortar facets, or along that of a plane mortar face */
+static PetscErrorCode SupportAddFaces(Support *support, Scene scene, const char mortar_face[],
+  const char nonmortar_face[], const PetscBool along[3])
 {
   SupportFace mortar, nonmortar;
   PetscReal   flat[3];
-  PetscBool   plane;
-
-  PetscFunctionBegin;
-  PetscCall(SupportGetFace(support, pair->mortar, &mortar));
-  PetscCall(SupportGetFace(support, pair->nonmortar, &nonmortar));
-  PetscCall(SupportFindPlane(support, &scene->bodies[mortar.body], mortar.facets, flat, &plane));
-  SupportBeginLink(support, nonmortar.body, mortar.body);
-  support->links[support->nlinks - 1].pair = PETSC_TRUE;
-  PetscCall(SupportAddFacets(support, &nonmortar, mortar.body, NULL, plane ? flat : NULL));
-  PetscCall(SupportMeasureFace(support, &mortar));
-  PetscCall(SupportMeasureFace(support, &nonmortar));
-  PetscCall(SupportDestroyFace(&mortar));
-  PetscCall(SupportDestroyFace(&nonmortar));
-  PetscFunctionReturn(0);
-}
-
-/* Adds the restraint of the relative motion along the given axes at the vertices of the nonmortar face. It represents a
-   tie, springs between faces, or a contact pair with friction. */
-static PetscErrorCode SupportAddJoint(Support *support, const char mortar_face[], const char nonmortar_face[],
-  const PetscBool along[3])
-{
-  SupportFace mortar, nonmortar;
+  PetscBool   plane = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(SupportGetFace(support, mortar_face, &mortar));
   PetscCall(SupportGetFace(support, nonmortar_face, &nonmortar));
   SupportBeginLink(support, nonmortar.body, mortar.body);
-  PetscCall(SupportAddFacets(support, &nonmortar, mortar.body, along, NULL));
+  support->links[support->nlinks - 1].pair = (PetscBool)!along;
+  if (!along) {
+    PetscCall(SupportFindPlane(support, &scene->bodies[mortar.body], mortar.facets, flat, &plane));
+    PetscCall(SupportMeasureFace(support, &mortar));
+    PetscCall(SupportMeasureFace(support, &nonmortar));
+  }
+  PetscCall(SupportAddFacets(support, &nonmortar, mortar.body, along, plane ? flat : NULL));
   PetscCall(SupportDestroyFace(&mortar));
   PetscCall(SupportDestroyFace(&nonmortar));
   PetscFunctionReturn(0);
@@ -187,14 +174,14 @@ static PetscErrorCode SupportAddConnector(Support *support, const SceneConnector
 }
 
 /* Adds the restraints of springs on a face, between the face and the ground or another face */
-static PetscErrorCode SupportAddSpring(Support *support, const SceneSpring *spring)
+static PetscErrorCode SupportAddSpring(Support *support, Scene scene, const SceneSpring *spring)
 {
   const PetscBool along[3] = {spring->value[0] > 0, spring->value[1] > 0, spring->value[2] > 0};
   SupportFace     face;
 
   PetscFunctionBegin;
   if (spring->to) {
-    PetscCall(SupportAddJoint(support, spring->to, spring->face, along));
+    PetscCall(SupportAddFaces(support, scene, spring->to, spring->face, along));
     PetscFunctionReturn(0);
   }
   PetscCall(SupportGetFace(support, spring->face, &face));
@@ -212,17 +199,17 @@ PetscErrorCode SupportAddScene(Support *support, Scene scene)
   PetscFunctionBegin;
   for (PetscInt d = 0; d < scene->ndisplacements; ++d)
     PetscCall(SupportAddDisplacement(support, &scene->displacements[d]));
-  for (PetscInt s = 0; s < scene->nsprings; ++s) PetscCall(SupportAddSpring(support, &scene->springs[s]));
+  for (PetscInt s = 0; s < scene->nsprings; ++s) PetscCall(SupportAddSpring(support, scene, &scene->springs[s]));
   for (PetscInt c = 0; c < scene->nconnectors; ++c) PetscCall(SupportAddConnector(support, &scene->connectors[c]));
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *pair = &scene->pairs[p];
 
     if (pair->self) continue;
-    if (SceneContactPairHasFriction(pair)) PetscCall(SupportAddJoint(support, pair->mortar, pair->nonmortar, all));
-    else PetscCall(SupportAddPair(support, scene, pair));
+    PetscCall(
+      SupportAddFaces(support, scene, pair->mortar, pair->nonmortar, SceneContactPairHasFriction(pair) ? all : NULL));
   }
   for (PetscInt t = 0; t < scene->nties; ++t)
-    PetscCall(SupportAddJoint(support, scene->ties[t].mortar, scene->ties[t].nonmortar, all));
+    PetscCall(SupportAddFaces(support, scene, scene->ties[t].mortar, scene->ties[t].nonmortar, all));
   for (PetscInt k = 0; k < scene->ncyclic; ++k) PetscCall(SupportAddCyclic(support, &scene->cyclic[k]));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, support->gram,
     (PetscMPIInt)(support->nlinks * SUPPORT_BLOCK * SUPPORT_BLOCK), MPIU_REAL, MPIU_SUM, comm));

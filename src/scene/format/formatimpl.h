@@ -74,8 +74,8 @@ PETSC_INTERN PetscErrorCode SceneKeysDestroy(SceneKeys *);
 PETSC_INTERN PetscErrorCode SceneResolveFile(const char scene[], char **file);
 
 /*
-   places.c: SceneFindPlace() returns the place of a key; NULL: the file does not have it. SceneGetPlace() returns the
-   place of a key, or else of the entry or list to which it belongs, or else the file.
+   key_places.c: SceneFindPlace() returns the place of a key; NULL: the file does not have it. SceneGetPlace() returns
+   the place of a key, or else of the entry or list to which it belongs, or else the file.
 */
 PETSC_INTERN const char    *SceneFindPlace(const ScenePlaces *, const char key[]);
 PETSC_INTERN const char    *SceneGetPlace(const ScenePlaces *, const char key[]);
@@ -193,7 +193,7 @@ typedef struct _n_SceneList {
   PetscBool (*hides)(const void *entry, const char key[]);
 } SceneList;
 
-/* rows.c: reads, prints and frees entries with the rows of the table */
+/* table_rows.c: reads, prints and frees entries with the rows of the table */
 PETSC_INTERN PetscErrorCode SceneReadRows(SceneKeys, Scene, const char owner[], const SceneKey rows[],
   const char kind[], void *entry);
 PETSC_INTERN PetscErrorCode SceneHasKey(SceneKeys, const char owner[], const char name[], PetscBool *has);

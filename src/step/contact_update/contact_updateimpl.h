@@ -7,11 +7,11 @@
 
 #include "src/step/problem/problemimpl.h"
 
-/* error.c: error of a contact update */
+/* linearization_error.c: error of a contact update */
 PETSC_INTERN PetscErrorCode ContactUpdateMeasureError(Simulation, Vec u, const ContactSolution *,
   ContactLinearization at_u, StepReport *);
 
-/* place.c: names vertices at which contact updates fail */
+/* stuck_vertices.c: names vertices at which contact updates fail */
 PETSC_INTERN PetscErrorCode ContactUpdateNamePlace(Simulation, const ContactSolution *, ContactLinearization at_u,
   PetscBool slid, size_t length, char sentence[]);
 PETSC_INTERN PetscErrorCode ContactUpdateReportDriven(const StepProblem *, StepReport *);

@@ -189,7 +189,7 @@ PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, PetscBool resume, Vec u, 
 PETSC_INTERN PetscErrorCode OptimizerSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 
-/* start.c: the starting point of a solve */
+/* starting_point.c: the starting point of a solve */
 PETSC_INTERN PetscErrorCode StepProblemStart(StepProblem *, PetscBool resume, Tao, Vec u, PetscBool *valid);
 
 /* linear.c: the solver for the bodies without contact; solves the systems of contact updates */
