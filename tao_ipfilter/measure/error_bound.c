@@ -176,8 +176,8 @@ static PetscErrorCode ErrorBoundFirst(Tao tao, PetscReal terms)
 }
 
 /*
-   Raises the magnitude of an objective that is not quadratic such that the energy of rounding errors is negligible: that
-   of the unknowns, and the work of the forces of constraints on the rounding errors of the constraints
+   Raises the magnitude of an objective that is not quadratic such that the energy of rounding errors is negligible:
+   that of the unknowns, and the work of the forces of constraints on the rounding errors of the constraints
 */
 static PetscErrorCode ErrorBoundRounding(Tao tao, PetscReal *energy)
 {

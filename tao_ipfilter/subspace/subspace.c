@@ -161,7 +161,7 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
   PetscFunctionReturn(0);
 }
 
-/* Estimates the rounding errors of forces, which are differences of terms as large as H_ii x_i. Those of x are given. */
+/* Estimates the rounding errors of forces: they are differences of terms as large as H_ii x_i. Those of x are given. */
 static PetscErrorCode FilteredForceRounding(Tao tao, PetscReal *rounding)
 {
   const TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
