@@ -390,7 +390,8 @@ static PetscErrorCode BodiesAreFactored(const SubspaceBodies b, const PetscReal 
     }
     *factored = (PetscBool)(change <= small * size);
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, factored, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)b->rows)));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, factored, 1, MPI_PETSCBOOL, MPI_LAND, PetscObjectComm((PetscObject)b->rows)));
   PetscFunctionReturn(0);
 }
 
