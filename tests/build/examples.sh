@@ -43,6 +43,7 @@ said=echo
 example ties_ksp.c ./ties_ksp -dll_append "$plugin" -pc_type amgf
 example wall_snes.c ./wall_snes -dll_append "$plugin" -pc_type amgf
 example obstacle_tao.c ./obstacle_tao -dll_append "$plugin" -tao_type ipfilter
+example friction_tao.c ./friction_tao
 example press_library.c ./press_library "$work/amgf/share/amgf/scenes/patch_test.yaml"
 said=: # whether they are run depends on the machine
 has petsc4py petsc4py && example ties_petsc4py.py "$PYTHON" ties_petsc4py.py -dll_append "$plugin" -pc_type amgf
