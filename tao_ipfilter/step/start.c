@@ -158,6 +158,25 @@ static PetscErrorCode BoundsWork(Tao tao, PetscReal *mean)
 }
 
 /*
+   Increases the stiffness such that slacks on the central path are at most of the size of the constraints. Needed if mu
+   was computed from the bounds alone.
+*/
+static PetscErrorCode StiffenForBarrier(Tao tao, PetscReal length)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal size = PetscMax(length, ip->first->length), least = size > 0.0 ? ip->mu / PetscSqr(size) : 0.0;
+  PetscScalar    *rho;
+  PetscInt        n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(ip->stiff->rho, &n));
+  PetscCall(VecGetArray(ip->stiff->rho, &rho));
+  for (PetscInt i = 0; i < n; i++) rho[i] = PetscMax(PetscRealPart(rho[i]), least);
+  PetscCall(VecRestoreArray(ip->stiff->rho, &rho));
+  PetscFunctionReturn(0);
+}
+
+/*
    Predicted start: s and z follow from the constraints' values after a penalty step and are moved to the central path.
    mu is a fraction of length x pressure there. If all constraints happen to be active this mu is zero; the pairs then
    start with a complementarity gap that is noticeable relative to the objective.
@@ -165,7 +184,7 @@ static PetscErrorCode BoundsWork(Tao tao, PetscReal *mean)
 static PetscErrorCode StartPredicted(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     length, pressure, mean, terms;
+  PetscReal     length, pressure, mean, terms, bound;
   PetscBool     moved = PETSC_FALSE;
   Vec           z;
 
@@ -186,6 +205,11 @@ static PetscErrorCode StartPredicted(Tao tao)
   ip->mu = moved ? IP_PREDICT_MU * PetscMax(length * pressure, 1e-3 * mean) : 0.1 * PetscMax(mean, length * pressure);
   PetscCall(IPErrorBoundTerms(tao, &terms));
   ip->mu = PetscMax(ip->mu, IP_LEAST_START * terms / ip->pair[IP_SLACK].weight);
+  PetscCall(BoundsWork(tao, &bound));
+  if (ip->mu < IP_PREDICT_MU * bound) {
+    ip->mu = IP_PREDICT_MU * bound;
+    PetscCall(StiffenForBarrier(tao, length));
+  }
   if (!(ip->mu > 0.0)) ip->mu = ip->opt->mu0;
   PetscCall(IPSlackCentral(tao, ip->at.c, ip->mu, ip->at.s, ip->at.z[IP_SLACK]));
   PetscCall(IPSlackCenterUpper(tao, ip->mu));
