@@ -7,8 +7,8 @@
 #define IP_ACCEPTABLE_TOL 1e-6 /* KKT error that is accepted if the iteration makes no further progress */
 #define IP_ACCEPTABLE_IT  15   /* number of consecutive iterates below IP_ACCEPTABLE_TOL that ends the iteration */
 #define IP_UNBOUNDED_FACTOR \
-  1e10 /* the problem counts as unbounded if the objective falls by this multiple of its
-                                     first size */
+  1e8 /* the problem counts as unbounded if the objective falls by this multiple of its
+                                     first size; rounding errors of x end the fall at about 1e10 */
 #define IP_ROW_RATIO \
   100.0                       /* row scaling: largest allowed ratio of a row's gradient to the smallest one, at
                                      the start */

@@ -73,7 +73,8 @@ tractions:
 contact:
   - lie: {mortar: stone.arc, nonmortar: table.zmax, gap: node, smooth: false, interference: true}
 YAML
-try "rocks"
+# The last attempt says either that contact did not converge, or that the objective has no lower bound
+try "rocks" | sed 's/failed: .*\(contact did not converge\|unbounded below\).*/failed: it rocks/'
 stone 1.01 0 ", distance: 0.5" &&
   sed -i 's/^displacements:/&\n  - held: {face: stone.zmax, value: [free, free, -0.005]}/' stone.yaml &&
   try "never met"
