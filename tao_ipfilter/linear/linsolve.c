@@ -182,7 +182,6 @@ static PetscErrorCode ConcludeDirect(Tao tao, IPLinearVerdict *verdict)
 static PetscErrorCode SolveSmall(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscInt  few    = 500;
   IPLinearVerdict direct = IP_LINEAR_FAILED;
   PetscBool       sound  = PETSC_TRUE, cg;
   PetscInt        n;
@@ -192,7 +191,7 @@ static PetscErrorCode SolveSmall(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict
   PetscCall(VecGetSize(d, &n));
   PetscCall(GetAMGF(tao, &pc));
   PetscCall(PetscObjectTypeCompare((PetscObject)tao->ksp, KSPCG, &cg));
-  if (n > few || !cg || !pc || ip->opt->forcing == IP_FORCING_FIXED || DirectOnly(ip)) PetscFunctionReturn(0);
+  if (n > IP_SMALL || !cg || !pc || ip->opt->forcing == IP_FORCING_FIXED || DirectOnly(ip)) PetscFunctionReturn(0);
   PetscCall(CheckNumbers(tao, &sound));
   if (sound) PetscCall(IPDirectSolve(tao, b, d, &direct));
   ip->lin->why[0] = '\0';

@@ -127,8 +127,8 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPRecycle *recycle, PetscIn
 }
 
 /*
-   Finds whether W has all unknowns: if directions were slow, or if contacts stick, since the residual that directions
-   leave would decide which contacts are held
+   Finds whether W has all unknowns: if these are few, if directions were slow, or if contacts stick, since the residual
+   that directions leave would decide which contacts are held
 */
 static PetscErrorCode FilteredTakesAll(Tao tao, const IPRecycle *recycle, PetscInt n, PetscBool *all)
 {
@@ -138,7 +138,7 @@ static PetscErrorCode FilteredTakesAll(Tao tao, const IPRecycle *recycle, PetscI
 
   PetscFunctionBegin;
   if (terms->n && terms->coefficient) PetscCall(VecMax(terms->coefficient, NULL, &largest));
-  *all = (PetscBool)(terms->n && n <= most && (recycle->whole || largest >= PETSC_INFINITY));
+  *all = (PetscBool)(terms->n && n <= most && (n <= IP_SMALL || recycle->whole || largest >= PETSC_INFINITY));
   PetscFunctionReturn(0);
 }
 

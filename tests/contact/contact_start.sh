@@ -74,7 +74,8 @@ contact:
   - lie: {mortar: stone.arc, nonmortar: table.zmax, gap: node, smooth: false, interference: true}
 YAML
 # The last attempt says either that contact did not converge, or that the objective has no lower bound
-try "rocks" | sed -e 's/exit [23]/exit 2 or 3/' -e 's/failed: .*\(contact did not converge\|unbounded below\).*/failed: it rocks/'
+try "rocks" | sed -e 's/exit [23]/exit 2 or 3/' \
+  -e 's/failed: .*\(contact did not converge\|unbounded below\).*/failed: it rocks/'
 stone 1.01 0 ", distance: 0.5" &&
   sed -i 's/^displacements:/&\n  - held: {face: stone.zmax, value: [free, free, -0.005]}/' stone.yaml &&
   try "never met"
