@@ -14,11 +14,13 @@ const char *const PCAMGFFactorUses[] = {"false", "true", "auto", "PCAMGFFactorUs
    Later `auto` factors a larger operator when the AMG has been applied to it so often that a factorization would have
    taken about the same time. That time grows with the square of the fill, the entries of the factor divided by those of
    the operator's upper triangle. The fill is 7.3 for a cube of 13,000 unknowns, 8.5 for a bolted bracket of 79,000, 15
-   for a cube of 94,000, and 6 for a plate of 86,000. With the largest one, a run needs twice the memory of the AMG.
+   for a cube of 94,000, and 6 for a plate of 86,000. With the largest fill a run needs twice the memory of the AMG.
+   Factors with fewer than FACTOR_ENTRIES entries, 160 MB, are not limited.
 */
 #define FACTOR_APPLICATIONS 60 /* for the fill FACTOR_FILL */
 #define FACTOR_FILL         8.0
 #define FACTOR_FILL_MOST    12.0
+#define FACTOR_ENTRIES      2e7
 
 PetscErrorCode PCAMGFFactorReset_Private(AMGFFactor *f)
 {
@@ -86,25 +88,36 @@ PetscErrorCode PCAMGFSetFactor_AMGF(PC pc, PCAMGFFactorUse use)
   PetscFunctionReturn(0);
 }
 
+/* Finds the fill of the present operator's factor; infinite if the factor is too large */
+static PetscErrorCode FactorFindFill(PC pc, AMGFFactor *f)
+{
+  MatInfo  info;
+  PetscInt n;
+
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&f->F));
+  PetscCall(MatGetStamp_AMGF(pc->pmat, &f->analysed));
+  PetscCall(AMGFSymmetricFill(pc->pmat, NULL, &f->F, &f->fill));
+  PetscCall(PetscInfo(pc, "The factor has %g times the entries of the operator's triangle\n", (double)f->fill));
+  PetscCall(MatGetInfo(pc->pmat, MAT_GLOBAL_SUM, &info));
+  PetscCall(MatGetSize(pc->pmat, &n, NULL));
+  if (f->fill <= FACTOR_FILL_MOST || 0.5 * (info.nz_used + n) * f->fill <= FACTOR_ENTRIES) PetscFunctionReturn(0);
+  f->fill = PETSC_INFINITY;
+  PetscCall(MatDestroy(&f->F));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode PCAMGFReconsiderFactor_AMGF(PC pc, PetscBool *changed)
 {
   PC_AMGF       *amgf = (PC_AMGF *)pc->data;
   AMGFFactor    *f    = &amgf->factor;
   const PetscInt n    = amgf->counts.amg_applies - f->applies;
-  PetscReal      most;
 
   PetscFunctionBegin;
   *changed = PETSC_FALSE;
   if (f->use != PC_AMGF_FACTOR_AUTO || f->on || f->failed || n < FACTOR_APPLICATIONS) PetscFunctionReturn(0);
-  if (f->fill == 0.0) {
-    PetscCall(MatDestroy(&f->F));
-    PetscCall(MatGetStamp_AMGF(pc->pmat, &f->analysed));
-    PetscCall(AMGFSymmetricFill(pc->pmat, NULL, &f->F, &f->fill));
-    PetscCall(PetscInfo(pc, "The factor has %g times the entries of the operator's triangle\n", (double)f->fill));
-  }
-  most     = FACTOR_FILL * PetscSqrtReal((PetscReal)n / FACTOR_APPLICATIONS);
-  *changed = f->small = (PetscBool)(f->fill <= PetscMin(most, FACTOR_FILL_MOST));
-  if (!*changed && f->fill > FACTOR_FILL_MOST) PetscCall(MatDestroy(&f->F));
+  if (f->fill == 0.0) PetscCall(FactorFindFill(pc, f));
+  *changed = f->small = (PetscBool)(f->fill <= FACTOR_FILL * PetscSqrtReal((PetscReal)n / FACTOR_APPLICATIONS));
   if (!*changed) PetscFunctionReturn(0);
   amgf->lag.built = PETSC_FALSE;
   pc->setupcalled = 0;
@@ -168,8 +181,8 @@ PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
   Notes:
   Call it between solves: a Krylov method needs the same preconditioner in all of its iterations. The AMG must have been
   applied to this operator 60 times if the factors have eight times as many entries as its upper triangle, and more
-  often for larger factors, which may have twelve times as many. Thin and plane bodies have small factors, and the AMG
-  is slow for thin cells. On one rank only, if PETSc has CHOLMOD.
+  often for larger factors. Factors of more than 160 MB may have twelve times as many entries. Thin and plane bodies have
+  small factors, and the AMG is slow for thin cells. On one rank only, if PETSc has CHOLMOD.
 
 .seealso: `PCAMGF`, `PCAMGFSetFactor()`, `PCAMGFGetFactored()`
 @*/
