@@ -181,8 +181,8 @@ PetscErrorCode PCAMGFSetFactor(PC pc, PCAMGFFactorUse use)
   Notes:
   Call it between solves: a Krylov method needs the same preconditioner in all of its iterations. The AMG must have been
   applied to this operator 60 times if the factors have eight times as many entries as its upper triangle, and more
-  often for larger factors. Factors of more than 160 MB may have twelve times as many entries. Thin and plane bodies have
-  small factors, and the AMG is slow for thin cells. On one rank only, if PETSc has CHOLMOD.
+  often for larger factors. Factors of more than 160 MB may have twelve times as many entries. Thin and plane bodies
+  have small factors, and the AMG is slow for thin cells. On one rank only, if PETSc has CHOLMOD.
 
 .seealso: `PCAMGF`, `PCAMGFSetFactor()`, `PCAMGFGetFactored()`
 @*/
