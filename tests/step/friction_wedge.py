@@ -8,3 +8,5 @@ pressed = [[pair["normal_force"] for pair in step["pairs"]] for step in steps]
 alike = all(abs(a - b) < 2e-3 * pressed[1][0] for a, b in pressed)
 say("pressed alike by both faces", alike and 0 < pressed[0][0] < pressed[1][0], pressed)
 say("without force at the end", max(pressed[-1]) < 1e-9 * pressed[1][0], pressed)
+cuts = [step["cuts"] for step in steps]
+say("no load step is cut, although rounding errors are all that is left at the end", not any(cuts), cuts)
