@@ -176,18 +176,24 @@ static PetscErrorCode BodiesCreateSpace(SubspaceBodies b, IS W, PetscInt n)
   PetscFunctionReturn(0);
 }
 
+/* Destroys the vectors with an entry for each unknown */
+static PetscErrorCode BodiesDestroyVectors(SubspaceBodies b)
+{
+  Vec *const vectors[] = {&b->x, &b->dx, &b->r, &b->Kx, &b->Kdx, &b->g, &b->kept_x, &b->kept_Kx, &b->base, &b->rhs,
+    &b->first};
+
+  PetscFunctionBegin;
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(vectors); k++) PetscCall(VecDestroy(vectors[k]));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode SubspaceBodiesDestroy(SubspaceBodies *bodies)
 {
   SubspaceBodies b = *bodies;
 
   PetscFunctionBegin;
   if (!b) PetscFunctionReturn(0);
-  {
-    Vec *const vectors[] = {&b->x, &b->dx, &b->r, &b->Kx, &b->Kdx, &b->g, &b->kept_x, &b->kept_Kx, &b->base, &b->rhs,
-      &b->first};
-
-    for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(vectors); k++) PetscCall(VecDestroy(vectors[k]));
-  }
+  PetscCall(BodiesDestroyVectors(b));
   PetscCall(BodiesDestroySpace(b));
   PetscCall(MatDestroy(&b->R));
   PetscCall(PetscFree(b->factored_D));
