@@ -10,6 +10,7 @@
 #include "pc_amgf/amgfimpl.h"
 #include "pc_amgf/mumps.h"
 #include "tao_ipfilter/solver/condensed.h"
+#include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/record.h"
@@ -632,13 +633,13 @@ static PetscErrorCode BodiesExtend(SubspaceBodies b, Vec left, PetscBool *added)
 */
 static PetscErrorCode BodiesAreSlow(SubspaceBodies b, PetscInt nadded, PetscBool *slow)
 {
-  const PetscInt many = 30, small = 15000; /* up to the latter PCAMGF factors a matrix, too */
+  const PetscInt many = 30;
   PetscInt       n, nw;
 
   PetscFunctionBegin;
   PetscCall(VecGetSize(b->x, &n));
   PetscCall(ISGetSize(b->W, &nw));
-  *slow = (PetscBool)(nadded > many && n <= small && nw < n);
+  *slow = (PetscBool)(nadded > many && n <= IP_WHOLE && nw < n);
   PetscFunctionReturn(0);
 }
 
@@ -646,15 +647,13 @@ static PetscErrorCode BodiesAreSlow(SubspaceBodies b, PetscInt nadded, PetscBool
 static PetscErrorCode BodiesWiden(SubspaceBodies b, PetscBool *prepared)
 {
   IPFiltered *f = IPFilteredOf(b->tao);
-  PetscInt    start, end, n;
+  PetscInt    n;
   PetscReal  *D;
 
   PetscFunctionBegin;
   PetscCall(PetscInfo(b->tao, "W is extended to all unknowns, since directions are slow\n"));
   PetscCall(VecGetLocalSize(b->rows, &n));
-  PetscCall(VecGetOwnershipRange(b->x, &start, &end));
-  PetscCall(ISDestroy(&f->W));
-  PetscCall(ISCreateStride(PetscObjectComm((PetscObject)b->x), end - start, start, 1, &f->W));
+  PetscCall(IPFilteredTakeAll(b->tao));
   b->recycle->whole = PETSC_TRUE;
   PetscCall(IPBasisDropOldest(&b->recycle->basis, b->recycle->basis.n));
   PetscCall(IPBasisUpdate(&b->recycle->basis, b->K, PETSC_FALSE, ((TAO_IPFILTER *)b->tao->data)->fixed, f->W));

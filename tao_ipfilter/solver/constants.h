@@ -4,9 +4,10 @@
 #include "tao_ipfilter/solver/solverimpl.h"
 
 /* Constants. Their names follow Waechter and Biegler (2006). Most values are those of IPOPT. */
-#define IP_ACCEPTABLE_TOL 1e-6 /* KKT error that is accepted if the iteration makes no further progress */
-#define IP_ACCEPTABLE_IT  15   /* number of consecutive iterates below IP_ACCEPTABLE_TOL that ends the iteration */
-#define IP_SMALL          500  /* number of unknowns up to which matrices are factored without a choice */
+#define IP_ACCEPTABLE_TOL 1e-6  /* KKT error that is accepted if the iteration makes no further progress */
+#define IP_ACCEPTABLE_IT  15    /* number of consecutive iterates below IP_ACCEPTABLE_TOL that ends the iteration */
+#define IP_SMALL          500   /* number of unknowns up to which matrices are factored without a choice */
+#define IP_WHOLE          15000 /* number of unknowns up to which W may have all of them; PCAMGF then factors K, too */
 #define IP_UNBOUNDED_FACTOR \
   1e8 /* the problem counts as unbounded if the objective falls by this multiple of its
                                      first size; rounding errors of x end the fall at about 1e10 */

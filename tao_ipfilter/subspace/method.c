@@ -133,12 +133,11 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPRecycle *recycle, PetscIn
 static PetscErrorCode FilteredTakesAll(Tao tao, const IPRecycle *recycle, PetscInt n, PetscBool *all)
 {
   const IPTerms *terms   = ((TAO_IPFILTER *)tao->data)->terms;
-  const PetscInt most    = 15000; /* up to which PCAMGF factors a matrix, too */
   PetscReal      largest = 0.0;
 
   PetscFunctionBegin;
   if (terms->n && terms->coefficient) PetscCall(VecMax(terms->coefficient, NULL, &largest));
-  *all = (PetscBool)(terms->n && n <= most && (n <= IP_SMALL || recycle->whole || largest >= PETSC_INFINITY));
+  *all = (PetscBool)(terms->n && n <= IP_WHOLE && (n <= IP_SMALL || recycle->whole || largest >= PETSC_INFINITY));
   PetscFunctionReturn(0);
 }
 
@@ -151,7 +150,7 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal fraction = 0.5;
   const PetscInt  largest  = 5000; /* with norm terms, which need factors for each system */
-  PetscInt        n, touched, most, start, end;
+  PetscInt        n, touched, most;
   PetscBool       all = PETSC_FALSE;
 
   PetscFunctionBegin;
@@ -165,8 +164,7 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
   most = (PetscInt)(fraction * n);
   if (ip->terms->n) most = PetscMin(most, largest);
   PetscCall(FilteredTakesAll(tao, recycle, n, &all));
-  PetscCall(VecGetOwnershipRange(tao->solution, &start, &end));
-  if (all) PetscCall(ISCreateStride(PetscObjectComm((PetscObject)tao), end - start, start, 1, &IPFilteredOf(tao)->W));
+  if (all) PetscCall(IPFilteredTakeAll(tao));
   else PetscCall(FilteredChooseW(tao, recycle, most, &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);
 }

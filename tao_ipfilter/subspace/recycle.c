@@ -298,8 +298,8 @@ PetscErrorCode IPRecycleUpdate(Tao tao, IPRecycle *recycle, PetscBool *possible)
   Mat              K  = ip->hess->H;
   PC               pc;
   PetscObjectState state;
-  PetscInt         max   = 0;
-  PetscBool        new_K = PETSC_FALSE;
+  PetscInt         max  = 0;
+  PetscBool        same = PETSC_FALSE;
 
   PetscFunctionBegin;
   *possible = PETSC_TRUE;
@@ -313,15 +313,15 @@ PetscErrorCode IPRecycleUpdate(Tao tao, IPRecycle *recycle, PetscBool *possible)
     PetscCall(RecycleAllowFactor(pc));
     PetscCall(IPBasisCreate(max, tao->solution, &recycle->basis));
   }
-  if (recycle->K_id != ((PetscObject)K)->id || recycle->K_state != state) {
+  PetscCall(IPRecycleIsOf(recycle, K, &same));
+  if (!same) {
     if (!recycle->held || recycle->negative) PetscCall(RecycleSetUpFree(tao, recycle, K, possible));
     if (recycle->held || !*possible) PetscCall(IPRecycleHold(tao, recycle, possible));
-    new_K = PETSC_TRUE;
   }
   recycle->K_id    = ((PetscObject)K)->id;
   recycle->K_state = state;
   PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
-  PetscCall(IPBasisUpdate(&recycle->basis, K, new_K, ip->fixed, IPFilteredOf(tao)->W));
+  PetscCall(IPBasisUpdate(&recycle->basis, K, (PetscBool)!same, ip->fixed, IPFilteredOf(tao)->W));
   PetscCall(IPModesAppend(tao, recycle));
   PetscCall(PetscLogEventEnd(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);

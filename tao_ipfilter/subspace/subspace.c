@@ -255,6 +255,19 @@ PetscBool IPFilteredProgresses(IPFiltered *f, PetscReal error, PetscInt patience
   return (PetscBool)(f->nfutile <= patience);
 }
 
+/* Sets W to all unknowns */
+PetscErrorCode IPFilteredTakeAll(Tao tao)
+{
+  IPFiltered *f = IPFilteredOf(tao);
+  PetscInt    start, end;
+
+  PetscFunctionBegin;
+  PetscCall(ISDestroy(&f->W));
+  PetscCall(VecGetOwnershipRange(tao->solution, &start, &end));
+  PetscCall(ISCreateStride(PetscObjectComm((PetscObject)tao), end - start, start, 1, &f->W));
+  PetscFunctionReturn(0);
+}
+
 /* Finds whether the iteration limit of the Krylov method allows another direction */
 PetscErrorCode IPFilteredAllows(Tao tao, PetscBool *allows)
 {

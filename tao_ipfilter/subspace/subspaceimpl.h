@@ -244,6 +244,7 @@ PETSC_INTERN PetscErrorCode IPFilteredCompress(Tao, IPBasis *, PetscReal E[]);
 PETSC_INTERN PetscErrorCode IPFilteredMakeRoom(Tao, IPBasis *);
 PETSC_INTERN PetscBool      IPFilteredProgresses(IPFiltered *, PetscReal error, PetscInt patience);
 PETSC_INTERN PetscErrorCode IPFilteredAllows(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPFilteredTakeAll(Tao);
 PETSC_INTERN PetscErrorCode IPFilteredExtend(Tao, IPRecycle *, Vec r, PetscBool *extended);
 
 /* monitor.c */
