@@ -6,41 +6,33 @@
 #include "src/state/contact_state.h"
 #include "src/state/path.h"
 
-/* Sums over the rows at each node, weighted by the area that they share. Those before AT_EVEN are agglomerated and
-   smoothed (nodal_pressure.c); AT_ALONE and AT_GAP_ALONE are the area and the gap before that. */
+/* Sums over the rows at each node, weighted by the area that they share: those of the values of rows (pair_rows.h), and
+   some of them before they are agglomerated and smoothed */
 typedef enum {
-  AT_AREA,
-  AT_GAP,
-  AT_FORCE,
-  AT_SHEAR, /* components of the friction stress on the mortar side */
-  AT_EVEN  = AT_SHEAR + 3,
-  AT_ALONE = AT_EVEN,
+  AT_ALONE = ROW_SUMS, /* ROW_ONE, ROW_GAP, ROW_PRESSURE */
   AT_GAP_ALONE,
-  AT_PRESSES,
-  AT_CLOSED,
-  AT_LENGTH,
-  AT_STRETCH,
-  AT_SLIPPING, /* force of slipping rows */
   AT_FORCE_ALONE,
-  AT_SLID, /* components of the slip */
-  AT_SUMS = AT_SLID + 3
+  AT_SUMS
 } NodeSum;
 
 /* Computes the contact force on the nodes: J^T (mass x pressure) of the rows of the pair, and their friction */
 static PetscErrorCode PairPlaceForces(Simulation sim, PetscInt pair, const PairRows *rows, Vec force)
 {
   ContactLinearization lin = sim->solved->linearization;
-  const PetscScalar   *mass;
+  const PetscScalar   *area;
   PetscScalar         *y;
-  Vec                  shear;
+  Vec                  own, shear;
 
   PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(lin->mass, &mass));
-  PetscCall(VecGetArrayWrite(rows->row, &y));
-  for (PetscInt r = 0; r < rows->n; ++r) y[r] = rows->area[r] > 0.0 ? mass[r] * sim->solved->pressure[r] : 0.0;
-  PetscCall(VecRestoreArrayWrite(rows->row, &y));
-  PetscCall(VecRestoreArrayRead(lin->mass, &mass));
-  PetscCall(MatMultTranspose(lin->J, rows->row, force));
+  PetscCall(VecDuplicate(lin->mass, &own));
+  PetscCall(VecGetArrayRead(rows->value[ROW_AREA], &area));
+  PetscCall(VecGetArrayWrite(own, &y));
+  for (PetscInt r = 0; r < rows->n; ++r) y[r] = PetscRealPart(area[r]) > 0.0 ? sim->solved->pressure[r] : 0.0;
+  PetscCall(VecRestoreArrayWrite(own, &y));
+  PetscCall(VecRestoreArrayRead(rows->value[ROW_AREA], &area));
+  PetscCall(VecPointwiseMult(own, own, lin->mass));
+  PetscCall(MatMultTranspose(lin->J, own, force));
+  PetscCall(VecDestroy(&own));
   if (!rows->frictional) PetscFunctionReturn(0);
   PetscCall(MatCreateVecs(lin->slip, NULL, &shear));
   PetscCall(VecGetArrayWrite(shear, &y));
@@ -51,41 +43,21 @@ static PetscErrorCode PairPlaceForces(Simulation sim, PetscInt pair, const PairR
   PetscFunctionReturn(0);
 }
 
-/* Computes the sums at the nodes. stretch: of each row, by ContactGetStretch(); NULL: 1 */
-static PetscErrorCode PairSum(Simulation sim, PetscInt pair, const PairRows *rows, const PetscReal stretch[],
-  PairFacets *facets, Vec sums[AT_SUMS])
+/* Computes the sums at the nodes */
+static PetscErrorCode PairSum(Simulation sim, PetscInt pair, const PairRows *rows, PairFacets *facets, Vec sums[])
 {
-  const PetscBool  smooth[AT_EVEN] = {PETSC_FALSE, PETSC_FALSE, PETSC_TRUE, PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
-  const PetscReal *value[AT_SUMS]  = {[AT_AREA] = NULL,
-     [AT_GAP]                                   = rows->gap,
-     [AT_FORCE]                                 = rows->pressure,
-     [AT_ALONE]                                 = NULL,
-     [AT_GAP_ALONE]                             = rows->gap,
-     [AT_PRESSES]                               = rows->presses,
-     [AT_CLOSED]                                = rows->closed,
-     [AT_LENGTH]                                = rows->length,
-     [AT_STRETCH]                               = stretch,
-     [AT_FORCE_ALONE]                           = rows->pressure};
-  PetscReal       *slipping;
+  const PetscBool smooth[ROW_EVEN] = {PETSC_FALSE, PETSC_FALSE, PETSC_TRUE, PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
+  const PetscInt  neven            = rows->frictional ? ROW_EVEN : ROW_SHEAR;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(rows->n, &slipping));
-  for (PetscInt r = 0; r < rows->n && rows->frictional; ++r) slipping[r] = rows->slips[r] * rows->pressure[r];
-  value[AT_SLIPPING] = slipping;
-  for (PetscInt c = 0; c < 3 && rows->frictional; ++c) {
-    value[AT_SHEAR + c] = rows->shear + c * rows->n;
-    value[AT_SLID + c]  = rows->slid + c * rows->n;
-  }
-  for (PetscInt k = 0; k < AT_SUMS; ++k) {
-    const PetscBool friction = (PetscBool)((k >= AT_SHEAR && k < AT_EVEN) || k == AT_SLIPPING || k >= AT_SLID);
+  for (PetscInt k = 0; k < ROW_SUMS; ++k) {
+    const PetscBool friction = (PetscBool)((k >= ROW_SHEAR && k < ROW_EVEN) || k >= ROW_SLIPPING);
 
-    PetscCall(VecDuplicate(rows->node, &sums[k]));
-    PetscCall(VecZeroEntries(sums[k]));
-    if (rows->frictional || !friction) PetscCall(PairSpread(rows, value[k], sums[k]));
+    if (rows->frictional || !friction) PetscCall(MatMultTranspose(rows->shares, rows->value[k], sums[k]));
+    else PetscCall(VecZeroEntries(sums[k]));
   }
-  PetscCall(PetscFree(slipping));
-  PetscCall(
-    NodalPressureEvenOut(sim, &sim->scene->pairs[pair], facets, rows->frictional ? AT_EVEN : AT_SHEAR, sums, smooth));
+  for (PetscInt k = 0; k <= ROW_PRESSURE; ++k) PetscCall(VecCopy(sums[k], sums[AT_ALONE + k]));
+  PetscCall(NodalPressureEvenOut(sim, &sim->scene->pairs[pair], facets, neven, sums, smooth));
   PetscFunctionReturn(0);
 }
 
@@ -95,7 +67,7 @@ static PetscBool PairIsMostly(PetscReal part, PetscReal whole)
   return (PetscBool)(2.0 * part > (1.0 + PETSC_SQRT_MACHINE_EPSILON) * whole);
 }
 
-/* Sets pressure, gap, friction and status of a point from the sums at its node. stretched: whether AT_STRETCH is the
+/* Sets pressure, gap, friction and status of a point from the sums at its node. stretched: whether ROW_STRETCH is the
    stretch of the faces since the linearization, by which areas are multiplied and stresses are divided; side: 1 on the
    mortar side, else -1 */
 static void PairSetPoint(const PairRows *rows, const PetscReal sum[AT_SUMS], PetscBool stretched, PetscReal side,
@@ -103,24 +75,24 @@ static void PairSetPoint(const PairRows *rows, const PetscReal sum[AT_SUMS], Pet
 {
   const PetscReal alone = sum[AT_ALONE];
 
-  point->area = sum[AT_AREA];
+  point->area = sum[ROW_ONE];
   point->gap  = sum[AT_GAP_ALONE] / alone;
   if (point->area > 0.0) {
-    point->pressure = sum[AT_FORCE] / point->area;
-    point->gap      = sum[AT_GAP] / point->area;
+    point->pressure = sum[ROW_PRESSURE] / point->area;
+    point->gap      = sum[ROW_GAP] / point->area;
   }
-  point->presses = PairIsMostly(sum[AT_PRESSES], alone);
-  point->closed  = (PetscBool)(PairIsMostly(sum[AT_CLOSED], alone) ||
-                              PairIsClosed(point->pressure, point->gap, rows->young, sum[AT_LENGTH] / alone));
+  point->presses = PairIsMostly(sum[ROW_PRESSES], alone);
+  point->closed  = (PetscBool)(PairIsMostly(sum[ROW_CLOSED], alone) ||
+                              PairIsClosed(point->pressure, point->gap, rows->young, sum[ROW_LENGTH] / alone));
   for (PetscInt c = 0; c < 3 && rows->frictional; ++c) {
-    if (point->area > 0.0) point->shear[c] = side * sum[AT_SHEAR + c] / point->area;
-    point->slip[c] = -side * sum[AT_SLID + c] / alone;
+    if (point->area > 0.0) point->shear[c] = side * sum[ROW_SHEAR + c] / point->area;
+    point->slip[c] = -side * sum[ROW_SLID + c] / alone;
   }
-  if (rows->frictional) point->slips = (PetscBool)(point->closed && sum[AT_SLIPPING] > 0.5 * sum[AT_FORCE_ALONE]);
-  if (!stretched || !(sum[AT_STRETCH] > 0.0)) return;
-  point->area *= sum[AT_STRETCH] / alone;
-  point->pressure /= sum[AT_STRETCH] / alone;
-  for (PetscInt c = 0; c < 3; ++c) point->shear[c] /= sum[AT_STRETCH] / alone;
+  if (rows->frictional) point->slips = (PetscBool)(point->closed && sum[ROW_SLIPPING] > 0.5 * sum[AT_FORCE_ALONE]);
+  if (!stretched || !(sum[ROW_STRETCH] > 0.0)) return;
+  point->area *= sum[ROW_STRETCH] / alone;
+  point->pressure /= sum[ROW_STRETCH] / alone;
+  for (PetscInt c = 0; c < 3; ++c) point->shear[c] /= sum[ROW_STRETCH] / alone;
 }
 
 /* Appends the pair's points. `closed` is set to 1 at the nodes of closed points, and to 0 elsewhere. areas: those of
@@ -130,8 +102,8 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
 {
   const PetscReal    weight = rows->self ? 0.5 : 1.0;
   PetscSection       global;
-  const PetscScalar *a[AT_SUMS], *side, *f;
-  PetscScalar       *at;
+  const PetscScalar *side, *f;
+  PetscScalar      **a, *at;
   PetscInt           pstart, pend, first, n, npoints = 0;
 
   PetscFunctionBegin;
@@ -139,7 +111,7 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
   PetscCall(PetscSectionGetChart(global, &pstart, &pend));
   PetscCall(VecGetOwnershipRange(force, &first, NULL));
   PetscCall(VecGetLocalSize(closed, &n));
-  for (PetscInt k = 0; k < AT_SUMS; ++k) PetscCall(VecGetArrayRead(sums[k], &a[k]));
+  PetscCall(VecGetArrays(sums, AT_SUMS, &a));
   PetscCall(VecGetArrayRead(rows->sides, &side));
   PetscCall(VecGetArrayRead(force, &f));
   PetscCall(VecZeroEntries(closed));
@@ -169,7 +141,7 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
   PetscCall(VecRestoreArray(closed, &at));
   PetscCall(VecRestoreArrayRead(force, &f));
   PetscCall(VecRestoreArrayRead(rows->sides, &side));
-  for (PetscInt k = 0; k < AT_SUMS; ++k) PetscCall(VecRestoreArrayRead(sums[k], &a[k]));
+  PetscCall(VecRestoreArrays(sums, AT_SUMS, &a));
   PetscFunctionReturn(0);
 }
 
@@ -207,43 +179,51 @@ static PetscErrorCode PairReportPressure(Simulation sim, PetscInt first, PairRep
 /* Sets the normal force and the areas of the report. areas: by PairAppendPoints(), on this rank */
 static PetscErrorCode PairReportForce(MPI_Comm comm, const PairRows *rows, const PetscReal areas[2], PairReport *report)
 {
-  PetscReal sums[4] = {0.0, areas[0], areas[1], 0.0};
+  PetscReal   sums[2] = {areas[0], areas[1]};
+  PetscScalar force, presses;
 
   PetscFunctionBegin;
-  for (PetscInt r = 0; r < rows->n; ++r) {
-    sums[0] += rows->area[r] * rows->pressure[r];
-    sums[3] += (rows->self ? 0.5 : 1.0) * rows->area[r] * rows->presses[r];
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, comm));
-  if (sums[1] == 0.0) sums[1] = sums[3]; /* contact within the facets around one vertex closes none of them */
-  report->normal_force = sums[0];
-  report->area         = sums[1];
-  report->slip_area    = sums[2];
-  report->stick_area   = rows->frictional ? sums[1] - sums[2] : 0.0;
+  PetscCall(VecDot(rows->value[ROW_PRESSURE], rows->value[ROW_AREA], &force));
+  PetscCall(VecDot(rows->value[ROW_PRESSES], rows->value[ROW_AREA], &presses));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_REAL, MPIU_SUM, comm));
+  /* contact within the facets around one vertex closes none of them */
+  if (sums[0] == 0.0) sums[0] = (rows->self ? 0.5 : 1.0) * PetscRealPart(presses);
+  report->normal_force = PetscRealPart(force);
+  report->area         = sums[0];
+  report->slip_area    = sums[1];
+  report->stick_area   = rows->frictional ? sums[0] - sums[1] : 0.0;
   PetscFunctionReturn(0);
 }
 
-/* Computes the contact points and the report of a pair. Collective. */
+/* Computes the contact points and the report of a pair. stretch: of each row, by ContactGetStretch(); NULL: 1.
+   Collective. */
 static PetscErrorCode PairMeasure(Simulation sim, PetscInt pair, const PetscReal stretch[], PairReport *report)
 {
   const PetscInt first    = sim->solved->npoints;
   PetscReal      areas[2] = {0.0, 0.0};
+  PetscScalar   *a;
   PairRows       rows;
   PairFacets     facets;
-  Vec            sums[AT_SUMS], force;
+  Vec           *sums, force, closed;
 
   PetscFunctionBegin;
   PetscCall(PairRowsCreate(sim, pair, &rows));
   PetscCall(PairRowsResolve(sim, pair, &rows));
+  PetscCall(VecGetArray(rows.value[ROW_STRETCH], &a));
+  for (PetscInt r = 0; r < rows.n && stretch; ++r) a[r] = stretch[r];
+  PetscCall(VecRestoreArray(rows.value[ROW_STRETCH], &a));
   PetscCall(PairFacetsCreate(sim, &sim->scene->pairs[pair], &facets));
   PetscCall(VecDuplicate(sim->path->u, &force));
+  PetscCall(VecDuplicate(rows.sides, &closed));
+  PetscCall(VecDuplicateVecs(rows.sides, AT_SUMS, &sums));
   PetscCall(PairPlaceForces(sim, pair, &rows, force));
-  PetscCall(PairSum(sim, pair, &rows, stretch, &facets, sums));
-  PetscCall(PairAppendPoints(sim, pair, &rows, (PetscBool)(stretch != NULL), sums, force, rows.node, areas));
+  PetscCall(PairSum(sim, pair, &rows, &facets, sums));
+  PetscCall(PairAppendPoints(sim, pair, &rows, (PetscBool)(stretch != NULL), sums, force, closed, areas));
   PetscCall(PairReportForce(sim->comm, &rows, areas, report));
   PetscCall(PairReportPressure(sim, first, report));
-  PetscCall(PairMeshMeasure(sim, &rows, &facets, rows.node, report));
-  for (PetscInt k = 0; k < AT_SUMS; ++k) PetscCall(VecDestroy(&sums[k]));
+  PetscCall(PairMeshMeasure(sim, &rows, &facets, closed, report));
+  PetscCall(VecDestroyVecs(AT_SUMS, &sums));
+  PetscCall(VecDestroy(&closed));
   PetscCall(VecDestroy(&force));
   PetscCall(PairFacetsDestroy(&facets));
   PetscCall(PairRowsDestroy(&rows));

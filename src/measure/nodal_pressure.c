@@ -96,23 +96,15 @@ PetscErrorCode PairFacetsJoin(PairFacets *facets, PetscInt n)
 /* Computes the area of faces around each of their nodes [length^2] */
 PetscErrorCode PairFacetsMeasure(Simulation sim, PetscInt nfaces, const char *const faces[], Vec size)
 {
-  const PetscScalar *a;
-  PetscScalar       *s;
-  PetscInt           n;
-  Vec                areas;
+  Vec areas;
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(sim->places.x, &areas));
   PetscCall(VecZeroEntries(areas));
   for (PetscInt k = 0; k < nfaces; ++k) PetscCall(ElasticityAddFacetAreas(sim->elasticity, faces[k], areas));
-  PetscCall(VecGetLocalSize(size, &n));
-  PetscCall(VecGetArrayRead(areas, &a));
-  PetscCall(VecGetArrayWrite(size, &s));
-  for (PetscInt i = 0; i < n; ++i)
-    s[i] = PetscSqrtReal(PetscSqr(PetscRealPart(a[3 * i])) + PetscSqr(PetscRealPart(a[3 * i + 1])) +
-                         PetscSqr(PetscRealPart(a[3 * i + 2])));
-  PetscCall(VecRestoreArrayWrite(size, &s));
-  PetscCall(VecRestoreArrayRead(areas, &a));
+  PetscCall(VecPointwiseMult(areas, areas, areas));
+  for (PetscInt c = 0; c < 3; ++c) PetscCall(VecStrideGather(areas, c, size, c ? ADD_VALUES : INSERT_VALUES));
+  PetscCall(VecSqrtAbs(size));
   PetscCall(VecDestroy(&areas));
   PetscFunctionReturn(0);
 }
@@ -120,26 +112,13 @@ PetscErrorCode PairFacetsMeasure(Simulation sim, PetscInt nfaces, const char *co
 /* Creates the local vector of two values per node, which are components 0 and 1 of three */
 static PetscErrorCode CoverGetLocal(DM dm, Vec first, Vec second, Vec *local)
 {
-  const PetscScalar *a, *b;
-  PetscScalar       *v;
-  PetscInt           n;
-  Vec                both;
+  Vec both;
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalVector(dm, &both));
   PetscCall(DMGetLocalVector(dm, local));
-  PetscCall(VecZeroEntries(both));
-  PetscCall(VecGetLocalSize(first, &n));
-  PetscCall(VecGetArrayRead(first, &a));
-  PetscCall(VecGetArrayRead(second, &b));
-  PetscCall(VecGetArray(both, &v));
-  for (PetscInt i = 0; i < n; ++i) {
-    v[3 * i]     = a[i];
-    v[3 * i + 1] = b[i];
-  }
-  PetscCall(VecRestoreArray(both, &v));
-  PetscCall(VecRestoreArrayRead(second, &b));
-  PetscCall(VecRestoreArrayRead(first, &a));
+  PetscCall(VecStrideScatter(first, 0, both, INSERT_VALUES));
+  PetscCall(VecStrideScatter(second, 1, both, INSERT_VALUES));
   PetscCall(DMGlobalToLocal(dm, both, INSERT_VALUES, *local));
   PetscCall(DMRestoreGlobalVector(dm, &both));
   PetscFunctionReturn(0);

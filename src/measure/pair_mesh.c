@@ -14,17 +14,23 @@
    Collective. */
 static PetscErrorCode PairMeasureFacets(MPI_Comm comm, const PairRows *rows, PetscReal *facet, PetscReal *coarseness)
 {
-  PetscReal sums[4] = {0.0, 0.0, 0.0, 0.0};
+  PetscReal     sums[4] = {0.0, 0.0, 0.0, 0.0};
+  PetscScalar **a;
 
   PetscFunctionBegin;
+  PetscCall(VecGetArrays(rows->value, ROW_VALUES, &a));
   for (PetscInt r = 0; r < rows->n; ++r) {
-    if (!(rows->closed[r] > 0.0)) continue;
-    sums[0] += rows->area[r];
-    sums[1] += rows->area[r] * rows->own[r];
-    if (!(rows->facing[r] > 0.0)) continue;
-    sums[2] += rows->area[r];
-    sums[3] += rows->area[r] * rows->own[r] / rows->facing[r];
+    const PetscReal area = PetscRealPart(a[ROW_AREA][r]), own = PetscRealPart(a[ROW_OWN][r]),
+                    facing = PetscRealPart(a[ROW_FACING][r]);
+
+    if (!(PetscRealPart(a[ROW_CLOSED][r]) > 0.0)) continue;
+    sums[0] += area;
+    sums[1] += area * own;
+    if (!(facing > 0.0)) continue;
+    sums[2] += area;
+    sums[3] += area * own / facing;
   }
+  PetscCall(VecRestoreArrays(rows->value, ROW_VALUES, &a));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, comm));
   *facet      = sums[0] > 0.0 ? sums[1] / sums[0] : 0.0;
   *coarseness = sums[2] > 0.0 ? sums[3] / sums[2] : 0.0;

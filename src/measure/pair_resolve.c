@@ -13,88 +13,59 @@ static const PetscReal resolve_enclosed = 0.4; /* limit of the distance between 
                                                   rows, relative to their spread; the ratio is about 0.57 at a
                                                   straight border of contact, and about 0.2 between strips of contact */
 
-/* Returns Young's modulus of the body behind the mortar face; PETSC_INFINITY if the body is rigid */
-static PetscReal ResolveModulus(Scene scene, PetscInt pair)
-{
-  const Material *material = &SceneFaceBody(scene, scene->pairs[pair].mortar)->material;
-
-  return material->type == MATERIAL_RIGID ? PETSC_INFINITY : material->young;
-}
-
 /* Computes the mean of the marked rows' values at the mortar nodes, interpolated back to the rows. Collective. */
-static PetscErrorCode ResolveMean(const PairRows *rows, const PetscReal mark[], const PetscReal value[],
-  PetscReal mean[])
+static PetscErrorCode ResolveMean(const PairRows *rows, Vec mark, Vec value, Vec mean)
 {
-  PetscReal         *marked;
   const PetscScalar *w;
   PetscScalar       *a;
   PetscInt           n;
-  Vec                weight, v;
+  Vec                weight, node;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(rows->n, &marked));
-  for (PetscInt r = 0; r < rows->n; ++r) marked[r] = mark[r] * value[r];
-  PetscCall(VecDuplicate(rows->node, &weight));
-  PetscCall(VecDuplicate(rows->node, &v));
-  PetscCall(PairSpread(rows, mark, weight));
-  PetscCall(PairSpread(rows, marked, v));
-  PetscCall(VecGetLocalSize(v, &n));
+  PetscCall(VecDuplicate(rows->sides, &weight));
+  PetscCall(VecDuplicate(rows->sides, &node));
+  PetscCall(VecPointwiseMult(mean, mark, value));
+  PetscCall(MatMultTranspose(rows->shares, mark, weight));
+  PetscCall(MatMultTranspose(rows->shares, mean, node));
+  PetscCall(VecGetLocalSize(node, &n));
   PetscCall(VecGetArrayRead(weight, &w));
-  PetscCall(VecGetArray(v, &a));
+  PetscCall(VecGetArray(node, &a));
   for (PetscInt i = 0; i < n; ++i) a[i] = PetscRealPart(w[i]) > 0.0 ? a[i] / w[i] : 0.0;
-  PetscCall(VecRestoreArray(v, &a));
+  PetscCall(VecRestoreArray(node, &a));
   PetscCall(VecRestoreArrayRead(weight, &w));
-  PetscCall(PairGather(rows, v, mean));
-  PetscCall(VecDestroy(&v));
+  PetscCall(PairGather(rows, node, mean));
+  PetscCall(VecDestroy(&node));
   PetscCall(VecDestroy(&weight));
-  PetscCall(PetscFree(marked));
   PetscFunctionReturn(0);
 }
 
-/* Finds whether a row is marked on any rank */
-static PetscErrorCode ResolveAny(Simulation sim, PetscInt n, const PetscReal mark[], PetscBool *any)
+/* Computes the undeformed coordinates of the rows' vertices relative to the mean of all, and the sum of their squares
+   [length; length^2]. place[4]: a work vector */
+static PetscErrorCode ResolvePlaces(Simulation sim, const PairRows *rows, Vec place[5])
 {
-  PetscFunctionBegin;
-  *any = PETSC_FALSE;
-  for (PetscInt r = 0; r < n; ++r) *any = (PetscBool)(*any || mark[r] > 0.0);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, 1, MPI_PETSCBOOL, MPI_LOR, sim->comm));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Computes the undeformed coordinates of the rows' vertices relative to the mean of all, and the sum of their squares;
-   n values per component [length; length^2]
-*/
-static PetscErrorCode ResolvePlaces(Simulation sim, const PairRows *rows, PetscReal place[])
-{
-  const PetscInt     n = rows->n;
   PetscSection       global;
   const PetscScalar *x;
-  PetscInt           rstart;
-  PetscReal          sum[4] = {0.0, 0.0, 0.0, 0.0};
+  PetscScalar      **a, sum, all;
+  PetscInt           first, i;
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalSection(sim->dm, &global));
-  PetscCall(VecGetOwnershipRange(sim->places.x, &rstart, NULL));
+  PetscCall(VecGetOwnershipRange(sim->places.x, &first, NULL));
   PetscCall(VecGetArrayRead(sim->places.x, &x));
-  for (PetscInt r = 0; r < n; ++r) {
-    PetscInt i;
-
+  PetscCall(VecGetArrays(place, 3, &a));
+  for (PetscInt r = 0; r < rows->n; ++r) {
     PetscCall(PetscSectionGetOffset(global, sim->solved->linearization->vertex[r], &i));
-    for (PetscInt c = 0; c < 3; ++c) {
-      place[c * n + r] = PetscRealPart(x[i - rstart + c]);
-      sum[c] += rows->area[r] * place[c * n + r];
-    }
-    sum[3] += rows->area[r];
+    for (PetscInt c = 0; c < 3; ++c) a[c][r] = x[i - first + c];
   }
+  PetscCall(VecRestoreArrays(place, 3, &a));
   PetscCall(VecRestoreArrayRead(sim->places.x, &x));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 4, MPIU_REAL, MPIU_SUM, sim->comm));
-  for (PetscInt r = 0; r < n; ++r) {
-    place[3 * n + r] = 0.0;
-    for (PetscInt c = 0; c < 3; ++c) {
-      place[c * n + r] -= sum[c] / sum[3];
-      place[3 * n + r] += PetscSqr(place[c * n + r]);
-    }
+  PetscCall(VecSum(rows->value[ROW_AREA], &all));
+  PetscCall(VecZeroEntries(place[3]));
+  for (PetscInt c = 0; c < 3; ++c) {
+    PetscCall(VecDot(place[c], rows->value[ROW_AREA], &sum));
+    PetscCall(VecShift(place[c], -sum / all));
+    PetscCall(VecPointwiseMult(place[4], place[c], place[c]));
+    PetscCall(VecAXPY(place[3], 1.0, place[4]));
   }
   PetscFunctionReturn(0);
 }
@@ -104,128 +75,136 @@ static PetscErrorCode ResolvePlaces(Simulation sim, const PairRows *rows, PetscR
    mortar facets is close to the centre of all rows there, relative to their spread. This excludes open rows beside the
    contact area.
 */
-static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, const PetscReal covered[], PetscReal open[])
+static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, Vec covered, Vec open)
 {
-  const PetscInt n = rows->n;
-  PetscReal     *place, *all, *closed;
+  Vec          *place, *mean;
+  PetscScalar **m, *o;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc3(4 * n, &place, 4 * n, &all, 3 * n, &closed));
+  PetscCall(VecDuplicateVecs(open, 5, &place));
+  PetscCall(VecDuplicateVecs(open, 7, &mean)); /* of all rows: places and squares; of closed rows: places */
   PetscCall(ResolvePlaces(sim, rows, place));
-  for (PetscInt c = 0; c < 4; ++c) PetscCall(ResolveMean(rows, covered, place + c * n, all + c * n));
-  for (PetscInt c = 0; c < 3; ++c) PetscCall(ResolveMean(rows, rows->closed, place + c * n, closed + c * n));
-  for (PetscInt r = 0; r < n; ++r) {
-    PetscReal spread = all[3 * n + r], off = 0.0;
+  for (PetscInt c = 0; c < 7; ++c)
+    PetscCall(ResolveMean(rows, c < 4 ? covered : rows->value[ROW_CLOSED], place[c % 4], mean[c]));
+  PetscCall(VecGetArrays(mean, 7, &m));
+  PetscCall(VecGetArray(open, &o));
+  for (PetscInt r = 0; r < rows->n; ++r) {
+    PetscReal spread = PetscRealPart(m[3][r]), off = 0.0;
 
     for (PetscInt c = 0; c < 3; ++c) {
-      spread -= PetscSqr(all[c * n + r]);
-      off += PetscSqr(closed[c * n + r] - all[c * n + r]);
+      spread -= PetscSqr(PetscRealPart(m[c][r]));
+      off += PetscSqr(PetscRealPart(m[4 + c][r] - m[c][r]));
     }
-    if (off > PetscSqr(resolve_enclosed) * spread) open[r] = 0.0;
+    if (off > PetscSqr(resolve_enclosed) * spread) o[r] = 0.0;
   }
-  PetscCall(PetscFree3(place, all, closed));
+  PetscCall(VecRestoreArray(open, &o));
+  PetscCall(VecRestoreArrays(mean, 7, &m));
+  PetscCall(VecDestroyVecs(7, &mean));
+  PetscCall(VecDestroyVecs(5, &place));
   PetscFunctionReturn(0);
 }
 
 /*
    Marks the rows whose gap the mortar pressure would close by a small strain of the mortar facets, and which share a
-   mortar node with an enclosed open row. mark: 1 for these rows; *any: whether any rank has such a row; length: size
-   of the mortar facets.
+   mortar node with an enclosed open row. mark: 1 for these rows; *any: whether any rank has such a row. work: three
+   vectors
 */
-static PetscErrorCode ResolveMark(Simulation sim, PetscReal young, const PairRows *rows, const PetscReal length[],
-  PetscReal mark[], PetscBool *any)
+static PetscErrorCode ResolveMark(Simulation sim, PetscReal young, const PairRows *rows, Vec mark, Vec work[],
+  PetscBool *any)
 {
-  PetscReal *covered, *pressure, *open;
+  const Vec          covered = work[0], mean = work[1], open = work[2];
+  const PetscScalar *area, *gap, *length, *z;
+  PetscScalar       *c, *m;
+  PetscReal          largest;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc3(rows->n, &covered, rows->n, &pressure, rows->n, &open));
-  for (PetscInt r = 0; r < rows->n; ++r) covered[r] = rows->area[r] > 0.0 ? 1.0 : 0.0;
-  PetscCall(ResolveMean(rows, covered, rows->pressure, pressure));
-  for (PetscInt r = 0; r < rows->n; ++r) {
-    mark[r] = covered[r] > 0.0 && PairIsClosed(pressure[r], rows->gap[r], young, length[r]) ? 1.0 : 0.0;
-    open[r] = mark[r] * (1.0 - rows->closed[r]);
-  }
-  PetscCall(ResolveAny(sim, rows->n, open, any));
-  if (*any) {
-    PetscCall(ResolveEnclosed(sim, rows, covered, open));
-    PetscCall(ResolveAny(sim, rows->n, open, any));
-  }
-  if (*any) {
-    PetscCall(ResolveMean(rows, covered, open, pressure));
-    for (PetscInt r = 0; r < rows->n; ++r) mark[r] *= pressure[r] > PETSC_SQRT_MACHINE_EPSILON ? 1.0 : 0.0;
-  }
-  PetscCall(PetscFree3(covered, pressure, open));
-  PetscFunctionReturn(0);
-}
-
-/* Replaces the values of marked rows by their means over mortar facets */
-static PetscErrorCode ResolveValue(const PairRows *rows, const PetscReal mark[], PetscReal value[])
-{
-  PetscReal *mean;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(rows->n, &mean));
-  PetscCall(ResolveMean(rows, mark, value, mean));
-  for (PetscInt r = 0; r < rows->n; ++r) {
-    if (mark[r] > 0.0) value[r] = mean[r];
-  }
-  PetscCall(PetscFree(mean));
+  PetscCall(VecGetArrayRead(rows->value[ROW_AREA], &area));
+  PetscCall(VecGetArrayRead(rows->value[ROW_GAP], &gap));
+  PetscCall(VecGetArrayRead(rows->value[ROW_FACING], &length));
+  PetscCall(VecGetArrayWrite(covered, &c));
+  for (PetscInt r = 0; r < rows->n; ++r) c[r] = PetscRealPart(area[r]) > 0.0;
+  PetscCall(VecRestoreArrayWrite(covered, &c));
+  PetscCall(ResolveMean(rows, covered, rows->value[ROW_PRESSURE], mean));
+  PetscCall(VecGetArrayRead(mean, &z));
+  PetscCall(VecGetArrayWrite(mark, &m));
+  for (PetscInt r = 0; r < rows->n; ++r)
+    m[r] = PetscRealPart(area[r]) > 0.0 &&
+           PairIsClosed(PetscRealPart(z[r]), PetscRealPart(gap[r]), young, PetscRealPart(length[r]));
+  PetscCall(VecRestoreArrayWrite(mark, &m));
+  PetscCall(VecRestoreArrayRead(mean, &z));
+  PetscCall(VecRestoreArrayRead(rows->value[ROW_FACING], &length));
+  PetscCall(VecRestoreArrayRead(rows->value[ROW_GAP], &gap));
+  PetscCall(VecRestoreArrayRead(rows->value[ROW_AREA], &area));
+  PetscCall(VecPointwiseMult(open, mark, rows->value[ROW_CLOSED]));
+  PetscCall(VecAYPX(open, -1.0, mark));
+  PetscCall(VecNorm(open, NORM_INFINITY, &largest));
+  if (largest > 0.0) PetscCall(ResolveEnclosed(sim, rows, covered, open));
+  if (largest > 0.0) PetscCall(VecNorm(open, NORM_INFINITY, &largest));
+  *any = (PetscBool)(largest > 0.0);
+  if (!*any) PetscFunctionReturn(0);
+  PetscCall(ResolveMean(rows, covered, open, mean));
+  PetscCall(VecGetArrayRead(mean, &z));
+  PetscCall(VecGetArray(mark, &m));
+  for (PetscInt r = 0; r < rows->n; ++r) m[r] *= PetscRealPart(z[r]) > PETSC_SQRT_MACHINE_EPSILON;
+  PetscCall(VecRestoreArray(mark, &m));
+  PetscCall(VecRestoreArrayRead(mean, &z));
   PetscFunctionReturn(0);
 }
 
 /*
-   Replaces friction stress and slip of marked rows by their means over mortar facets. A row slips if slipping rows
-   carry more than half of its pressure.
+   Replaces the values of marked rows by their means over mortar facets: pressure, gap, and those of friction. A row
+   slips if slipping rows carry more than half of its pressure. mean: a work vector
 */
-static PetscErrorCode ResolveFriction(PairRows *rows, const PetscReal mark[], const PetscReal pressure[])
+static PetscErrorCode ResolveValues(PairRows *rows, Vec mark, Vec mean)
 {
-  PetscReal *slipping;
+  const PetscScalar *m, *to;
+  PetscScalar      **a;
 
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < 3; ++c) {
-    PetscCall(ResolveValue(rows, mark, rows->shear + c * rows->n));
-    PetscCall(ResolveValue(rows, mark, rows->slid + c * rows->n));
+  PetscCall(VecGetArrayRead(mark, &m));
+  for (PetscInt k = ROW_GAP; k < ROW_SUMS; ++k) {
+    const PetscBool resolved = (PetscBool)(k < ROW_SHEAR || (rows->frictional && (k < ROW_EVEN || k >= ROW_SLIPPING)));
+
+    if (!resolved) continue;
+    PetscCall(ResolveMean(rows, mark, rows->value[k], mean));
+    PetscCall(VecGetArrayRead(mean, &to));
+    PetscCall(VecGetArrays(&rows->value[k], 1, &a));
+    for (PetscInt r = 0; r < rows->n; ++r) a[0][r] = PetscRealPart(m[r]) > 0.0 ? to[r] : a[0][r];
+    PetscCall(VecRestoreArrays(&rows->value[k], 1, &a));
+    PetscCall(VecRestoreArrayRead(mean, &to));
   }
-  PetscCall(PetscMalloc1(rows->n, &slipping));
-  for (PetscInt r = 0; r < rows->n; ++r) slipping[r] = rows->slips[r] * pressure[r];
-  PetscCall(ResolveValue(rows, mark, slipping));
+  PetscCall(VecGetArrays(rows->value, ROW_VALUES, &a));
   for (PetscInt r = 0; r < rows->n; ++r) {
-    if (mark[r] > 0.0) rows->slips[r] = slipping[r] > 0.5 * rows->pressure[r] ? 1.0 : 0.0;
+    const PetscScalar pressure = a[ROW_PRESSURE][r];
+
+    if (!(PetscRealPart(m[r]) > 0.0)) continue;
+    a[ROW_CLOSED][r]   = 1.0;
+    a[ROW_LENGTH][r]   = a[ROW_FACING][r];
+    a[ROW_SLIPPING][r] = PetscRealPart(a[ROW_SLIPPING][r]) > 0.5 * PetscRealPart(pressure) ? pressure : 0.0;
   }
-  PetscCall(PetscFree(slipping));
+  PetscCall(VecRestoreArrays(rows->value, ROW_VALUES, &a));
+  PetscCall(VecRestoreArrayRead(mark, &m));
   PetscFunctionReturn(0);
 }
 
 /* Smooths the pressures of a pair that the mortar side cannot resolve. Collective. */
 PetscErrorCode PairRowsResolve(Simulation sim, PetscInt pair, PairRows *rows)
 {
-  const PetscReal   young  = ResolveModulus(sim->scene, pair);
-  const char *const mortar = sim->scene->pairs[pair].mortar;
-  PetscReal        *length = rows->facing, *mark, *pressure;
+  const Material   *material = &SceneFaceBody(sim->scene, sim->scene->pairs[pair].mortar)->material;
+  const char *const mortar   = sim->scene->pairs[pair].mortar;
   PetscBool         any;
-  Vec               size;
+  Vec               size, *work;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(rows->node, &size));
+  PetscCall(VecDuplicate(rows->sides, &size));
   PetscCall(PairFacetsMeasure(sim, 1, &mortar, size));
   PetscCall(VecSqrtAbs(size));
-  PetscCall(PairGather(rows, size, length));
+  PetscCall(PairGather(rows, size, rows->value[ROW_FACING]));
   PetscCall(VecDestroy(&size));
-  if (young == PETSC_INFINITY) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc2(rows->n, &mark, rows->n, &pressure));
-  PetscCall(ResolveMark(sim, young, rows, length, mark, &any));
-  if (any) {
-    PetscCall(PetscArraycpy(pressure, rows->pressure, rows->n));
-    PetscCall(ResolveValue(rows, mark, rows->pressure));
-    PetscCall(ResolveValue(rows, mark, rows->gap));
-    for (PetscInt r = 0; r < rows->n; ++r) {
-      if (mark[r] > 0.0) {
-        rows->closed[r] = 1.0;
-        rows->length[r] = length[r];
-      }
-    }
-    if (rows->frictional) PetscCall(ResolveFriction(rows, mark, pressure));
-  }
-  PetscCall(PetscFree2(mark, pressure));
+  if (material->type == MATERIAL_RIGID) PetscFunctionReturn(0);
+  PetscCall(VecDuplicateVecs(rows->value[0], 4, &work));
+  PetscCall(ResolveMark(sim, material->young, rows, work[3], work, &any));
+  if (any) PetscCall(ResolveValues(rows, work[3], work[0]));
+  PetscCall(VecDestroyVecs(4, &work));
   PetscFunctionReturn(0);
 }

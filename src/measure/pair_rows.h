@@ -4,6 +4,29 @@
 
 #include "measureimpl.h"
 
+/* Values of rows. Those before ROW_SUMS are summed at nodes, weighted by the area that rows and nodes share; the sums
+   of those before ROW_EVEN are agglomerated and smoothed (nodal_pressure.c). */
+typedef enum {
+  ROW_ONE, /* 1; its sums are areas [length^2] */
+  ROW_GAP,
+  ROW_PRESSURE,
+  ROW_SHEAR, /* components of the friction stress on the mortar side [force/length^2] */
+  ROW_EVEN    = ROW_SHEAR + 3,
+  ROW_PRESSES = ROW_EVEN, /* 1 if the row is closed before the pressures are smoothed by pair_resolve.c, otherwise 0 */
+  ROW_CLOSED,
+  ROW_LENGTH,   /* facet size with which the gap is compared: the row's own, or that of the mortar side if only the
+                   mortar side's means are resolved [length] */
+  ROW_STRETCH,  /* stretch of the faces since the linearization, by which areas are multiplied */
+  ROW_SLIPPING, /* pressure of slipping rows, otherwise 0 */
+  ROW_SLID,     /* components of the slip [length] */
+  ROW_SUMS = ROW_SLID + 3,
+  ROW_AREA = ROW_SUMS, /* w [length^2] */
+  ROW_COVERED,         /* w / |mass_A x sum of cover_AB| */
+  ROW_OWN,             /* size of the facets around the row [length] */
+  ROW_FACING,          /* size of the mortar facets that the row faces [length] */
+  ROW_VALUES
+} RowValue;
+
 /*
    The rows of one pair. Row A exerts the force z_A w_A n_A on its own side, where w_A n_A = mass_A x sum of J_AB over
    the mortar nodes B. w_A is the area that the mortar side covers around A; it is zero in rows of other pairs. A vector
@@ -11,32 +34,23 @@
 */
 typedef struct {
   PetscInt   n;
-  PetscReal *area, *covered, *normal; /* w [length^2]; w / |mass_A x sum of cover_AB|; n, 3 numbers per row */
-  PetscReal *pressure, *gap, *closed;
-  PetscReal *presses;    /* closed before the pressures were smoothed by pair_resolve.c */
-  PetscReal  young;      /* Young's modulus of the softer body [force/length^2] */
-  PetscReal *own;        /* size of the facets around the row [length] */
-  PetscReal *facing;     /* size of the mortar facets that the row faces [length] */
-  PetscReal *length;     /* facet size with which the row's gap is compared: the row's own, or that of the mortar
-                            side if only the mortar side's means are resolved [length] */
-  PetscBool  self;       /* both sides are the same face, which is in contact with itself */
-  PetscBool  frictional; /* the pair has friction */
-  PetscReal *slips;      /* 1 if the row slips, otherwise 0 */
-  PetscReal *shear,
-    *slid; /* friction stress on the mortar side [force/length^2]; slip [length]; component c of row A has the index
-              c n + A */
-  Mat shares, mortar; /* rows x nodes: the area that a row and a node share [length^2]; the same of the mortar side,
-                         if both sides are the same face */
-  Vec sides;          /* of each node: 1 on the mortar side, -1 on the nonmortar side, 0 elsewhere */
-  Vec row, node;      /* work vectors */
+  Vec       *value;          /* [ROW_VALUES] one value per row */
+  PetscReal *normal;         /* n, 3 numbers per row */
+  PetscReal  young;          /* Young's modulus of the softer body [force/length^2] */
+  PetscBool  self;           /* both sides are the same face, which is in contact with itself */
+  PetscBool  frictional;     /* the pair has friction */
+  Mat        shares, mortar; /* rows x nodes: the area that a row and a node share [length^2]; the same of the mortar
+                                side, if both sides are the same face */
+  Vec        sides;          /* of each node: 1 on the mortar side, -1 on the nonmortar side, 0 elsewhere */
+  Vec        gathered;       /* 1 at nodes of the mortar side, otherwise 0. All nodes of a face in contact with itself
+                                count as mortar nodes. */
 } PairRows;
 
-/* pair_rows.c. PairSpread(): value NULL: 1 */
+/* pair_rows.c */
 PETSC_INTERN PetscBool      PairIsClosed(PetscReal pressure, PetscReal gap, PetscReal young, PetscReal length);
 PETSC_INTERN PetscErrorCode PairRowsCreate(Simulation, PetscInt pair, PairRows *);
 PETSC_INTERN PetscErrorCode PairRowsDestroy(PairRows *);
-PETSC_INTERN PetscErrorCode PairSpread(const PairRows *, const PetscReal value[], Vec node);
-PETSC_INTERN PetscErrorCode PairGather(const PairRows *, Vec node, PetscReal value[]);
+PETSC_INTERN PetscErrorCode PairGather(const PairRows *, Vec node, Vec row);
 
 /* pair_resolve.c */
 PETSC_INTERN PetscErrorCode PairRowsResolve(Simulation, PetscInt pair, PairRows *);
