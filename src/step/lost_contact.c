@@ -198,11 +198,44 @@ static PetscErrorCode LostContactWarn(Simulation sim, ContactLinearization last,
 }
 
 /*
+   Rejects the solution u if a body with the arbitrary motion w is farther away from its last position than the bodies
+   are large, and than all other bodies have moved. The next position of such a body would be as arbitrary.
+*/
+static PetscErrorCode LostContactReject(Simulation sim, Vec w, Vec u, StepReport *report)
+{
+  const Scene scene = sim->scene;
+  PetscReal  *moved, *lost, extent, others = 0.0;
+  char        reason[256];
+  Vec         increment;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(scene->nbodies, &moved, scene->nbodies, &lost));
+  PetscCall(VecDuplicate(u, &increment));
+  PetscCall(VecWAXPY(increment, -1.0, sim->path->u, u));
+  PetscCall(VertexPlacesLargest(&sim->places, increment, scene->nbodies, moved));
+  PetscCall(VertexPlacesLargest(&sim->places, w, scene->nbodies, lost));
+  PetscCall(VecDestroy(&increment));
+  PetscCall(VecNorm(sim->places.x, NORM_INFINITY, &extent));
+  for (PetscInt b = 0; b < scene->nbodies; ++b)
+    if (!(lost[b] > 0.0)) others = PetscMax(others, moved[b]);
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    if (!(lost[b] > 0.0) || moved[b] <= PetscMax(others, 2.0 * extent)) continue;
+    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+      "body \"%s\" slips away by %g: it has lost contact, and nothing else holds it", scene->bodies[b].name,
+      (double)moved[b]));
+    PetscCall(ReportReason(report, PETSC_FALSE, reason));
+    break;
+  }
+  PetscCall(PetscFree2(moved, lost));
+  PetscFunctionReturn(0);
+}
+
+/*
    Collective. Moves bodies that have lost contact in the solution u to the nearest position to the last state, whose
    linearization is `last`. *at_u: linearization at u
 */
 PetscErrorCode LostContactSettle(const StepProblem *p, ContactLinearization last, Vec u, ContactSolution *sol,
-  ContactLinearization *at_u, const StepReport *report)
+  ContactLinearization *at_u, StepReport *report)
 {
   Simulation  sim = p->sim;
   FreeMotions m;
@@ -219,6 +252,7 @@ PetscErrorCode LostContactSettle(const StepProblem *p, ContactLinearization last
     PetscCall(LostContactFit(sim, &m, unheld, n, u, w));
     PetscCall(LostContactWarn(sim, last, w, u, report->step));
     PetscCall(LostContactMove(sim, w, u, sol));
+    PetscCall(LostContactReject(sim, w, u, report));
     PetscCall(ContactLinearizationDestroy(at_u));
     PetscCall(ContactUpdateLinearize(sim, p->time, u, PETSC_FALSE, at_u));
     PetscCall(VecDestroy(&w));

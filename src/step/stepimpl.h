@@ -24,7 +24,7 @@ PETSC_INTERN PetscErrorCode DualGapsAccept(Simulation, const StepReport *);
 
 /* lost_contact.c: places bodies that have lost contact */
 PETSC_INTERN PetscErrorCode LostContactSettle(const StepProblem *, ContactLinearization last, Vec u, ContactSolution *,
-  ContactLinearization *at_u, const StepReport *);
+  ContactLinearization *at_u, StepReport *);
 
 /* step.c: its functions are declared in step.h */
 

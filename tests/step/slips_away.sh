@@ -40,3 +40,30 @@ forces = [pair["normal_force"] for pair in load("wedge")["steps"][-1]["pairs"]]
 say("the forces are those of a wedge that stays", all(1 < f < 10 for f in forces), forces)
 PYTHON
 done
+
+# Jaws grip a block, turn, and open by that: it stays between them, and friction has no power any more
+cat > jaws.yaml <<'YAML'
+bodies:
+  - block: {lower: [-0.5, -0.5, -0.5], upper: [0.5, 0.5, 0.5], cells: [2, 2, 2], material: neohookean, young: 100,
+      poisson: 0.3}
+  - low: {lower: [-0.8, -0.8, -0.8], upper: [0.8, 0.8, -0.5], cells: [1, 1, 1], material: rigid}
+  - top: {lower: [-0.8, -0.8, 0.5], upper: [0.8, 0.8, 0.8], cells: [1, 1, 1], material: rigid}
+ramps: [press: {expression: 1}, turn: {factors: [0, 2, 4, 6, 7]}]
+displacements:
+  - up: {body: low, value: [0, 0, 0.02], ramp: press}
+  - down: {body: top, value: [0, 0, -0.02], ramp: press}
+  - one: {body: low, value: [0, 0, 0], rotation: [15, 0, 0], center: [0, 0, 0], ramp: turn}
+  - two: {body: top, value: [0, 0, 0], rotation: [15, 0, 0], center: [0, 0, 0], ramp: turn}
+contact:
+  - below: {mortar: low.zmax, nonmortar: block.zmin, friction: 0.5}
+  - above: {mortar: top.zmin, nonmortar: block.zmax, friction: 0.5}
+load: {steps: 5}
+YAML
+"$contact" jaws.yaml -quiet -error_estimate 0 -summary jaws.json > out 2>&1
+echo "jaws that open: exit $?, $(grep -o 'slips away in load step 4' out || echo no warning)"
+"$PYTHON" - <<'PYTHON'
+from summaries import load, say
+steps = load("jaws")["steps"]
+spent = [step["dissipated"] for step in steps]
+say("nothing is dissipated after that", abs(spent[4] - spent[3]) < 1e-6 * spent[3], spent)
+PYTHON
