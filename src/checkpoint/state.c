@@ -99,16 +99,16 @@ static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoin
 }
 
 /* Copies which pairs use dual functions to the checkpoint, or from there if `back` */
-static PetscErrorCode CheckpointCopyDualGaps(Simulation sim, Checkpoint checkpoint, PetscBool back)
+static PetscErrorCode CheckpointCopyDualGaps(Contact contact, Checkpoint checkpoint, PetscBool back)
 {
   ContactDualPairs dual;
   PetscBool        changed;
 
   PetscFunctionBegin;
-  if (!sim->contact) PetscFunctionReturn(0);
-  PetscCall(ContactGetDual(sim->contact, &dual));
+  if (!contact) PetscFunctionReturn(0);
+  PetscCall(ContactGetDual(contact, &dual));
   if (!back) checkpoint->dual_gaps = dual == CONTACT_DUAL_AUTO;
-  else if (checkpoint->dual_gaps > 0.0) PetscCall(ContactSetDual(sim->contact, CONTACT_DUAL_AUTO, &changed));
+  else if (checkpoint->dual_gaps > 0.0) PetscCall(ContactSetDual(contact, CONTACT_DUAL_AUTO, &changed));
   PetscFunctionReturn(0);
 }
 
@@ -144,7 +144,7 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
   (*checkpoint)->largest_increment = path->largest_increment;
   (*checkpoint)->work              = path->work;
   (*checkpoint)->contact_work      = path->contact_work;
-  PetscCall(CheckpointCopyDualGaps(sim, *checkpoint, PETSC_FALSE));
+  PetscCall(CheckpointCopyDualGaps(sim->contact, *checkpoint, PETSC_FALSE));
   PetscCall(PetscMalloc1(sim->bolts.n, &(*checkpoint)->shortening));
   PetscCall(PetscArraycpy((*checkpoint)->shortening, sim->bolts.shortening, sim->bolts.n));
   PetscCall(VecGetLocalSize(path->u, &n));
@@ -204,7 +204,7 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   path->largest_increment          = checkpoint->largest_increment;
   path->work                       = checkpoint->work;
   path->contact_work               = checkpoint->contact_work;
-  PetscCall(CheckpointCopyDualGaps(sim, checkpoint, PETSC_TRUE));
+  PetscCall(CheckpointCopyDualGaps(sim->contact, checkpoint, PETSC_TRUE));
   PetscCall(CheckpointGetVec(checkpoint, "displacement", path->u));
   PetscCall(CheckpointGetVec(checkpoint, "previous_displacement", path->previous_u));
   PetscCall(PetscArraycpy(sim->bolts.shortening, checkpoint->shortening, sim->bolts.n));
@@ -216,6 +216,6 @@ PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, Pe
   PetscCall(CheckpointGetPlastic(sim->scene, sim->comm, sim->elasticity, checkpoint));
   if (SimulationIsDynamic(sim)) PetscCall(CheckpointGetMotion(sim, checkpoint));
   PetscCall(ElasticityEnergy(sim->elasticity, path->u, &path->energy));
-  PetscCall(FrictionRecall(sim));
+  PetscCall(FrictionRecall(sim->history));
   PetscFunctionReturn(0);
 }

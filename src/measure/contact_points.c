@@ -16,9 +16,9 @@ typedef enum {
 } NodeSum;
 
 /* Computes the contact force on the nodes: J^T (mass x pressure) of the rows of the pair, and their friction */
-static PetscErrorCode PairPlaceForces(Simulation sim, PetscInt pair, const PairRows *rows, Vec force)
+static PetscErrorCode PairPlaceForces(ContactState *solved, PetscInt pair, const PairRows *rows, Vec force)
 {
-  ContactLinearization lin = sim->solved->linearization;
+  ContactLinearization lin = solved->linearization;
   const PetscScalar   *area;
   PetscScalar         *y;
   Vec                  own, shear;
@@ -27,7 +27,7 @@ static PetscErrorCode PairPlaceForces(Simulation sim, PetscInt pair, const PairR
   PetscCall(VecDuplicate(lin->mass, &own));
   PetscCall(VecGetArrayRead(rows->value[ROW_AREA], &area));
   PetscCall(VecGetArrayWrite(own, &y));
-  for (PetscInt r = 0; r < rows->n; ++r) y[r] = PetscRealPart(area[r]) > 0.0 ? sim->solved->pressure[r] : 0.0;
+  for (PetscInt r = 0; r < rows->n; ++r) y[r] = PetscRealPart(area[r]) > 0.0 ? solved->pressure[r] : 0.0;
   PetscCall(VecRestoreArrayWrite(own, &y));
   PetscCall(VecRestoreArrayRead(rows->value[ROW_AREA], &area));
   PetscCall(VecPointwiseMult(own, own, lin->mass));
@@ -36,7 +36,7 @@ static PetscErrorCode PairPlaceForces(Simulation sim, PetscInt pair, const PairR
   if (!rows->frictional) PetscFunctionReturn(0);
   PetscCall(MatCreateVecs(lin->slip, NULL, &shear));
   PetscCall(VecGetArrayWrite(shear, &y));
-  for (PetscInt k = 0; k < 2 * rows->n; ++k) y[k] = sim->solved->shear[k];
+  for (PetscInt k = 0; k < 2 * rows->n; ++k) y[k] = solved->shear[k];
   PetscCall(VecRestoreArrayWrite(shear, &y));
   PetscCall(FrictionAddForces(lin, lin->slip, shear, pair, force));
   PetscCall(VecDestroy(&shear));
@@ -57,7 +57,8 @@ static PetscErrorCode PairSum(Simulation sim, PetscInt pair, const PairRows *row
     else PetscCall(VecZeroEntries(sums[k]));
   }
   for (PetscInt k = 0; k <= ROW_PRESSURE; ++k) PetscCall(VecCopy(sums[k], sums[AT_ALONE + k]));
-  PetscCall(NodalPressureEvenOut(sim, &sim->scene->pairs[pair], facets, neven, sums, smooth));
+  PetscCall(NodalPressureEvenOut(sim->dm, sim->elasticity, &sim->places, &sim->scene->pairs[pair], facets, neven, sums,
+    smooth));
   PetscFunctionReturn(0);
 }
 
@@ -212,16 +213,16 @@ static PetscErrorCode PairMeasure(Simulation sim, PetscInt pair, const PetscReal
   PetscCall(VecGetArray(rows.value[ROW_STRETCH], &a));
   for (PetscInt r = 0; r < rows.n && stretch; ++r) a[r] = stretch[r];
   PetscCall(VecRestoreArray(rows.value[ROW_STRETCH], &a));
-  PetscCall(PairFacetsCreate(sim, &sim->scene->pairs[pair], &facets));
+  PetscCall(PairFacetsCreate(sim->comm, sim->dm, &sim->places, &sim->scene->pairs[pair], &facets));
   PetscCall(VecDuplicate(sim->path->u, &force));
   PetscCall(VecDuplicate(rows.sides, &closed));
   PetscCall(VecDuplicateVecs(rows.sides, AT_SUMS, &sums));
-  PetscCall(PairPlaceForces(sim, pair, &rows, force));
+  PetscCall(PairPlaceForces(sim->solved, pair, &rows, force));
   PetscCall(PairSum(sim, pair, &rows, &facets, sums));
   PetscCall(PairAppendPoints(sim, pair, &rows, (PetscBool)(stretch != NULL), sums, force, closed, areas));
   PetscCall(PairReportForce(sim->comm, &rows, areas, report));
   PetscCall(PairReportPressure(sim, first, report));
-  PetscCall(PairMeshMeasure(sim, &rows, &facets, closed, report));
+  PetscCall(PairMeshMeasure(sim->comm, &rows, &facets, closed, report));
   PetscCall(VecDestroyVecs(AT_SUMS, &sums));
   PetscCall(VecDestroy(&closed));
   PetscCall(VecDestroy(&force));

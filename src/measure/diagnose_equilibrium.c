@@ -60,22 +60,23 @@ static PetscErrorCode ConeDestroy(ContactCone *cone)
 }
 
 /* Linearizes contact at the last state, and computes the rates of the rows in the free motions */
-static PetscErrorCode ConeLinearize(Simulation sim, const FreeMotions *m, ConeKind kind, ConeRows *rows)
+static PetscErrorCode ConeLinearize(Contact contact, const VertexPlaces *places, LoadPath *path, const FreeMotions *m,
+  ConeKind kind, ConeRows *rows)
 {
   ContactDualPairs used;
   PetscReal        extent;
   PetscBool        changed;
 
   PetscFunctionBegin;
-  PetscCall(ContactGetDual(sim->contact, &used));
-  if (kind >= CONE_EDGES) PetscCall(ContactSetDual(sim->contact, CONTACT_DUAL_ALL, &changed));
+  PetscCall(ContactGetDual(contact, &used));
+  if (kind >= CONE_EDGES) PetscCall(ContactSetDual(contact, CONTACT_DUAL_ALL, &changed));
   if (kind == CONE_FAR) {
-    PetscCall(VecNorm(sim->places.x, NORM_INFINITY, &extent));
-    PetscCall(ContactSetReach(sim->contact, 2.0 * PetscSqrtReal(3.0) * extent, 0.0));
+    PetscCall(VecNorm(places->x, NORM_INFINITY, &extent));
+    PetscCall(ContactSetReach(contact, 2.0 * PetscSqrtReal(3.0) * extent, 0.0));
   }
-  PetscCall(ContactLinearize(sim->contact, sim->path->u, CONTACT_FORCES, &rows->lin));
-  PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
-  PetscCall(ContactSetDual(sim->contact, used, &changed));
+  PetscCall(ContactLinearize(contact, path->u, CONTACT_FORCES, &rows->lin));
+  PetscCall(ContactSetReach(contact, 0.0, 0.0));
+  PetscCall(ContactSetDual(contact, used, &changed));
   PetscCall(MatMatMult(rows->lin->J, m->Z, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &rows->gap));
   if (rows->lin->slip) PetscCall(MatMatMult(rows->lin->slip, m->Z, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &rows->slip));
   PetscFunctionReturn(0);
@@ -85,7 +86,7 @@ static PetscErrorCode ConeLinearize(Simulation sim, const FreeMotions *m, ConeKi
    Computes the force of local row r that does the most negative work on a motion: normal and shear force. Pairs that
    stick, or have a shear limit, allow any friction force. *rate: its work, negative
 */
-static PetscErrorCode ConeGetForce(Simulation sim, PetscReal time, const ConeRows *rows, PetscInt r,
+static PetscErrorCode ConeGetForce(Scene scene, PetscReal time, const ConeRows *rows, PetscInt r,
   const PetscReal motion[], PetscReal force[3], PetscReal *rate)
 {
   PetscReal slip[2] = {0.0, 0.0}, size, mu, shear;
@@ -98,7 +99,7 @@ static PetscErrorCode ConeGetForce(Simulation sim, PetscReal time, const ConeRow
     PetscCall(FreeMotionsGetRate(rows->slip, 2 * (first + r) + c, motion, &slip[c]));
   size     = PetscSqrtReal(slip[0] * slip[0] + slip[1] * slip[1]);
   force[0] = 1.0;
-  PetscCall(FrictionGetCoefficient(sim->scene, time, rows->lin->pair[r], &mu));
+  PetscCall(FrictionGetCoefficient(scene, time, rows->lin->pair[r], &mu));
   if (mu < PETSC_INFINITY) {
     shear = mu;
     *rate -= mu * size;
@@ -130,7 +131,7 @@ static PetscErrorCode ConeAddRow(Mat A, PetscInt row, PetscReal factor, PetscRea
    Appends the ray of the row whose force does the most negative work on a motion, the same on all ranks. *found: false
    if no force does at least the work `least`, which is negative; no ray is then appended
 */
-static PetscErrorCode ConeAppend(Simulation sim, PetscReal time, ContactCone *cone, const ConeRows *rows,
+static PetscErrorCode ConeAppend(MPI_Comm comm, Scene scene, PetscReal time, ContactCone *cone, const ConeRows *rows,
   const PetscReal motion[], PetscReal least, PetscBool *found)
 {
   const PetscInt n   = cone->n;
@@ -143,18 +144,18 @@ static PetscErrorCode ConeAppend(Simulation sim, PetscReal time, ContactCone *co
   } best = {(double)least, 0};
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(sim->comm, &rank));
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
   for (PetscInt r = 0; r < rows->lin->nlocal; ++r) {
     PetscReal own[3], rate;
 
-    PetscCall(ConeGetForce(sim, time, rows, r, motion, own, &rate));
+    PetscCall(ConeGetForce(scene, time, rows, r, motion, own, &rate));
     if (rate >= best.value) continue;
     best.value = (double)rate;
     row        = r;
     PetscCall(PetscArraycpy(force, own, 3));
   }
   best.rank = rank;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MINLOC, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MINLOC, comm));
   *found = (PetscBool)(best.value < least);
   if (!*found) PetscFunctionReturn(0);
   PetscCall(PetscArrayzero(ray, n));
@@ -166,8 +167,8 @@ static PetscErrorCode ConeAppend(Simulation sim, PetscReal time, ContactCone *co
     PetscCall(PetscArraycpy(ray, normal, n));
     for (PetscInt c = 0; c < 2 && rows->slip; ++c) PetscCall(ConeAddRow(rows->slip, 2 * row + c, force[1 + c], ray));
   }
-  PetscCallMPI(MPI_Bcast(ray, (PetscMPIInt)n, MPIU_REAL, best.rank, sim->comm));
-  PetscCallMPI(MPI_Bcast(normal, (PetscMPIInt)n, MPIU_REAL, best.rank, sim->comm));
+  PetscCallMPI(MPI_Bcast(ray, (PetscMPIInt)n, MPIU_REAL, best.rank, comm));
+  PetscCallMPI(MPI_Bcast(normal, (PetscMPIInt)n, MPIU_REAL, best.rank, comm));
   cone->amount[cone->nrays++] = 0.0;
   PetscFunctionReturn(0);
 }
@@ -336,9 +337,10 @@ static PetscErrorCode ConeProject(Simulation sim, PetscReal time, const FreeMoti
     PetscCall(ConeAdd(n, cone->nrays, cone->ray, 1.0, cone->amount, left));
     if (PetscSqrtReal(ConeDot(n, left, left)) <= negligible * size) break;
     for (ConeKind kind = CONE_NEAR; kind < CONE_KINDS && sim->contact && !found; ++kind) {
-      if (!cone->rows[kind].lin) PetscCall(ConeLinearize(sim, m, kind, &cone->rows[kind]));
-      PetscCall(
-        ConeAppend(sim, time, cone, &cone->rows[kind], left, -ConeDot(n, load, left) / (beyond * size), &found));
+      if (!cone->rows[kind].lin)
+        PetscCall(ConeLinearize(sim->contact, &sim->places, sim->path, m, kind, &cone->rows[kind]));
+      PetscCall(ConeAppend(sim->comm, sim->scene, time, cone, &cone->rows[kind], left,
+        -ConeDot(n, load, left) / (beyond * size), &found));
     }
     *none = (PetscBool)!found;
     if (found) PetscCall(ConeBalance(cone, load));

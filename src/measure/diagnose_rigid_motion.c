@@ -21,14 +21,15 @@ typedef struct {
 } RigidFit;
 
 /* Finds the body with the largest displacement component, and that component. Collective. */
-static PetscErrorCode RigidFitFindFarthest(Simulation sim, Vec u, PetscInt *farthest, PetscReal *distance)
+static PetscErrorCode RigidFitFindFarthest(Scene scene, const VertexPlaces *places, Vec u, PetscInt *farthest,
+  PetscReal *distance)
 {
-  const PetscInt nbodies = sim->scene->nbodies;
+  const PetscInt nbodies = scene->nbodies;
   PetscReal     *largest;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(nbodies, &largest));
-  PetscCall(VertexPlacesLargest(&sim->places, u, nbodies, largest));
+  PetscCall(VertexPlacesLargest(places, u, nbodies, largest));
   *farthest = 0;
   for (PetscInt b = 1; b < nbodies; ++b) {
     if (largest[b] > largest[*farthest]) *farthest = b;
@@ -38,7 +39,7 @@ static PetscErrorCode RigidFitFindFarthest(Simulation sim, Vec u, PetscInt *fart
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode RigidFitSum(Simulation sim, Vec u, PetscInt body, RigidFitSums *sums)
+static PetscErrorCode RigidFitSum(MPI_Comm comm, const VertexPlaces *places, Vec u, PetscInt body, RigidFitSums *sums)
 {
   const PetscScalar *x, *v;
   PetscInt           n;
@@ -46,14 +47,14 @@ static PetscErrorCode RigidFitSum(Simulation sim, Vec u, PetscInt body, RigidFit
   PetscFunctionBegin;
   PetscCall(PetscMemzero(sums, sizeof(*sums)));
   PetscCall(VecGetLocalSize(u, &n));
-  PetscCall(VecGetArrayRead(sim->places.x, &x));
+  PetscCall(VecGetArrayRead(places->x, &x));
   PetscCall(VecGetArrayRead(u, &v));
   for (PetscInt k = 0; k < n; k += 3) {
     const PetscReal X[3] = {PetscRealPart(x[k]), PetscRealPart(x[k + 1]), PetscRealPart(x[k + 2])};
     const PetscReal d[3] = {PetscRealPart(v[k]), PetscRealPart(v[k + 1]), PetscRealPart(v[k + 2])};
     PetscReal       moment[3];
 
-    if (sim->places.body[k / 3] != body) continue;
+    if (places->body[k / 3] != body) continue;
     VectorCross(X, d, moment);
     sums->n++;
     sums->square += VectorDot(d, d);
@@ -65,8 +66,8 @@ static PetscErrorCode RigidFitSum(Simulation sim, Vec u, PetscInt body, RigidFit
     }
   }
   PetscCall(VecRestoreArrayRead(u, &v));
-  PetscCall(VecRestoreArrayRead(sim->places.x, &x));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, sizeof(*sums) / sizeof(PetscReal), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCall(VecRestoreArrayRead(places->x, &x));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, sizeof(*sums) / sizeof(PetscReal), MPIU_REAL, MPIU_SUM, comm));
   PetscFunctionReturn(0);
 }
 
@@ -157,8 +158,8 @@ PetscErrorCode RigidMotionReport(Simulation sim, Vec u, const char known[], cons
   PetscBool    turns;
 
   PetscFunctionBegin;
-  PetscCall(RigidFitFindFarthest(sim, u, &body, &distance));
-  PetscCall(RigidFitSum(sim, u, body, &sums));
+  PetscCall(RigidFitFindFarthest(sim->scene, &sim->places, u, &body, &distance));
+  PetscCall(RigidFitSum(sim->comm, &sim->places, u, body, &sums));
   PetscCall(RigidFitDescribe(&sums, distance, motion, sizeof(motion), &turns));
   PetscCall(PetscSNPrintf(reason, sizeof(reason), "%s; body \"%s\" %s: %s%s", report->reason,
     sim->scene->bodies[body].name, motion, known, turns && turning ? turning : ""));

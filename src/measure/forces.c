@@ -16,23 +16,23 @@ typedef struct {
   const PetscScalar *x, *u, *force;
 } ForceField;
 
-static PetscErrorCode ForceFieldGet(Simulation sim, Vec u, Vec force, ForceField *field)
+static PetscErrorCode ForceFieldGet(const VertexPlaces *places, Vec u, Vec force, ForceField *field)
 {
   PetscFunctionBegin;
   PetscCall(VecGetOwnershipRange(force, &field->rstart, NULL));
   PetscCall(VecGetLocalSize(force, &field->n));
-  PetscCall(VecGetArrayRead(sim->places.x, &field->x));
+  PetscCall(VecGetArrayRead(places->x, &field->x));
   PetscCall(VecGetArrayRead(u, &field->u));
   PetscCall(VecGetArrayRead(force, &field->force));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ForceFieldRestore(Simulation sim, Vec u, Vec force, ForceField *field)
+static PetscErrorCode ForceFieldRestore(const VertexPlaces *places, Vec u, Vec force, ForceField *field)
 {
   PetscFunctionBegin;
   PetscCall(VecRestoreArrayRead(force, &field->force));
   PetscCall(VecRestoreArrayRead(u, &field->u));
-  PetscCall(VecRestoreArrayRead(sim->places.x, &field->x));
+  PetscCall(VecRestoreArrayRead(places->x, &field->x));
   PetscFunctionReturn(0);
 }
 
@@ -48,8 +48,8 @@ static void ForceSumAddRow(const ForceField *field, PetscInt i, PetscReal f, For
 }
 
 /* Adds the forces on a face, for the components that are true in component[] */
-static PetscErrorCode ForceSumAddFace(Simulation sim, const ForceField *field, const char face[],
-  const PetscBool component[3], ForceSum *sum)
+static PetscErrorCode ForceSumAddFace(DM dm, const ForceField *field, const char face[], const PetscBool component[3],
+  ForceSum *sum)
 {
   PetscFunctionBegin;
   for (PetscInt c = 0; c < 3; ++c) {
@@ -58,7 +58,7 @@ static PetscErrorCode ForceSumAddFace(Simulation sim, const ForceField *field, c
     PetscInt        n;
 
     if (!component[c]) continue;
-    PetscCall(MeshGetFaceDofs(sim->dm, face, c, &is));
+    PetscCall(MeshGetFaceDofs(dm, face, c, &is));
     PetscCall(ISGetLocalSize(is, &n));
     PetscCall(ISGetIndices(is, &rows));
     for (PetscInt k = 0; k < n; ++k) {
@@ -73,8 +73,8 @@ static PetscErrorCode ForceSumAddFace(Simulation sim, const ForceField *field, c
 }
 
 /* Adds the components of the forces on a face along a normal */
-static PetscErrorCode ForceSumAddPlane(Simulation sim, const ForceField *field, const char face[],
-  const PetscReal normal[3], ForceSum *sum)
+static PetscErrorCode ForceSumAddPlane(DM dm, const ForceField *field, const char face[], const PetscReal normal[3],
+  ForceSum *sum)
 {
   PetscReal       d[3];
   IS              is;
@@ -84,7 +84,7 @@ static PetscErrorCode ForceSumAddPlane(Simulation sim, const ForceField *field, 
   PetscFunctionBegin;
   PetscCall(PetscArraycpy(d, normal, 3));
   VectorScaleToUnit(d);
-  PetscCall(MeshGetFaceDofs(sim->dm, face, 0, &is));
+  PetscCall(MeshGetFaceDofs(dm, face, 0, &is));
   PetscCall(ISGetLocalSize(is, &n));
   PetscCall(ISGetIndices(is, &rows));
   for (PetscInt k = 0; k < n; ++k) {
@@ -153,15 +153,16 @@ PetscErrorCode ForcesFree(StepReport *report)
 }
 
 /* Adds the forces on a whole face */
-static PetscErrorCode ForcesAddFace(Simulation sim, const char face[], Vec u, Vec force, ForceSum *sum)
+static PetscErrorCode ForcesAddFace(DM dm, const VertexPlaces *places, const char face[], Vec u, Vec force,
+  ForceSum *sum)
 {
   static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
   ForceField             field;
 
   PetscFunctionBegin;
-  PetscCall(ForceFieldGet(sim, u, force, &field));
-  PetscCall(ForceSumAddFace(sim, &field, face, all, sum));
-  PetscCall(ForceFieldRestore(sim, u, force, &field));
+  PetscCall(ForceFieldGet(places, u, force, &field));
+  PetscCall(ForceSumAddFace(dm, &field, face, all, sum));
+  PetscCall(ForceFieldRestore(places, u, force, &field));
   PetscFunctionReturn(0);
 }
 
@@ -179,8 +180,8 @@ static PetscErrorCode ForcesMeasureSelf(Simulation sim, PetscInt pair, Vec u, Ve
   PetscCall(MatMultTranspose(lin->mortar, own, mortar));
   PetscCall(FrictionAddForces(lin, lin->mortar_slip, shear, pair, mortar));
   PetscCall(VecAXPY(force, -1.0, mortar));
-  PetscCall(ForcesAddFace(sim, face, u, force, &sides[0]));
-  PetscCall(ForcesAddFace(sim, face, u, mortar, &sides[1]));
+  PetscCall(ForcesAddFace(sim->dm, &sim->places, face, u, force, &sides[0]));
+  PetscCall(ForcesAddFace(sim->dm, &sim->places, face, u, mortar, &sides[1]));
   PetscCall(VecDestroy(&mortar));
   PetscFunctionReturn(0);
 }
@@ -210,8 +211,8 @@ static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Ve
   PetscCall(FrictionAddForces(lin, lin->slip, shear, pair, force));
   if (faces->self) PetscCall(ForcesMeasureSelf(sim, pair, u, own, shear, force, sides));
   else {
-    PetscCall(ForcesAddFace(sim, faces->nonmortar, u, force, &sides[0]));
-    PetscCall(ForcesAddFace(sim, faces->mortar, u, force, &sides[1]));
+    PetscCall(ForcesAddFace(sim->dm, &sim->places, faces->nonmortar, u, force, &sides[0]));
+    PetscCall(ForcesAddFace(sim->dm, &sim->places, faces->mortar, u, force, &sides[1]));
   }
   PetscCall(VecDestroy(&force));
   PetscCall(VecDestroy(&own));
@@ -248,16 +249,17 @@ PetscErrorCode ForcesMeasurePairs(Simulation sim, Vec u, Vec weighted, Vec shear
 }
 
 /* Adds the forces at all nodes of a rigid body that forces drive to *sum, and sets them to zero in `rigid` */
-static PetscErrorCode ForcesTakeAll(Simulation sim, Vec u, Vec rigid, const char face[], ForceSum *sum)
+static PetscErrorCode ForcesTakeAll(DM dm, const VertexPlaces *places, Vec u, Vec rigid, const char face[],
+  ForceSum *sum)
 {
   PetscFunctionBegin;
-  PetscCall(ForcesAddFace(sim, face, u, rigid, sum));
+  PetscCall(ForcesAddFace(dm, places, face, u, rigid, sum));
   for (PetscInt c = 0; c < 3; ++c) {
     IS              is;
     const PetscInt *rows;
     PetscInt        n;
 
-    PetscCall(MeshGetFaceDofs(sim->dm, face, c, &is));
+    PetscCall(MeshGetFaceDofs(dm, face, c, &is));
     PetscCall(ISGetLocalSize(is, &n));
     PetscCall(ISGetIndices(is, &rows));
     for (PetscInt k = 0; k < n; ++k) PetscCall(VecSetValue(rigid, rows[k], 0.0, INSERT_VALUES));
@@ -279,20 +281,21 @@ static PetscErrorCode ForcesSumFaces(Simulation sim, Vec u, Vec reaction, Vec ti
 
   PetscFunctionBegin;
   PetscCall(FaceForcesDivide(&constraints, reaction, ties, &shares));
-  PetscCall(ForceFieldGet(sim, u, shares, &field));
+  PetscCall(ForceFieldGet(&sim->places, u, shares, &field));
   for (PetscInt i = 0; i < sim->scene->ndisplacements; ++i) {
     const SceneDisplacement *d   = &sim->scene->displacements[i];
     ForceSum                *sum = &sums[ForcesFindFace(report, d->face)];
 
-    PetscCall(ForceSumAddFace(sim, &field, d->face, d->fixed, sum));
-    if (d->inclined) PetscCall(ForceSumAddPlane(sim, &field, d->face, d->normal, sum));
+    PetscCall(ForceSumAddFace(sim->dm, &field, d->face, d->fixed, sum));
+    if (d->inclined) PetscCall(ForceSumAddPlane(sim->dm, &field, d->face, d->normal, sum));
   }
-  PetscCall(ForceFieldRestore(sim, u, shares, &field));
+  PetscCall(ForceFieldRestore(&sim->places, u, shares, &field));
   PetscCall(VecDestroy(&shares));
   for (PetscInt i = 0; rigid && i < sim->scene->ndisplacements; ++i) {
     const SceneDisplacement *d = &sim->scene->displacements[i];
 
-    if (d->moves) PetscCall(ForcesTakeAll(sim, u, rigid, d->face, &sums[ForcesFindFace(report, d->face)]));
+    if (d->moves)
+      PetscCall(ForcesTakeAll(sim->dm, &sim->places, u, rigid, d->face, &sums[ForcesFindFace(report, d->face)]));
   }
   PetscFunctionReturn(0);
 }
@@ -366,13 +369,13 @@ static PetscErrorCode ForcesAddToBody(BodyReport *body, PetscReal sum[3], const 
 }
 
 /* Adds forces at nodes to the bodies' sums at this offset in the reports */
-static PetscErrorCode ForcesAddToBodies(Simulation sim, Vec forces, size_t offset, StepReport *report)
+static PetscErrorCode ForcesAddToBodies(const VertexPlaces *places, Vec forces, size_t offset, StepReport *report)
 {
   PetscReal *sums;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(4 * report->nbodies, &sums));
-  PetscCall(VertexPlacesSumForces(&sim->places, forces, forces, report->nbodies, sums));
+  PetscCall(VertexPlacesSumForces(places, forces, forces, report->nbodies, sums));
   for (PetscInt b = 0; b < report->nbodies; ++b) {
     BodyReport *body = &report->bodies[b];
 
@@ -389,7 +392,7 @@ static PetscErrorCode ForcesSumSprings(Simulation sim, Vec u, StepReport *report
   PetscFunctionBegin;
   PetscCall(SpringsMeasure(&sim->springs, u, &forces, &report->weak_spring_force));
   PetscCall(ForcesMeasureConnectors(sim, u, report));
-  PetscCall(ForcesAddToBodies(sim, forces, offsetof(BodyReport, springs), report));
+  PetscCall(ForcesAddToBodies(&sim->places, forces, offsetof(BodyReport, springs), report));
   PetscCall(VecDestroy(&forces));
   PetscFunctionReturn(0);
 }
@@ -415,9 +418,9 @@ PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, Pe
 
     PetscCall(ForcesAddToBody(body, body->reaction, report->faces[f].reaction, report->faces[f].size));
   }
-  if (load) PetscCall(ForcesAddToBodies(sim, load, offsetof(BodyReport, load), report));
+  if (load) PetscCall(ForcesAddToBodies(&sim->places, load, offsetof(BodyReport, load), report));
   if (sim->springs.stiffness) PetscCall(ForcesSumSprings(sim, u, report));
-  if (ties) PetscCall(ForcesAddToBodies(sim, ties, offsetof(BodyReport, ties), report));
+  if (ties) PetscCall(ForcesAddToBodies(&sim->places, ties, offsetof(BodyReport, ties), report));
   report->balance = 0.0;
   for (PetscInt b = 0; b < report->nbodies; ++b) largest = PetscMax(largest, report->bodies[b].balance);
   for (PetscInt b = 0; b < report->nbodies; ++b) {

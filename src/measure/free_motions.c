@@ -48,26 +48,27 @@ static PetscErrorCode FreeMotionsCreateModes(Simulation sim, Vec places, Mat *mo
 }
 
 /* Creates a vector with 1 in rows that are prescribed or have a spring that is not weak, and 0 in the others */
-static PetscErrorCode FreeMotionsMarkResisted(Simulation sim, Vec *resisted)
+static PetscErrorCode FreeMotionsMarkResisted(const VertexPlaces *places, const Springs *springs,
+  const Prescribed *prescribed, Vec *resisted)
 {
   const PetscScalar *k, *weak = NULL;
   PetscScalar       *a;
   PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(sim->places.x, resisted));
+  PetscCall(VecDuplicate(places->x, resisted));
   PetscCall(VecZeroEntries(*resisted));
-  PetscCall(PrescribedSet(&sim->prescribed, 1.0, *resisted));
-  if (!sim->springs.stiffness) PetscFunctionReturn(0);
+  PetscCall(PrescribedSet(prescribed, 1.0, *resisted));
+  if (!springs->stiffness) PetscFunctionReturn(0);
   PetscCall(VecGetLocalSize(*resisted, &n));
   PetscCall(VecGetArray(*resisted, &a));
-  PetscCall(VecGetArrayRead(sim->springs.stiffness, &k));
-  if (sim->springs.weak) PetscCall(VecGetArrayRead(sim->springs.weak, &weak));
+  PetscCall(VecGetArrayRead(springs->stiffness, &k));
+  if (springs->weak) PetscCall(VecGetArrayRead(springs->weak, &weak));
   for (PetscInt i = 0; i < n; ++i) {
     if (PetscRealPart(k[i]) > (weak ? PetscRealPart(weak[i]) : 0.0)) a[i] = 1.0;
   }
-  if (weak) PetscCall(VecRestoreArrayRead(sim->springs.weak, &weak));
-  PetscCall(VecRestoreArrayRead(sim->springs.stiffness, &k));
+  if (weak) PetscCall(VecRestoreArrayRead(springs->weak, &weak));
+  PetscCall(VecRestoreArrayRead(springs->stiffness, &k));
   PetscCall(VecRestoreArray(*resisted, &a));
   PetscFunctionReturn(0);
 }
@@ -93,7 +94,7 @@ static PetscErrorCode FreeMotionsMeasureResistance(Simulation sim, Mat modes, Ma
   PetscReal size;
 
   PetscFunctionBegin;
-  PetscCall(FreeMotionsMarkResisted(sim, &resisted));
+  PetscCall(FreeMotionsMarkResisted(&sim->places, &sim->springs, &sim->prescribed, &resisted));
   PetscCall(MatDuplicate(modes, MAT_COPY_VALUES, &part));
   PetscCall(MatDiagonalScale(part, resisted, NULL));
   PetscCall(VecDestroy(&resisted));
@@ -176,20 +177,21 @@ static PetscErrorCode FreeMotionsSolveGroup(Mat resistance, PetscInt nbodies, co
 }
 
 /* Creates the matrix whose columns are the free motions as combinations of the modes */
-static PetscErrorCode FreeMotionsCombine(Simulation sim, Mat modes, Mat resistance, PetscInt *n, Mat *combined)
+static PetscErrorCode FreeMotionsCombine(MPI_Comm comm, Scene scene, Mat modes, Mat resistance, PetscInt *n,
+  Mat *combined)
 {
-  const PetscInt nbodies = sim->scene->nbodies;
+  const PetscInt nbodies = scene->nbodies;
   PetscInt      *group, *member, nmembers, nmotions, local;
   PetscReal     *motion;
   PetscMPIInt    rank;
 
   PetscFunctionBegin;
   *n = 0;
-  PetscCallMPI(MPI_Comm_rank(sim->comm, &rank));
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCall(PetscMalloc2(nbodies, &group, nbodies, &member));
   PetscCall(FreeMotionsGroup(resistance, nbodies, group));
   PetscCall(MatGetLocalSize(modes, NULL, &local));
-  PetscCall(MatCreate(sim->comm, combined));
+  PetscCall(MatCreate(comm, combined));
   PetscCall(MatSetSizes(*combined, local, PETSC_DECIDE, PETSC_DETERMINE, 6 * nbodies));
   PetscCall(MatSetType(*combined, MATAIJ));
   PetscCall(MatSetUp(*combined));
@@ -229,7 +231,7 @@ PetscErrorCode FreeMotionsCreate(Simulation sim, FreeMotions *m)
   PetscCall(VecDestroy(&places));
   PetscCall(FreeMotionsMeasureResistance(sim, modes, &resistance));
   m->comm = sim->comm;
-  PetscCall(FreeMotionsCombine(sim, modes, resistance, &m->n, &combined));
+  PetscCall(FreeMotionsCombine(sim->comm, sim->scene, modes, resistance, &m->n, &combined));
   PetscCall(MatMatMult(modes, combined, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &m->Z));
   PetscCall(MatDestroy(&combined));
   PetscCall(MatDestroy(&resistance));

@@ -342,9 +342,9 @@ PetscErrorCode FrictionSettle(Simulation sim, PetscReal time, Vec u, const Conta
 }
 
 /* After a restart, sets the friction forces of the last solve to those of the checkpoint */
-PetscErrorCode FrictionRecall(Simulation sim)
+PetscErrorCode FrictionRecall(ContactHistory *history)
 {
-  ContactHistory *m = sim->history;
+  ContactHistory *m = history;
 
   PetscFunctionBegin;
   if (m->settled) PetscCall(PetscArraycpy(m->shear, m->settled, 3 * m->npairs * m->nowned));

@@ -66,10 +66,10 @@ static PetscErrorCode StartMeasure(MPI_Comm comm, ContactLinearization lin, Pets
    Sets the overlap of pairs with dual shape functions to zero if no vertex of either face is in the other body. These
    functions have negative values, so that their gap to a curved face may be negative where the faces only touch.
 */
-static PetscErrorCode StartClearDual(Simulation sim, PairStart starts[])
+static PetscErrorCode StartClearDual(Scene scene, Contact contact, LoadPath *path, PairStart starts[])
 {
-  const SceneContactPair *pairs  = sim->scene->pairs;
-  const PetscInt          npairs = sim->scene->npairs;
+  const SceneContactPair *pairs  = scene->pairs;
+  const PetscInt          npairs = scene->npairs;
   PetscReal              *depth, *rounding;
   PetscBool              *within, any = PETSC_FALSE;
 
@@ -78,7 +78,7 @@ static PetscErrorCode StartClearDual(Simulation sim, PairStart starts[])
   if (!any) PetscFunctionReturn(0);
   PetscCall(PetscMalloc2(npairs, &depth, npairs, &rounding));
   PetscCall(PetscCalloc1(npairs, &within));
-  PetscCall(ContactGetPenetration(sim->contact, sim->path->u, within, depth, rounding));
+  PetscCall(ContactGetPenetration(contact, path->u, within, depth, rounding));
   for (PetscInt p = 0; p < npairs; ++p) {
     if (pairs[p].gap == GAP_DUAL && depth[p] <= rounding[p] + START_ROUNDING * PetscSqrtReal(starts[p].area))
       starts[p].overlap = 0.0;
@@ -182,7 +182,7 @@ PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(scene->npairs, &starts));
   PetscCall(StartMeasure(sim->comm, lin, scene->npairs, starts));
-  PetscCall(StartClearDual(sim, starts));
+  PetscCall(StartClearDual(sim->scene, sim->contact, sim->path, starts));
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *pair   = &scene->pairs[p];
     const char             *wanted = StartJudge(pair, &starts[p]);

@@ -11,7 +11,7 @@
    Computes the magnitude of the sum of the contact forces on both sides, q = J_full^T M z, relative to the sum of their
    magnitudes. It is zero if action equals reaction.
 */
-static PetscErrorCode MeasureActionReaction(Simulation sim, Vec q, StepReport *report)
+static PetscErrorCode MeasureActionReaction(MPI_Comm comm, Vec q, StepReport *report)
 {
   const PetscScalar *a;
   PetscReal          sums[4] = {0, 0, 0, 0}; /* sum of the forces; sum of the magnitudes of the forces at vertices */
@@ -27,7 +27,7 @@ static PetscErrorCode MeasureActionReaction(Simulation sim, Vec q, StepReport *r
     sums[3] += VectorNorm(f);
   }
   PetscCall(VecRestoreArrayRead(q, &a));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, comm));
   report->action_reaction = sums[3] > 0.0 ? VectorNorm(sums) / sums[3] : 0.0;
   PetscFunctionReturn(0);
 }
@@ -151,16 +151,16 @@ static PetscErrorCode MeasureAddMultipliers(Simulation sim, Vec contact, Vec for
 }
 
 /* Reports the plastic work separately from the energy, and the largest plastic strain of each body */
-static PetscErrorCode MeasurePlastic(Simulation sim, StepReport *report)
+static PetscErrorCode MeasurePlastic(Scene scene, Elasticity elasticity, StepReport *report)
 {
   PetscReal *largest;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(sim->scene->nbodies, &largest));
-  PetscCall(ElasticityPlasticWork(sim->elasticity, &report->plastic_work, largest));
+  PetscCall(PetscMalloc1(scene->nbodies, &largest));
+  PetscCall(ElasticityPlasticWork(elasticity, &report->plastic_work, largest));
   report->energy -= report->plastic_work;
   report->plastic_strain = 0.0;
-  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
     report->bodies[b].plastic_strain = largest[b];
     report->plastic_strain           = PetscMax(report->plastic_strain, largest[b]);
   }
@@ -186,7 +186,7 @@ static PetscErrorCode MeasureContact(Simulation sim, PetscReal time, Vec u, cons
   PetscCall(FrictionAddForces(lin, lin->slip, sol->shear, PETSC_DECIDE, *contact));
   PetscCall(ForcesMeasurePairs(sim, u, *weighted, sol->shear, report));
   PetscCall(FrictionMeasure(sim, time, u, sol, report, late));
-  PetscCall(MeasureActionReaction(sim, *contact, report));
+  PetscCall(MeasureActionReaction(sim->comm, *contact, report));
   PetscFunctionReturn(0);
 }
 
@@ -206,7 +206,7 @@ static PetscErrorCode MeasureForces(Simulation sim, PetscReal time, Vec load, Ve
   PetscCall(ForcesReserve(sim, report));
   PetscCall(VecDuplicate(u, &force));
   PetscCall(ElasticityEnergy(sim->elasticity, u, &report->energy));
-  PetscCall(MeasurePlastic(sim, report));
+  PetscCall(MeasurePlastic(sim->scene, sim->elasticity, report));
   PetscCall(ElasticityForce(sim->elasticity, u, force));
   PetscCall(VecNorm(force, NORM_2, &size));
   *moves = (PetscBool)(size <= rounding);

@@ -15,7 +15,7 @@ PETSC_INTERN PetscErrorCode FrictionAddForces(ContactLinearization, Mat slip, Ve
 PETSC_INTERN PetscErrorCode FrictionMeasure(Simulation, PetscReal time, Vec u, const ContactSolution *, StepReport *,
   PetscReal *late);
 PETSC_INTERN PetscErrorCode FrictionSettle(Simulation, PetscReal time, Vec u, const ContactSolution *);
-PETSC_INTERN PetscErrorCode FrictionRecall(Simulation);
+PETSC_INTERN PetscErrorCode FrictionRecall(ContactHistory *);
 
 /* diagnose_rigid_motion.c */
 PETSC_INTERN PetscErrorCode RigidMotionReport(Simulation, Vec u, const char known[], const char turning[],

@@ -45,7 +45,8 @@ static PetscErrorCode FacetsAddFace(DM dm, const char face[], PairFacets *facets
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode PairFacetsCreate(Simulation sim, const SceneContactPair *pair, PairFacets *facets)
+PetscErrorCode PairFacetsCreate(MPI_Comm comm, DM dm, const VertexPlaces *places, const SceneContactPair *pair,
+  PairFacets *facets)
 {
   ISLocalToGlobalMapping map;
   const PetscInt        *global;
@@ -53,20 +54,20 @@ PetscErrorCode PairFacetsCreate(Simulation sim, const SceneContactPair *pair, Pa
 
   PetscFunctionBegin;
   *facets = (PairFacets){0};
-  PetscCall(FacetsAddFace(sim->dm, pair->nonmortar, facets));
+  PetscCall(FacetsAddFace(dm, pair->nonmortar, facets));
   facets->nnonmortar = facets->n;
-  if (!pair->self) PetscCall(FacetsAddFace(sim->dm, pair->mortar, facets));
+  if (!pair->self) PetscCall(FacetsAddFace(dm, pair->mortar, facets));
   PetscCall(PetscMalloc1(16 * facets->n, &facets->value));
   PetscCall(PetscMalloc2(16 * facets->n, &row, 16 * facets->n, &column));
-  PetscCall(DMGetLocalToGlobalMapping(sim->dm, &map));
+  PetscCall(DMGetLocalToGlobalMapping(dm, &map));
   PetscCall(ISLocalToGlobalMappingGetIndices(map, &global));
   for (PetscInt k = 0; k < 16 * facets->n; ++k) {
     row[k]    = global[facets->offset[k / 4]] / 3;
     column[k] = global[facets->offset[4 * (k / 16) + k % 4]] / 3;
   }
   PetscCall(ISLocalToGlobalMappingRestoreIndices(map, &global));
-  PetscCall(VecGetLocalSize(sim->places.x, &n));
-  PetscCall(MatCreate(sim->comm, &facets->between));
+  PetscCall(VecGetLocalSize(places->x, &n));
+  PetscCall(MatCreate(comm, &facets->between));
   PetscCall(MatSetSizes(facets->between, n / 3, n / 3, PETSC_DETERMINE, PETSC_DETERMINE));
   PetscCall(MatSetType(facets->between, MATAIJ));
   PetscCall(MatSetPreallocationCOO(facets->between, 16 * facets->n, row, column));
@@ -94,14 +95,15 @@ PetscErrorCode PairFacetsJoin(PairFacets *facets, PetscInt n)
 }
 
 /* Computes the area of faces around each of their nodes [length^2] */
-PetscErrorCode PairFacetsMeasure(Simulation sim, PetscInt nfaces, const char *const faces[], Vec size)
+PetscErrorCode PairFacetsMeasure(Elasticity elasticity, const VertexPlaces *places, PetscInt nfaces,
+  const char *const faces[], Vec size)
 {
   Vec areas;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(sim->places.x, &areas));
+  PetscCall(VecDuplicate(places->x, &areas));
   PetscCall(VecZeroEntries(areas));
-  for (PetscInt k = 0; k < nfaces; ++k) PetscCall(ElasticityAddFacetAreas(sim->elasticity, faces[k], areas));
+  for (PetscInt k = 0; k < nfaces; ++k) PetscCall(ElasticityAddFacetAreas(elasticity, faces[k], areas));
   PetscCall(VecPointwiseMult(areas, areas, areas));
   for (PetscInt c = 0; c < 3; ++c) PetscCall(VecStrideGather(areas, c, size, c ? ADD_VALUES : INSERT_VALUES));
   PetscCall(VecSqrtAbs(size));
@@ -235,8 +237,8 @@ static PetscErrorCode CoverCouple(DM dm, PairFacets *facets, Vec edge, Vec area)
    values: n vectors of sums over the covered area of each vertex; the first is this area
    smooth: of each vector, whether it is smoothed
 */
-PetscErrorCode NodalPressureEvenOut(Simulation sim, const SceneContactPair *pair, PairFacets *facets, PetscInt n,
-  Vec values[], const PetscBool smooth[])
+PetscErrorCode NodalPressureEvenOut(DM dm, Elasticity elasticity, const VertexPlaces *places,
+  const SceneContactPair *pair, PairFacets *facets, PetscInt n, Vec values[], const PetscBool smooth[])
 {
   const char *const faces[2] = {pair->nonmortar, pair->mortar};
   Vec               cover, edge, mean;
@@ -245,11 +247,11 @@ PetscErrorCode NodalPressureEvenOut(Simulation sim, const SceneContactPair *pair
   PetscCall(VecDuplicate(values[0], &cover));
   PetscCall(VecDuplicate(values[0], &edge));
   PetscCall(VecDuplicate(values[0], &mean));
-  PetscCall(PairFacetsMeasure(sim, pair->self ? 1 : 2, faces, cover));
+  PetscCall(PairFacetsMeasure(elasticity, places, pair->self ? 1 : 2, faces, cover));
   PetscCall(VecPointwiseDivide(cover, values[0], cover)); /* 0 at vertices without facets */
-  PetscCall(CoverAgglomerate(sim->dm, facets, cover, n, values));
+  PetscCall(CoverAgglomerate(dm, facets, cover, n, values));
   PetscCall(CoverFindEdge(facets, cover, edge));
-  PetscCall(CoverCouple(sim->dm, facets, edge, values[0]));
+  PetscCall(CoverCouple(dm, facets, edge, values[0]));
   for (PetscInt k = 0; k < n * cover_exchanges; ++k) {
     if (!smooth[k % n]) continue;
     PetscCall(VecPointwiseDivide(mean, values[k % n], values[0]));

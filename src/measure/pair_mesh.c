@@ -69,10 +69,10 @@ static PetscErrorCode PairMeasureNarrowness(PairFacets *facets, Vec closed, Pets
 }
 
 /* Sets facet size, coarseness and narrowness in the pair's report. Collective. */
-PetscErrorCode PairMeshMeasure(Simulation sim, const PairRows *rows, PairFacets *facets, Vec closed, PairReport *report)
+PetscErrorCode PairMeshMeasure(MPI_Comm comm, const PairRows *rows, PairFacets *facets, Vec closed, PairReport *report)
 {
   PetscFunctionBegin;
-  PetscCall(PairMeasureFacets(sim->comm, rows, &report->facet, &report->coarseness));
+  PetscCall(PairMeasureFacets(comm, rows, &report->facet, &report->coarseness));
   PetscCall(PairMeasureNarrowness(facets, closed, &report->narrow));
   PetscFunctionReturn(0);
 }

@@ -41,7 +41,8 @@ static PetscErrorCode ResolveMean(const PairRows *rows, Vec mark, Vec value, Vec
 
 /* Computes the undeformed coordinates of the rows' vertices relative to the mean of all, and the sum of their squares
    [length; length^2]. place[4]: a work vector */
-static PetscErrorCode ResolvePlaces(Simulation sim, const PairRows *rows, Vec place[5])
+static PetscErrorCode ResolvePlaces(DM dm, const VertexPlaces *places, ContactState *solved, const PairRows *rows,
+  Vec place[5])
 {
   PetscSection       global;
   const PetscScalar *x;
@@ -49,16 +50,16 @@ static PetscErrorCode ResolvePlaces(Simulation sim, const PairRows *rows, Vec pl
   PetscInt           first, i;
 
   PetscFunctionBegin;
-  PetscCall(DMGetGlobalSection(sim->dm, &global));
-  PetscCall(VecGetOwnershipRange(sim->places.x, &first, NULL));
-  PetscCall(VecGetArrayRead(sim->places.x, &x));
+  PetscCall(DMGetGlobalSection(dm, &global));
+  PetscCall(VecGetOwnershipRange(places->x, &first, NULL));
+  PetscCall(VecGetArrayRead(places->x, &x));
   PetscCall(VecGetArrays(place, 3, &a));
   for (PetscInt r = 0; r < rows->n; ++r) {
-    PetscCall(PetscSectionGetOffset(global, sim->solved->linearization->vertex[r], &i));
+    PetscCall(PetscSectionGetOffset(global, solved->linearization->vertex[r], &i));
     for (PetscInt c = 0; c < 3; ++c) a[c][r] = x[i - first + c];
   }
   PetscCall(VecRestoreArrays(place, 3, &a));
-  PetscCall(VecRestoreArrayRead(sim->places.x, &x));
+  PetscCall(VecRestoreArrayRead(places->x, &x));
   PetscCall(VecSum(rows->value[ROW_AREA], &all));
   PetscCall(VecZeroEntries(place[3]));
   for (PetscInt c = 0; c < 3; ++c) {
@@ -83,7 +84,7 @@ static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, Vec 
   PetscFunctionBegin;
   PetscCall(VecDuplicateVecs(open, 5, &place));
   PetscCall(VecDuplicateVecs(open, 7, &mean)); /* of all rows: places and squares; of closed rows: places */
-  PetscCall(ResolvePlaces(sim, rows, place));
+  PetscCall(ResolvePlaces(sim->dm, &sim->places, sim->solved, rows, place));
   for (PetscInt c = 0; c < 7; ++c)
     PetscCall(ResolveMean(rows, c < 4 ? covered : rows->value[ROW_CLOSED], place[c % 4], mean[c]));
   PetscCall(VecGetArrays(mean, 7, &m));
@@ -197,7 +198,7 @@ PetscErrorCode PairRowsResolve(Simulation sim, PetscInt pair, PairRows *rows)
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(rows->sides, &size));
-  PetscCall(PairFacetsMeasure(sim, 1, &mortar, size));
+  PetscCall(PairFacetsMeasure(sim->elasticity, &sim->places, 1, &mortar, size));
   PetscCall(VecSqrtAbs(size));
   PetscCall(PairGather(rows, size, rows->value[ROW_FACING]));
   PetscCall(VecDestroy(&size));

@@ -220,7 +220,7 @@ static PetscErrorCode PairRowsSetFriction(Simulation sim, PetscInt pair, const P
 }
 
 /* Sets the values of the rows, except those of friction, from w n (`force`) and normal x |mass_A sum of cover_AB| */
-static void PairRowsSet(Simulation sim, const PetscScalar mass[], const PetscReal force[], PairRows *rows,
+static void PairRowsSet(ContactState *solved, const PetscScalar mass[], const PetscReal force[], PairRows *rows,
   PetscScalar *a[])
 {
   for (PetscInt r = 0; r < rows->n; ++r) {
@@ -229,12 +229,12 @@ static void PairRowsSet(Simulation sim, const PetscScalar mass[], const PetscRea
     if (!(size > 0.0)) continue;
     a[ROW_AREA][r]     = VectorNorm(&force[3 * r]);
     a[ROW_COVERED][r]  = a[ROW_AREA][r] / size;
-    a[ROW_PRESSURE][r] = sim->solved->pressure[r];
+    a[ROW_PRESSURE][r] = solved->pressure[r];
     a[ROW_LENGTH][r] = a[ROW_OWN][r] = PetscSqrtReal(PetscRealPart(mass[r]));
-    a[ROW_GAP][r]                    = sim->solved->gap[r] * mass[r] / size;
+    a[ROW_GAP][r]                    = solved->gap[r] * mass[r] / size;
     for (PetscInt c = 0; c < 3; ++c) normal[c] /= size;
-    if (PetscRealPart(a[ROW_AREA][r]) > 0.0 && PairIsClosed(sim->solved->pressure[r], PetscRealPart(a[ROW_GAP][r]),
-                                                 rows->young, PetscRealPart(a[ROW_LENGTH][r])))
+    if (PetscRealPart(a[ROW_AREA][r]) > 0.0 &&
+        PairIsClosed(solved->pressure[r], PetscRealPart(a[ROW_GAP][r]), rows->young, PetscRealPart(a[ROW_LENGTH][r])))
       a[ROW_CLOSED][r] = a[ROW_PRESSES][r] = 1.0;
   }
 }
@@ -261,7 +261,7 @@ PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
   PetscCall(PairRowsSum(sim, pair, rows->self ? lin->mortar : lin->J, 0, force));
   PetscCall(VecGetArrayRead(lin->mass, &mass));
   PetscCall(VecGetArrays(rows->value, ROW_VALUES, &a));
-  PairRowsSet(sim, mass, force, rows, a);
+  PairRowsSet(sim->solved, mass, force, rows, a);
   if (rows->frictional) PetscCall(PairRowsSetFriction(sim, pair, mass, rows, a));
   PetscCall(VecRestoreArrays(rows->value, ROW_VALUES, &a));
   PetscCall(VecRestoreArrayRead(lin->mass, &mass));

@@ -64,14 +64,16 @@ typedef struct {
   Mat          between; /* nodes x nodes */
 } PairFacets;
 
-PETSC_INTERN PetscErrorCode PairFacetsCreate(Simulation, const SceneContactPair *, PairFacets *);
+PETSC_INTERN PetscErrorCode PairFacetsCreate(MPI_Comm, DM, const VertexPlaces *, const SceneContactPair *,
+  PairFacets *);
 PETSC_INTERN PetscErrorCode PairFacetsDestroy(PairFacets *);
-PETSC_INTERN PetscErrorCode PairFacetsMeasure(Simulation, PetscInt nfaces, const char *const faces[], Vec size);
+PETSC_INTERN PetscErrorCode PairFacetsMeasure(Elasticity, const VertexPlaces *, PetscInt nfaces,
+  const char *const faces[], Vec size);
 PETSC_INTERN PetscErrorCode PairFacetsJoin(PairFacets *, PetscInt n);
-PETSC_INTERN PetscErrorCode NodalPressureEvenOut(Simulation, const SceneContactPair *, PairFacets *, PetscInt n,
-  Vec values[], const PetscBool smooth[]);
+PETSC_INTERN PetscErrorCode NodalPressureEvenOut(DM, Elasticity, const VertexPlaces *, const SceneContactPair *,
+  PairFacets *, PetscInt n, Vec values[], const PetscBool smooth[]);
 
 /* pair_mesh.c. closed: 1 at nodes that are closed, otherwise 0 */
-PETSC_INTERN PetscErrorCode PairMeshMeasure(Simulation, const PairRows *, PairFacets *, Vec closed, PairReport *);
+PETSC_INTERN PetscErrorCode PairMeshMeasure(MPI_Comm, const PairRows *, PairFacets *, Vec closed, PairReport *);
 
 #endif

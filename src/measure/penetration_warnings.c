@@ -43,9 +43,9 @@ static PetscBool PenetrationIsMeant(const SceneContactPair *pair, const StepRepo
 }
 
 /* Returns whether penetration is expected: the penalty method and a single contact update leave it */
-static PetscBool PenetrationIsAllowed(Simulation sim)
+static PetscBool PenetrationIsAllowed(Scene scene, StepControl *control)
 {
-  return (PetscBool)(sim->control->penalty > 0.0 || sim->scene->contact_updates == 1);
+  return (PetscBool)(control->penalty > 0.0 || scene->contact_updates == 1);
 }
 
 /* Returns the largest displacement of the load steps so far [length] */
@@ -90,7 +90,8 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
   char            reason[512], share[64];
 
   PetscFunctionBegin;
-  if (PenetrationIsAllowed(sim) || SimulationIsDynamic(sim) || motion == 0.0) PetscFunctionReturn(0);
+  if (PenetrationIsAllowed(sim->scene, sim->control) || SimulationIsDynamic(sim) || motion == 0.0)
+    PetscFunctionReturn(0);
   if (report->step < sim->scene->nsteps) PetscFunctionReturn(0);
   for (PetscInt p = 0; p < report->npairs && report->converged; ++p) {
     const SceneContactPair *pair = &sim->scene->pairs[p];
@@ -147,7 +148,7 @@ PetscErrorCode PenetrationWarn(Simulation sim)
   const PetscReal  motion = PenetrationMotion(run);
 
   PetscFunctionBegin;
-  if (PenetrationIsAllowed(sim)) PetscFunctionReturn(0);
+  if (PenetrationIsAllowed(sim->scene, sim->control)) PetscFunctionReturn(0);
   for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
     const SceneContactPair *pair  = &sim->scene->pairs[p];
     PetscReal               depth = 0.0;

@@ -86,11 +86,11 @@ static PetscErrorCode ProbeContactCreate(Simulation sim, ProbeContact *contact)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ProbeContactDestroy(Simulation sim, ProbeContact *contact)
+static PetscErrorCode ProbeContactDestroy(DM dm, ProbeContact *contact)
 {
   PetscFunctionBegin;
-  PetscCall(DMRestoreLocalVector(sim->dm, &contact->values));
-  PetscCall(DMRestoreLocalVector(sim->dm, &contact->paired));
+  PetscCall(DMRestoreLocalVector(dm, &contact->values));
+  PetscCall(DMRestoreLocalVector(dm, &contact->paired));
   PetscFunctionReturn(0);
 }
 
@@ -128,7 +128,7 @@ static PetscErrorCode ProbeReadContact(const ProbeContact *contact, const MeshPl
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ProbeRead(Simulation sim, const PetscScalar u[], const ProbeContact *contact,
+static PetscErrorCode ProbeRead(DM dm, Results *results, const PetscScalar u[], const ProbeContact *contact,
   const MeshPlace *place, ProbeReport *report)
 {
   PetscSection section;
@@ -136,14 +136,14 @@ static PetscErrorCode ProbeRead(Simulation sim, const PetscScalar u[], const Pro
   PetscReal    stress[6], values[STRESS_VALUES];
 
   PetscFunctionBegin;
-  PetscCall(DMGetLocalSection(sim->dm, &section));
-  PetscCall(MeshGetCellNodes(sim->dm, place->cell, &n, points));
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(MeshGetCellNodes(dm, place->cell, &n, points));
   for (PetscInt a = 0; a < n; ++a) {
     PetscCall(PetscSectionGetOffset(section, points[a], &node[a]));
     node[a] /= 3;
   }
   ProbeInterpolate(place, node, 3, u, report->displacement);
-  ProbeInterpolate(place, node, 6, sim->results->recovered, stress);
+  ProbeInterpolate(place, node, 6, results->recovered, stress);
   PetscCall(ResultsComplete(stress, values));
   PetscCall(PetscArraycpy(&report->stress_xx, values, STRESS_VALUES));
   if (contact) PetscCall(ProbeReadContact(contact, place, node, report));
@@ -172,27 +172,26 @@ static PetscErrorCode ProbesBegin(Simulation sim, ProbeReport reports[])
 }
 
 /* Sends each point's values from the rank that has the point to all ranks */
-static PetscErrorCode ProbesShare(Simulation sim, ProbeReport reports[])
+static PetscErrorCode ProbesShare(MPI_Comm comm, Results *results, ProbeReport reports[])
 {
   enum { values = (sizeof(ProbeReport) - offsetof(ProbeReport, displacement)) / sizeof(PetscReal) };
   PetscReal *all;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(values * sim->results->probes.n, &all));
-  for (PetscInt k = 0; k < sim->results->probes.n; ++k) {
-    if (sim->results->probes.places[k].cell >= 0)
+  PetscCall(PetscCalloc1(values * results->probes.n, &all));
+  for (PetscInt k = 0; k < results->probes.n; ++k) {
+    if (results->probes.places[k].cell >= 0)
       PetscCall(PetscArraycpy(all + values * k, reports[k].displacement, values));
   }
-  PetscCallMPI(
-    MPI_Allreduce(MPI_IN_PLACE, all, (PetscMPIInt)(values * sim->results->probes.n), MPIU_REAL, MPIU_SUM, sim->comm));
-  for (PetscInt k = 0; k < sim->results->probes.n; ++k)
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, all, (PetscMPIInt)(values * results->probes.n), MPIU_REAL, MPIU_SUM, comm));
+  for (PetscInt k = 0; k < results->probes.n; ++k)
     PetscCall(PetscArraycpy(reports[k].displacement, all + values * k, values));
   PetscCall(PetscFree(all));
   PetscFunctionReturn(0);
 }
 
 /* Distributes the points to the report's lists of points and of points on lines */
-static PetscErrorCode ProbesSort(Simulation sim, const ProbeReport all[], StepReport *report)
+static PetscErrorCode ProbesSort(Scene scene, const ProbeReport all[], StepReport *report)
 {
   PetscInt k = 0;
 
@@ -200,14 +199,14 @@ static PetscErrorCode ProbesSort(Simulation sim, const ProbeReport all[], StepRe
   PetscCall(PetscFree(report->probes));
   PetscCall(PetscFree(report->lines));
   report->nprobes = report->nlines = 0;
-  for (PetscInt p = 0; p < sim->scene->nprobes; ++p)
-    *(sim->scene->probes[p].line ? &report->nlines : &report->nprobes) += sim->scene->probes[p].n;
+  for (PetscInt p = 0; p < scene->nprobes; ++p)
+    *(scene->probes[p].line ? &report->nlines : &report->nprobes) += scene->probes[p].n;
   PetscCall(PetscMalloc1(report->nprobes, &report->probes));
   PetscCall(PetscMalloc1(report->nlines, &report->lines));
   report->nprobes = report->nlines = 0;
-  for (PetscInt p = 0; p < sim->scene->nprobes; ++p) {
-    for (PetscInt i = 0; i < sim->scene->probes[p].n; ++i, ++k) {
-      if (sim->scene->probes[p].line) report->lines[report->nlines++] = all[k];
+  for (PetscInt p = 0; p < scene->nprobes; ++p) {
+    for (PetscInt i = 0; i < scene->probes[p].n; ++i, ++k) {
+      if (scene->probes[p].line) report->lines[report->nlines++] = all[k];
       else report->probes[report->nprobes++] = all[k];
     }
   }
@@ -233,13 +232,14 @@ PetscErrorCode ProbesMeasure(Simulation sim, StepReport *report)
   PetscCall(VecGetArrayRead(local, &u));
   for (PetscInt k = 0; k < sim->results->probes.n; ++k) {
     if (sim->results->probes.places[k].cell >= 0)
-      PetscCall(ProbeRead(sim, u, sim->contact ? &contact : NULL, &sim->results->probes.places[k], &reports[k]));
+      PetscCall(ProbeRead(sim->dm, sim->results, u, sim->contact ? &contact : NULL, &sim->results->probes.places[k],
+        &reports[k]));
   }
   PetscCall(VecRestoreArrayRead(local, &u));
   PetscCall(DMRestoreLocalVector(sim->dm, &local));
-  if (sim->contact) PetscCall(ProbeContactDestroy(sim, &contact));
-  PetscCall(ProbesShare(sim, reports));
-  PetscCall(ProbesSort(sim, reports, report));
+  if (sim->contact) PetscCall(ProbeContactDestroy(sim->dm, &contact));
+  PetscCall(ProbesShare(sim->comm, sim->results, reports));
+  PetscCall(ProbesSort(sim->scene, reports, report));
   PetscCall(PetscFree(reports));
   PetscCall(PetscLogEventEnd(SIM_Results, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);

@@ -41,12 +41,12 @@ PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
 }
 
 /* Sums the errors of cells whose error is at least `threshold`, over all ranks */
-static PetscErrorCode AdaptSum(Simulation sim, PetscInt n, PetscReal threshold, PetscReal *sum)
+static PetscErrorCode AdaptSum(MPI_Comm comm, RunState *run, PetscInt n, PetscReal threshold, PetscReal *sum)
 {
   PetscFunctionBegin;
   *sum = 0.0;
-  for (PetscInt c = 0; c < n; ++c) *sum += sim->run->adapt.errors[c] >= threshold ? sim->run->adapt.errors[c] : 0.0;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPIU_REAL, MPIU_SUM, sim->comm));
+  for (PetscInt c = 0; c < n; ++c) *sum += run->adapt.errors[c] >= threshold ? run->adapt.errors[c] : 0.0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPIU_REAL, MPIU_SUM, comm));
   PetscFunctionReturn(0);
 }
 
@@ -54,22 +54,22 @@ static PetscErrorCode AdaptSum(Simulation sim, PetscInt n, PetscReal threshold, 
    Marks the cells with the largest errors (Doerfler 1996). Thresholds are fixed fractions of the largest error instead
    of errors of cells, so that cells which are equal by symmetry are treated equally on any number of ranks.
 */
-static PetscErrorCode AdaptMarkErrors(Simulation sim, PetscInt n)
+static PetscErrorCode AdaptMarkErrors(MPI_Comm comm, RunState *run, PetscInt n)
 {
   const PetscReal step    = PetscPowReal(2.0, -0.125);
   PetscReal       largest = 0.0, threshold, all, sum = 0.0;
 
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < n; ++c) largest = PetscMax(largest, sim->run->adapt.errors[c]);
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, sim->comm));
-  PetscCall(AdaptSum(sim, n, 0.0, &all));
+  for (PetscInt c = 0; c < n; ++c) largest = PetscMax(largest, run->adapt.errors[c]);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, comm));
+  PetscCall(AdaptSum(comm, run, n, 0.0, &all));
   threshold = 1.03 * largest;
   while (sum < ADAPT_SHARE * all) {
     threshold *= step;
-    PetscCall(AdaptSum(sim, n, threshold, &sum));
+    PetscCall(AdaptSum(comm, run, n, threshold, &sum));
   }
   for (PetscInt c = 0; c < n; ++c)
-    sim->run->adapt.marked[c] = (PetscBool)(sim->run->adapt.errors[c] >= threshold && sim->run->adapt.errors[c] > 0.0);
+    run->adapt.marked[c] = (PetscBool)(run->adapt.errors[c] >= threshold && run->adapt.errors[c] > 0.0);
   PetscFunctionReturn(0);
 }
 
@@ -86,7 +86,7 @@ PetscErrorCode SimulationPropose(Simulation sim, PetscReal *growth)
 
   PetscFunctionBegin;
   PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
-  PetscCall(AdaptMarkErrors(sim, cend - cstart));
+  PetscCall(AdaptMarkErrors(sim->comm, sim->run, cend - cstart));
   PetscCall(AdaptMarkContact(sim));
   for (PetscInt c = 0; c < cend - cstart; ++c) counts[0] += sim->run->adapt.marked[c];
   counts[1] = cend - cstart;

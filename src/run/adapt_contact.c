@@ -21,35 +21,35 @@ typedef enum {
   (1.9 * PETSC_PI) /* an angle around a vertex of at least this value means that the vertex is not
                                          on the border of its face [rad] */
 
-static PetscErrorCode AdaptSetClosed(Simulation sim, PetscInt pair, Vec facts)
+static PetscErrorCode AdaptSetClosed(DM dm, ContactState *solved, PetscInt pair, Vec facts)
 {
   PetscSection global;
   PetscInt     rstart;
   PetscScalar *a;
 
   PetscFunctionBegin;
-  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(DMGetGlobalSection(dm, &global));
   PetscCall(VecGetOwnershipRange(facts, &rstart, NULL));
   PetscCall(VecGetArray(facts, &a));
-  for (PetscInt k = 0; k < sim->solved->npoints; ++k) {
+  for (PetscInt k = 0; k < solved->npoints; ++k) {
     PetscInt offset;
 
-    if (sim->solved->points[k].pair != pair || !sim->solved->points[k].presses) continue;
-    PetscCall(PetscSectionGetOffset(global, sim->solved->points[k].vertex, &offset));
+    if (solved->points[k].pair != pair || !solved->points[k].presses) continue;
+    PetscCall(PetscSectionGetOffset(global, solved->points[k].vertex, &offset));
     a[offset - rstart + VERTEX_CLOSED] = 1.0;
   }
   PetscCall(VecRestoreArray(facts, &a));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AdaptSetHanging(Simulation sim, Vec facts)
+static PetscErrorCode AdaptSetHanging(DM dm, Vec facts)
 {
   Mat          means;
   PetscInt     start = 0, end = 0;
   PetscScalar *a;
 
   PetscFunctionBegin;
-  PetscCall(MeshGetHanging(sim->dm, &means));
+  PetscCall(MeshGetHanging(dm, &means));
   if (means) PetscCall(MatGetOwnershipRange(means, &start, &end));
   PetscCall(VecGetArray(facts, &a));
   for (PetscInt i = start; i < end; ++i) {
@@ -79,7 +79,7 @@ static PetscReal FacetAngle(PetscReal x[4][3], PetscInt a)
 }
 
 /* Adds the facets' angles at a face's vertices, and finds whether the face is plane */
-static PetscErrorCode AdaptMeasureFace(Simulation sim, const char face[], Vec facts, PetscBool *plane)
+static PetscErrorCode AdaptMeasureFace(DM dm, const char face[], Vec facts, PetscBool *plane)
 {
   PetscSection    section;
   IS              facets;
@@ -90,19 +90,19 @@ static PetscErrorCode AdaptMeasureFace(Simulation sim, const char face[], Vec fa
   PetscScalar    *a;
 
   PetscFunctionBegin;
-  PetscCall(DMGetLocalSection(sim->dm, &section));
-  PetscCall(DMGetLocalVector(sim->dm, &angles));
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(DMGetLocalVector(dm, &angles));
   PetscCall(VecZeroEntries(angles));
   PetscCall(VecGetArray(angles, &a));
-  PetscCall(MeshGetFacets(sim->dm, face, &facets));
+  PetscCall(MeshGetFacets(dm, face, &facets));
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISGetIndices(facets, &f));
   for (PetscInt i = 0; i < n; ++i) {
     PetscInt  vertices[4];
     PetscReal x[4][3];
 
-    PetscCall(MeshGetFacetVertices(sim->dm, f[i], vertices));
-    PetscCall(MeshGetVertexCoordinates(sim->dm, 4, vertices, x));
+    PetscCall(MeshGetFacetVertices(dm, f[i], vertices));
+    PetscCall(MeshGetVertexCoordinates(dm, 4, vertices, x));
     for (PetscInt k = 0; k < 4; ++k) {
       PetscInt offset;
 
@@ -111,11 +111,11 @@ static PetscErrorCode AdaptMeasureFace(Simulation sim, const char face[], Vec fa
     }
   }
   PetscCall(ISRestoreIndices(facets, &f));
-  PetscCall(MeshSumFacetAreas(sim->dm, facets, sums));
+  PetscCall(MeshSumFacetAreas(dm, facets, sums));
   PetscCall(ISDestroy(&facets));
   PetscCall(VecRestoreArray(angles, &a));
-  PetscCall(DMLocalToGlobal(sim->dm, angles, ADD_VALUES, facts));
-  PetscCall(DMRestoreLocalVector(sim->dm, &angles));
+  PetscCall(DMLocalToGlobal(dm, angles, ADD_VALUES, facts));
+  PetscCall(DMRestoreLocalVector(dm, &angles));
   *plane = (PetscBool)(VectorNorm(sums) >= (1.0 - ADAPT_PLANE) * sums[3]);
   PetscFunctionReturn(0);
 }
@@ -146,7 +146,7 @@ static PetscErrorCode AdaptFacetErrs(PetscSection section, const PetscScalar fac
 }
 
 /* Marks the cells of deformable bodies behind facets that need refinement */
-static PetscErrorCode AdaptMarkFace(Simulation sim, const char face[], Vec local, PetscBool plane)
+static PetscErrorCode AdaptMarkFace(Scene scene, DM dm, RunState *run, const char face[], Vec local, PetscBool plane)
 {
   PetscSection       section;
   IS                 facets;
@@ -155,9 +155,9 @@ static PetscErrorCode AdaptMarkFace(Simulation sim, const char face[], Vec local
   const PetscScalar *a;
 
   PetscFunctionBegin;
-  PetscCall(DMGetLocalSection(sim->dm, &section));
-  PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, NULL));
-  PetscCall(MeshGetFacets(sim->dm, face, &facets));
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(DMPlexGetHeightStratum(dm, 0, &cstart, NULL));
+  PetscCall(MeshGetFacets(dm, face, &facets));
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISGetIndices(facets, &f));
   PetscCall(VecGetArrayRead(local, &a));
@@ -166,12 +166,11 @@ static PetscErrorCode AdaptMarkFace(Simulation sim, const char face[], Vec local
     PetscInt        vertices[4], body;
     PetscBool       errs = PETSC_FALSE;
 
-    PetscCall(MeshGetFacetVertices(sim->dm, f[i], vertices));
+    PetscCall(MeshGetFacetVertices(dm, f[i], vertices));
     PetscCall(AdaptFacetErrs(section, a, vertices, plane, &errs));
-    PetscCall(DMPlexGetSupport(sim->dm, f[i], &cells));
-    PetscCall(DMGetLabelValue(sim->dm, MESH_BODY_LABEL, cells[0], &body));
-    if (errs && sim->scene->bodies[body].material.type != MATERIAL_RIGID)
-      sim->run->adapt.marked[cells[0] - cstart] = PETSC_TRUE;
+    PetscCall(DMPlexGetSupport(dm, f[i], &cells));
+    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, cells[0], &body));
+    if (errs && scene->bodies[body].material.type != MATERIAL_RIGID) run->adapt.marked[cells[0] - cstart] = PETSC_TRUE;
   }
   PetscCall(VecRestoreArrayRead(local, &a));
   PetscCall(ISRestoreIndices(facets, &f));
@@ -193,18 +192,19 @@ PetscErrorCode AdaptMarkContact(Simulation sim)
 
     PetscCall(DMGetGlobalVector(sim->dm, &facts));
     PetscCall(VecZeroEntries(facts));
-    PetscCall(AdaptSetClosed(sim, p, facts));
-    PetscCall(AdaptSetHanging(sim, facts));
+    PetscCall(AdaptSetClosed(sim->dm, sim->solved, p, facts));
+    PetscCall(AdaptSetHanging(sim->dm, facts));
     for (PetscInt k = 0; k < 2; ++k) {
       const SceneBody *body = SceneFaceBody(sim->scene, face[k]);
 
       if (SceneBodyIsSurface(body)) plane[k] = (PetscBool)(body->shape == SHAPE_RIGID_PLANE);
-      else PetscCall(AdaptMeasureFace(sim, face[k], facts, &plane[k]));
+      else PetscCall(AdaptMeasureFace(sim->dm, face[k], facts, &plane[k]));
     }
     PetscCall(DMGetLocalVector(sim->dm, &local));
     PetscCall(DMGlobalToLocal(sim->dm, facts, INSERT_VALUES, local));
     PetscCall(DMRestoreGlobalVector(sim->dm, &facts));
-    for (PetscInt k = 0; k < 2; ++k) PetscCall(AdaptMarkFace(sim, face[k], local, (PetscBool)(plane[0] && plane[1])));
+    for (PetscInt k = 0; k < 2; ++k)
+      PetscCall(AdaptMarkFace(sim->scene, sim->dm, sim->run, face[k], local, (PetscBool)(plane[0] && plane[1])));
     PetscCall(DMRestoreLocalVector(sim->dm, &local));
   }
   PetscFunctionReturn(0);

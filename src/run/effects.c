@@ -75,7 +75,7 @@ static PetscErrorCode EffectSetCount(RunReport *report, const char name[], Petsc
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode EffectsSetBodies(Simulation sim, const EffectCounts *n, RunReport *report)
+static PetscErrorCode EffectsSetBodies(Scene scene, PetscBool quadratic, const EffectCounts *n, RunReport *report)
 {
   const struct {
     const char *name;
@@ -83,9 +83,9 @@ static PetscErrorCode EffectsSetBodies(Simulation sim, const EffectCounts *n, Ru
     const char *what, *more;
   } effects[] = {
     {"finite strain", n->finite, "with a law of finite strain",
-      !n->finite       ? ""
-      : sim->quadratic ? ", one tangent per load step"
-                       : ", true energy"},
+      !n->finite  ? ""
+      : quadratic ? ", one tangent per load step"
+                  : ", true energy"},
     {"plasticity", n->plastic, "with a law of plasticity", ""},
     {"rigid bodies", n->rigid, "of material rigid", ""},
     {"mean dilatation", n->mean, "with element bbar", ""},
@@ -96,7 +96,7 @@ static PetscErrorCode EffectsSetBodies(Simulation sim, const EffectCounts *n, Ru
   PetscFunctionBegin;
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(effects); ++k)
     PetscCall(EffectSet(report, effects[k].name, (PetscBool)(effects[k].n > 0),
-      "%" PetscInt_FMT " of %" PetscInt_FMT " bodies %s%s", effects[k].n, sim->scene->nbodies, effects[k].what,
+      "%" PetscInt_FMT " of %" PetscInt_FMT " bodies %s%s", effects[k].n, scene->nbodies, effects[k].what,
       effects[k].more));
   PetscFunctionReturn(0);
 }
@@ -146,7 +146,7 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscCall(EffectSetCount(report, "friction", n.friction, "contact pairs with friction, shear_limit or stick"));
   PetscCall(EffectSet(report, "AMG filter", (PetscBool)(scene->npairs > 0),
     scene->npairs ? "contact constraints are stiff" : "no contact, nothing to filter"));
-  PetscCall(EffectsSetBodies(sim, &n, report));
+  PetscCall(EffectsSetBodies(sim->scene, sim->quadratic, &n, report));
   PetscCall(EffectsSetLoads(sim, &n, report));
   PetscCall(EffectSet(report, "error estimate", sim->results->estimate,
     sim->results->estimate ? "stress recovery at the end of every load step" : "-error_estimate is 0"));

@@ -20,13 +20,13 @@ static PetscErrorCode ProgressDuration(PetscLogDouble seconds, char text[PROGRES
 }
 
 /* Finds whether a progress message is due. The clock of the first rank is used, since this rank prints the message. */
-static PetscErrorCode ProgressIsDue(Simulation sim, PetscLogDouble *now, PetscBool *due)
+static PetscErrorCode ProgressIsDue(StepControl *control, RunState *run, PetscLogDouble *now, PetscBool *due)
 {
   PetscFunctionBegin;
   PetscCall(PetscTime(now));
-  *due = (PetscBool)(sim->control->monitor && sim->run->progress.every > 0.0 &&
-                     *now - PetscMax(sim->run->progress.said, sim->run->start.total) >= sim->run->progress.every);
-  if (*due) sim->run->progress.said = *now;
+  *due = (PetscBool)(control->monitor && run->progress.every > 0.0 &&
+                     *now - PetscMax(run->progress.said, run->start.total) >= run->progress.every);
+  if (*due) run->progress.said = *now;
   PetscFunctionReturn(0);
 }
 
@@ -92,7 +92,7 @@ static PetscErrorCode ProgressReach(Simulation sim)
   PetscLogDouble  now;
 
   PetscFunctionBegin;
-  PetscCall(ProgressIsDue(sim, &now, &due));
+  PetscCall(ProgressIsDue(sim->control, sim->run, &now, &due));
   if (end && sim->run->progress.whole) ProgressRecord(&sim->run->progress, now - sim->run->progress.begun);
   if (end) sim->run->progress.begun = now;
   if (!due || sim->path->time >= (PetscReal)sim->scene->nsteps) PetscFunctionReturn(0);
@@ -109,7 +109,7 @@ static PetscErrorCode ProgressIterate(Simulation sim, PetscInt iteration, PetscR
   PetscLogDouble now;
 
   PetscFunctionBegin;
-  PetscCall(ProgressIsDue(sim, &now, &due));
+  PetscCall(ProgressIsDue(sim->control, sim->run, &now, &due));
   if (!due) PetscFunctionReturn(0);
   PetscCall(PetscSNPrintf(inside, sizeof(inside), ", iteration %" PetscInt_FMT " with an error of %.1e (ends at %.0e)",
     iteration, (double)error, (double)goal));

@@ -2,15 +2,15 @@
 #include "stateimpl.h"
 #include "src/state/path.h"
 
-static PetscReal InertiaStep(Simulation sim, PetscReal time)
+static PetscReal InertiaStep(Scene scene, LoadPath *path, PetscReal time)
 {
-  return (time - sim->path->time) * SceneTimeStep(sim->scene);
+  return (time - path->time) * SceneTimeStep(scene);
 }
 
 /* Returns the length of the previous time step; 0 in the first time step [time] */
-static PetscReal InertiaPreviousStep(Simulation sim)
+static PetscReal InertiaPreviousStep(Scene scene, LoadPath *path)
 {
-  return (sim->path->time - sim->path->previous_time) * SceneTimeStep(sim->scene);
+  return (path->time - path->previous_time) * SceneTimeStep(scene);
 }
 
 /*
@@ -23,9 +23,9 @@ PetscErrorCode InertiaBegin(Simulation sim, PetscReal time, PetscBool *changed)
   Dynamics         *d           = &sim->dynamics;
 
   PetscFunctionBegin;
-  PetscCall(SchemeBegin(&sim->scene->dynamics, InertiaStep(sim, time), sim->path->u, d));
-  PetscCall(DriveBegin(&constraints, time, InertiaStep(sim, time), InertiaPreviousStep(sim), sim->path->u,
-    sim->path->previous_u, d));
+  PetscCall(SchemeBegin(&sim->scene->dynamics, InertiaStep(sim->scene, sim->path, time), sim->path->u, d));
+  PetscCall(DriveBegin(&constraints, time, InertiaStep(sim->scene, sim->path, time),
+    InertiaPreviousStep(sim->scene, sim->path), sim->path->u, sim->path->previous_u, d));
   PetscCall(ElasticitySetInertia(sim->elasticity, d->inertia, d->viscosity, changed));
   PetscFunctionReturn(0);
 }
@@ -124,7 +124,8 @@ PetscErrorCode InertiaAdvance(Simulation sim, PetscReal time, Vec u)
 
   PetscFunctionBegin;
   if (!SimulationIsDynamic(sim)) PetscFunctionReturn(0);
-  PetscCall(SchemeAdvance(&sim->scene->dynamics, InertiaStep(sim, time), sim->path->u, u, &sim->dynamics));
+  PetscCall(
+    SchemeAdvance(&sim->scene->dynamics, InertiaStep(sim->scene, sim->path, time), sim->path->u, u, &sim->dynamics));
   PetscCall(DynamicsSetRest(&constraints, &sim->loads, time, u, &sim->dynamics));
   PetscFunctionReturn(0);
 }
@@ -134,7 +135,7 @@ PetscErrorCode InertiaAdvance(Simulation sim, PetscReal time, Vec u)
 PetscErrorCode InertiaEstimate(Simulation sim, PetscReal time, PetscBool smooth, Vec u, PetscReal *error)
 {
   PetscFunctionBegin;
-  PetscCall(SchemeEstimate(&sim->scene->dynamics, InertiaStep(sim, time), InertiaPreviousStep(sim), smooth,
-    sim->path->u, u, &sim->dynamics, error));
+  PetscCall(SchemeEstimate(&sim->scene->dynamics, InertiaStep(sim->scene, sim->path, time),
+    InertiaPreviousStep(sim->scene, sim->path), smooth, sim->path->u, u, &sim->dynamics, error));
   PetscFunctionReturn(0);
 }
