@@ -1,8 +1,7 @@
-"""Parses a summary as strict JSON (no NaN, no Infinity) and prints it with its keys in order, lists of numbers on one
-line."""
+"""Parses a summary as strict JSON (no NaN, no Infinity) and prints it with its keys in order, a paragraph an entry."""
 import json
-import re
 import sys
+import textwrap
 
 
 def refuse(word):
@@ -11,4 +10,6 @@ def refuse(word):
 
 with open(sys.argv[1], encoding="utf-8") as file:
     report = json.load(file, parse_constant=refuse)
-print(re.sub(r"\[([^\[\]{}\"]*)\]", lambda m: "[" + " ".join(m[1].split()) + "]", json.dumps(report, indent=1)))
+for key, value in report.items():
+    for part in value if isinstance(value, list) else [value]:
+        print(textwrap.fill(f"{key}: {json.dumps(part)}", 118, break_on_hyphens=False, subsequent_indent="  "))
