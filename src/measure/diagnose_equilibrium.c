@@ -9,17 +9,16 @@
    drive. There is then no equilibrium (Farkas' lemma).
 */
 #include "measureimpl.h"
-#include <petscblaslapack.h>
 #include "src/mesh/supports/supportsimpl.h"
 #include "src/state/interrupt.h"
 #include "src/state/path.h"
 
 /*
-   Linearizations of contact at the last state, from which rows are taken if those before have no suitable row: with the
-   usual search distance; with dual functions, whose forces may act at the edges of faces; and with a search distance of
-   the size of the bodies, since a moving body may reach other faces
+   Linearizations of contact at the last state, from which rows are taken: with the usual search distance; and, if that
+   has no suitable row, with a search distance of the size of the bodies, since a moving body may reach other faces, and
+   with dual functions, whose forces may act at the edges of faces
 */
-typedef enum { CONE_NEAR, CONE_EDGES, CONE_FAR, CONE_KINDS } ConeKind;
+typedef enum { CONE_NEAR, CONE_FAR, CONE_KINDS } ConeKind;
 
 /* Rates of gaps and slips in the free motions */
 typedef struct {
@@ -69,8 +68,8 @@ static PetscErrorCode ConeLinearize(Contact contact, const VertexPlaces *places,
 
   PetscFunctionBegin;
   PetscCall(ContactGetDual(contact, &used));
-  if (kind >= CONE_EDGES) PetscCall(ContactSetDual(contact, CONTACT_DUAL_ALL, &changed));
   if (kind == CONE_FAR) {
+    PetscCall(ContactSetDual(contact, CONTACT_DUAL_ALL, &changed));
     PetscCall(VecNorm(places->x, NORM_INFINITY, &extent));
     PetscCall(ContactSetReach(contact, 2.0 * PetscSqrtReal(3.0) * extent, 0.0));
   }
@@ -182,33 +181,18 @@ static PetscReal ConeDot(PetscInt n, const PetscReal a[], const PetscReal b[])
 }
 
 /* Computes product = A^T x. A: columns of n numbers each */
-static PetscErrorCode ConeDots(PetscInt n, PetscInt columns, const PetscReal A[], const PetscReal x[],
-  PetscReal product[])
+static void ConeDots(PetscInt n, PetscInt columns, const PetscReal A[], const PetscReal x[], PetscReal product[])
 {
-  const PetscReal    one = 1.0, zero = 0.0;
-  const PetscBLASInt inc = 1;
-  PetscBLASInt       m, k;
-
-  PetscFunctionBegin;
-  PetscCall(PetscBLASIntCast(n, &m));
-  PetscCall(PetscBLASIntCast(columns, &k));
-  if (k) PetscCallBLAS("BLASgemv", BLASgemv_("T", &m, &k, &one, A, &m, x, &inc, &zero, product, &inc));
-  PetscFunctionReturn(0);
+  for (PetscInt k = 0; k < columns; ++k) product[k] = ConeDot(n, &A[n * k], x);
 }
 
 /* Computes y += alpha A factor. A: columns of n numbers each */
-static PetscErrorCode ConeAdd(PetscInt n, PetscInt columns, const PetscReal A[], PetscReal alpha,
-  const PetscReal factor[], PetscReal y[])
+static void ConeAdd(PetscInt n, PetscInt columns, const PetscReal A[], PetscReal alpha, const PetscReal factor[],
+  PetscReal y[])
 {
-  const PetscReal    one = 1.0;
-  const PetscBLASInt inc = 1;
-  PetscBLASInt       m, k;
-
-  PetscFunctionBegin;
-  PetscCall(PetscBLASIntCast(n, &m));
-  PetscCall(PetscBLASIntCast(columns, &k));
-  if (k) PetscCallBLAS("BLASgemv", BLASgemv_("N", &m, &k, &alpha, A, &m, factor, &inc, &one, y, &inc));
-  PetscFunctionReturn(0);
+  for (PetscInt k = 0; k < columns; ++k) {
+    for (PetscInt i = 0; i < n; ++i) y[i] += alpha * factor[k] * A[n * k + i];
+  }
 }
 
 static PetscReal *ConeColumn(const ContactCone *cone, PetscInt ray)
@@ -240,8 +224,8 @@ static PetscErrorCode ConeOrthogonalize(ContactCone *cone)
     remainder = whole;
     for (PetscInt pass = 0; pass < 2; ++pass) { /* the second pass removes the rounding errors of a small remainder */
       if (pass && remainder > again * whole) break;
-      PetscCall(ConeDots(n, k, cone->Q, q, along));
-      PetscCall(ConeAdd(n, k, cone->Q, -1.0, along, q));
+      ConeDots(n, k, cone->Q, q, along);
+      ConeAdd(n, k, cone->Q, -1.0, along, q);
       for (PetscInt j = 0; j < k; ++j) R[j] += along[j];
       remainder = ConeDot(n, q, q);
     }
@@ -257,7 +241,7 @@ static PetscErrorCode ConeSolve(ContactCone *cone, const PetscReal load[], Petsc
 {
   PetscFunctionBegin;
   PetscCall(ConeOrthogonalize(cone));
-  PetscCall(ConeDots(cone->n, cone->nrays, cone->Q, load, amount));
+  ConeDots(cone->n, cone->nrays, cone->Q, load, amount);
   for (PetscInt k = 0; k < cone->nrays; ++k) amount[k] = -amount[k];
   for (PetscInt k = cone->nrays - 1; k >= 0; --k) {
     const PetscReal *R = ConeColumn(cone, k);
@@ -334,7 +318,7 @@ static PetscErrorCode ConeProject(Simulation sim, PetscReal time, const FreeMoti
     PetscCall(InterruptTest(sim, &stop));
     if (stop) break;
     PetscCall(PetscArraycpy(left, load, n));
-    PetscCall(ConeAdd(n, cone->nrays, cone->ray, 1.0, cone->amount, left));
+    ConeAdd(n, cone->nrays, cone->ray, 1.0, cone->amount, left);
     if (PetscSqrtReal(ConeDot(n, left, left)) <= negligible * size) break;
     for (ConeKind kind = CONE_NEAR; kind < CONE_KINDS && sim->contact && !found; ++kind) {
       if (!cone->rows[kind].lin)
@@ -366,8 +350,8 @@ static PetscErrorCode ConeSlide(const ContactCone *cone, PetscReal motion[])
     for (PetscInt i = 0; i < n * n && square > 0.0; ++i) matrix[i] += v[i / n] * v[i % n] / square;
   }
   PetscCall(SupportFindNull(n, matrix, &nfree));
-  PetscCall(ConeDots(n, nfree, matrix, motion, along));
-  PetscCall(ConeAdd(n, nfree, matrix, 1.0, along, slide));
+  ConeDots(n, nfree, matrix, motion, along);
+  ConeAdd(n, nfree, matrix, 1.0, along, slide);
   if (ConeDot(n, slide, slide) > 1e-6 * ConeDot(n, motion, motion)) PetscCall(PetscArraycpy(motion, slide, n));
   PetscCall(PetscFree3(matrix, slide, along));
   PetscFunctionReturn(0);
