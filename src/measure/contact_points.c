@@ -4,7 +4,6 @@
 #include "src/elasticity/recovery/recoveryimpl.h"
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
-#include "src/state/path.h"
 
 /* Sums over the rows at each node, weighted by the area that they share: those of the values of rows (pair_rows.h), and
    some of them before they are agglomerated and smoothed */
@@ -44,7 +43,7 @@ static PetscErrorCode PairPlaceForces(ContactState *solved, PetscInt pair, const
 }
 
 /* Computes the sums at the nodes */
-static PetscErrorCode PairSum(Simulation sim, PetscInt pair, const PairRows *rows, PairFacets *facets, Vec sums[])
+static PetscErrorCode PairSum(const Measured *at, PetscInt pair, const PairRows *rows, PairFacets *facets, Vec sums[])
 {
   const PetscBool smooth[ROW_EVEN] = {PETSC_FALSE, PETSC_FALSE, PETSC_TRUE, PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
   const PetscInt  neven            = rows->frictional ? ROW_EVEN : ROW_SHEAR;
@@ -57,8 +56,8 @@ static PetscErrorCode PairSum(Simulation sim, PetscInt pair, const PairRows *row
     else PetscCall(VecZeroEntries(sums[k]));
   }
   for (PetscInt k = 0; k <= ROW_PRESSURE; ++k) PetscCall(VecCopy(sums[k], sums[AT_ALONE + k]));
-  PetscCall(NodalPressureEvenOut(sim->dm, sim->elasticity, &sim->places, &sim->scene->pairs[pair], facets, neven, sums,
-    smooth));
+  PetscCall(
+    NodalPressureEvenOut(at->dm, at->elasticity, &at->places, &at->scene->pairs[pair], facets, neven, sums, smooth));
   PetscFunctionReturn(0);
 }
 
@@ -98,17 +97,17 @@ static void PairSetPoint(const PairRows *rows, const PetscReal sum[AT_SUMS], Pet
 
 /* Appends the pair's points. `closed` is set to 1 at the nodes of closed points, and to 0 elsewhere. areas: those of
    the nonmortar side's points that are closed, and that slip */
-static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const PairRows *rows, PetscBool stretched,
+static PetscErrorCode PairAppendPoints(const Measured *at, PetscInt pair, const PairRows *rows, PetscBool stretched,
   Vec sums[AT_SUMS], Vec force, Vec closed, PetscReal areas[2])
 {
   const PetscReal    weight = rows->self ? 0.5 : 1.0;
   PetscSection       global;
   const PetscScalar *side, *f;
-  PetscScalar      **a, *at;
+  PetscScalar      **a, *mark;
   PetscInt           pstart, pend, first, n, npoints = 0;
 
   PetscFunctionBegin;
-  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(DMGetGlobalSection(at->dm, &global));
   PetscCall(PetscSectionGetChart(global, &pstart, &pend));
   PetscCall(VecGetOwnershipRange(force, &first, NULL));
   PetscCall(VecGetLocalSize(closed, &n));
@@ -116,9 +115,9 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
   PetscCall(VecGetArrayRead(rows->sides, &side));
   PetscCall(VecGetArrayRead(force, &f));
   PetscCall(VecZeroEntries(closed));
-  PetscCall(VecGetArray(closed, &at));
+  PetscCall(VecGetArray(closed, &mark));
   for (PetscInt i = 0; i < n; ++i) npoints += PetscRealPart(a[AT_ALONE][i]) > 0.0;
-  PetscCall(PetscRealloc((sim->solved->npoints + npoints) * sizeof(ContactPoint), &sim->solved->points));
+  PetscCall(PetscRealloc((at->solved->npoints + npoints) * sizeof(ContactPoint), &at->solved->points));
   for (PetscInt v = pstart; v < pend; ++v) {
     ContactPoint *point;
     PetscReal     sum[AT_SUMS];
@@ -129,17 +128,17 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
     i = (i - first) / 3;
     if (ndofs <= 0 || i < 0 || !(PetscRealPart(a[AT_ALONE][i]) > 0.0)) continue;
     for (PetscInt k = 0; k < AT_SUMS; ++k) sum[k] = PetscRealPart(a[k][i]);
-    point  = &sim->solved->points[sim->solved->npoints++];
+    point  = &at->solved->points[at->solved->npoints++];
     *point = (ContactPoint){.pair = pair, .vertex = v};
     PairSetPoint(rows, sum, stretched, PetscRealPart(side[i]), point);
     for (PetscInt c = 0; c < 3; ++c) point->force[c] = PetscRealPart(f[3 * i + c]);
-    if (rows->frictional) point->slip_path = sim->history->slip_path[pair * sim->history->nowned + i];
-    at[i] = point->closed ? 1.0 : 0.0;
+    if (rows->frictional) point->slip_path = at->history->slip_path[pair * at->history->nowned + i];
+    mark[i] = point->closed ? 1.0 : 0.0;
     if (!rows->self && PetscRealPart(side[i]) > 0.0) continue;
     if (point->closed) areas[0] += weight * point->area;
     if (point->slips) areas[1] += weight * point->area;
   }
-  PetscCall(VecRestoreArray(closed, &at));
+  PetscCall(VecRestoreArray(closed, &mark));
   PetscCall(VecRestoreArrayRead(force, &f));
   PetscCall(VecRestoreArrayRead(rows->sides, &side));
   PetscCall(VecRestoreArrays(sums, AT_SUMS, &a));
@@ -147,9 +146,9 @@ static PetscErrorCode PairAppendPoints(Simulation sim, PetscInt pair, const Pair
 }
 
 /* Finds the largest pressure of the pair's points and its place. first: the pair's first point. */
-static PetscErrorCode PairReportPressure(Simulation sim, PetscInt first, PairReport *report)
+static PetscErrorCode PairReportPressure(const Measured *at, PetscInt first, PairReport *report)
 {
-  const PetscInt     n       = sim->solved->npoints - first;
+  const PetscInt     n       = at->solved->npoints - first;
   LargestValue       largest = {.place = {NAN, NAN, NAN}};
   LargestSample     *samples;
   PetscSection       section;
@@ -158,11 +157,11 @@ static PetscErrorCode PairReportPressure(Simulation sim, PetscInt first, PairRep
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(n, &samples));
-  PetscCall(DMGetLocalSection(sim->dm, &section));
-  PetscCall(MeshGetNodeCoordinates(sim->dm, &coordinates));
+  PetscCall(DMGetLocalSection(at->dm, &section));
+  PetscCall(MeshGetNodeCoordinates(at->dm, &coordinates));
   PetscCall(VecGetArrayRead(coordinates, &x));
   for (PetscInt k = 0; k < n; ++k) {
-    const ContactPoint *point = &sim->solved->points[first + k];
+    const ContactPoint *point = &at->solved->points[first + k];
     PetscInt            i;
 
     PetscCall(PetscSectionGetOffset(section, point->vertex, &i));
@@ -170,7 +169,7 @@ static PetscErrorCode PairReportPressure(Simulation sim, PetscInt first, PairRep
       {PetscRealPart(x[i]), PetscRealPart(x[i + 1]), PetscRealPart(x[i + 2])}};
   }
   PetscCall(VecRestoreArrayRead(coordinates, &x));
-  PetscCall(LargestFind(sim->comm, n, samples, 1, &largest));
+  PetscCall(LargestFind(at->comm, n, samples, 1, &largest));
   PetscCall(PetscFree(samples));
   report->pressure = largest.value;
   for (PetscInt d = 0; d < 3; ++d) report->pressure_place[d] = largest.value > 0.0 ? largest.place[d] : NAN;
@@ -198,9 +197,9 @@ static PetscErrorCode PairReportForce(MPI_Comm comm, const PairRows *rows, const
 
 /* Computes the contact points and the report of a pair. stretch: of each row, by ContactGetStretch(); NULL: 1.
    Collective. */
-static PetscErrorCode PairMeasure(Simulation sim, PetscInt pair, const PetscReal stretch[], PairReport *report)
+static PetscErrorCode PairMeasure(const Measured *at, PetscInt pair, const PetscReal stretch[], PairReport *report)
 {
-  const PetscInt first    = sim->solved->npoints;
+  const PetscInt first    = at->solved->npoints;
   PetscReal      areas[2] = {0.0, 0.0};
   PetscScalar   *a;
   PairRows       rows;
@@ -208,21 +207,21 @@ static PetscErrorCode PairMeasure(Simulation sim, PetscInt pair, const PetscReal
   Vec           *sums, force, closed;
 
   PetscFunctionBegin;
-  PetscCall(PairRowsCreate(sim, pair, &rows));
-  PetscCall(PairRowsResolve(sim, pair, &rows));
+  PetscCall(PairRowsCreate(at, pair, &rows));
+  PetscCall(PairRowsResolve(at, pair, &rows));
   PetscCall(VecGetArray(rows.value[ROW_STRETCH], &a));
   for (PetscInt r = 0; r < rows.n && stretch; ++r) a[r] = stretch[r];
   PetscCall(VecRestoreArray(rows.value[ROW_STRETCH], &a));
-  PetscCall(PairFacetsCreate(sim->comm, sim->dm, &sim->places, &sim->scene->pairs[pair], &facets));
-  PetscCall(VecDuplicate(sim->path->u, &force));
+  PetscCall(PairFacetsCreate(at->comm, at->dm, &at->places, &at->scene->pairs[pair], &facets));
+  PetscCall(VecDuplicate(at->u, &force));
   PetscCall(VecDuplicate(rows.sides, &closed));
   PetscCall(VecDuplicateVecs(rows.sides, AT_SUMS, &sums));
-  PetscCall(PairPlaceForces(sim->solved, pair, &rows, force));
-  PetscCall(PairSum(sim, pair, &rows, &facets, sums));
-  PetscCall(PairAppendPoints(sim, pair, &rows, (PetscBool)(stretch != NULL), sums, force, closed, areas));
-  PetscCall(PairReportForce(sim->comm, &rows, areas, report));
-  PetscCall(PairReportPressure(sim, first, report));
-  PetscCall(PairMeshMeasure(sim->comm, &rows, &facets, closed, report));
+  PetscCall(PairPlaceForces(at->solved, pair, &rows, force));
+  PetscCall(PairSum(at, pair, &rows, &facets, sums));
+  PetscCall(PairAppendPoints(at, pair, &rows, (PetscBool)(stretch != NULL), sums, force, closed, areas));
+  PetscCall(PairReportForce(at->comm, &rows, areas, report));
+  PetscCall(PairReportPressure(at, first, report));
+  PetscCall(PairMeshMeasure(at->comm, &rows, &facets, closed, report));
   PetscCall(VecDestroyVecs(AT_SUMS, &sums));
   PetscCall(VecDestroy(&closed));
   PetscCall(VecDestroy(&force));
@@ -234,6 +233,7 @@ static PetscErrorCode PairMeasure(Simulation sim, PetscInt pair, const PetscReal
 /* Computes the contact points and reports of all pairs at the last state. Collective. */
 PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
 {
+  const Measured             at      = SimulationMeasured(sim);
   const ContactLinearization lin     = sim->solved->linearization;
   PetscReal                 *stretch = NULL;
 
@@ -245,7 +245,7 @@ PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
     PetscCall(PetscMalloc1(lin->nlocal + 1, &stretch)); /* not NULL on ranks without rows */
     PetscCall(ContactGetStretch(sim->contact, sim->path->u, lin, stretch));
   }
-  for (PetscInt p = 0; lin && p < report->npairs; ++p) PetscCall(PairMeasure(sim, p, stretch, &report->pairs[p]));
+  for (PetscInt p = 0; lin && p < report->npairs; ++p) PetscCall(PairMeasure(&at, p, stretch, &report->pairs[p]));
   PetscCall(PetscFree(stretch));
   PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);

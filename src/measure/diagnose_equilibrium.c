@@ -11,7 +11,6 @@
 #include "measureimpl.h"
 #include "src/mesh/supports/supportsimpl.h"
 #include "src/state/interrupt.h"
-#include "src/state/path.h"
 
 /*
    Linearizations of contact at the last state, from which rows are taken: with the usual search distance; and, if that

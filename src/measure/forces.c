@@ -117,9 +117,9 @@ static PetscInt ForcesFindFace(StepReport *report, const char name[])
 }
 
 /* Creates the report's lists of pairs, faces and bodies, with zeros */
-PetscErrorCode ForcesReserve(Simulation sim, StepReport *report)
+PetscErrorCode ForcesReserve(const Measured *at, StepReport *report)
 {
-  Scene scene = sim->scene;
+  Scene scene = at->scene;
 
   PetscFunctionBegin;
   PetscCall(ForcesFree(report));
@@ -168,11 +168,11 @@ static PetscErrorCode ForcesAddFace(DM dm, const VertexPlaces *places, const cha
 
 /* Computes the forces on the two sides of a pair whose sides are the same face. own: mass x pressure of the pair's
    rows; force: on entry the contact forces on both sides together, on exit those on the nonmortar side */
-static PetscErrorCode ForcesMeasureSelf(Simulation sim, PetscInt pair, Vec u, Vec own, Vec shear, Vec force,
+static PetscErrorCode ForcesMeasureSelf(const Measured *at, PetscInt pair, Vec u, Vec own, Vec shear, Vec force,
   ForceSum sides[2])
 {
-  ContactLinearization lin  = sim->solved->linearization;
-  const char          *face = sim->scene->pairs[pair].mortar;
+  ContactLinearization lin  = at->solved->linearization;
+  const char          *face = at->scene->pairs[pair].mortar;
   Vec                  mortar;
 
   PetscFunctionBegin;
@@ -180,8 +180,8 @@ static PetscErrorCode ForcesMeasureSelf(Simulation sim, PetscInt pair, Vec u, Ve
   PetscCall(MatMultTranspose(lin->mortar, own, mortar));
   PetscCall(FrictionAddForces(lin, lin->mortar_slip, shear, pair, mortar));
   PetscCall(VecAXPY(force, -1.0, mortar));
-  PetscCall(ForcesAddFace(sim->dm, &sim->places, face, u, force, &sides[0]));
-  PetscCall(ForcesAddFace(sim->dm, &sim->places, face, u, mortar, &sides[1]));
+  PetscCall(ForcesAddFace(at->dm, &at->places, face, u, force, &sides[0]));
+  PetscCall(ForcesAddFace(at->dm, &at->places, face, u, mortar, &sides[1]));
   PetscCall(VecDestroy(&mortar));
   PetscFunctionReturn(0);
 }
@@ -190,11 +190,11 @@ static PetscErrorCode ForcesMeasureSelf(Simulation sim, PetscInt pair, Vec u, Ve
    Computes the sums of the pair's contact forces, J^T (mass x pressure) and friction, over the nonmortar side
    (sides[0]) and the mortar side (sides[1])
 */
-static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Vec weighted, Vec shear,
+static PetscErrorCode ForcesMeasurePair(const Measured *at, PetscInt pair, Vec u, Vec weighted, Vec shear,
   ForceSum sides[2])
 {
-  const SceneContactPair *faces = &sim->scene->pairs[pair];
-  ContactLinearization    lin   = sim->solved->linearization;
+  const SceneContactPair *faces = &at->scene->pairs[pair];
+  ContactLinearization    lin   = at->solved->linearization;
   Vec                     own, force;
   PetscScalar            *w;
 
@@ -209,10 +209,10 @@ static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Ve
   PetscCall(VecDuplicate(u, &force));
   PetscCall(MatMultTranspose(lin->J, own, force));
   PetscCall(FrictionAddForces(lin, lin->slip, shear, pair, force));
-  if (faces->self) PetscCall(ForcesMeasureSelf(sim, pair, u, own, shear, force, sides));
+  if (faces->self) PetscCall(ForcesMeasureSelf(at, pair, u, own, shear, force, sides));
   else {
-    PetscCall(ForcesAddFace(sim->dm, &sim->places, faces->nonmortar, u, force, &sides[0]));
-    PetscCall(ForcesAddFace(sim->dm, &sim->places, faces->mortar, u, force, &sides[1]));
+    PetscCall(ForcesAddFace(at->dm, &at->places, faces->nonmortar, u, force, &sides[0]));
+    PetscCall(ForcesAddFace(at->dm, &at->places, faces->mortar, u, force, &sides[1]));
   }
   PetscCall(VecDestroy(&force));
   PetscCall(VecDestroy(&own));
@@ -223,15 +223,15 @@ static PetscErrorCode ForcesMeasurePair(Simulation sim, PetscInt pair, Vec u, Ve
    Computes the contact forces of all pairs. weighted: mass x pressure, one entry per row of sim->solved->linearization;
    shear: friction forces, or NULL.
 */
-PetscErrorCode ForcesMeasurePairs(Simulation sim, Vec u, Vec weighted, Vec shear, StepReport *report)
+PetscErrorCode ForcesMeasurePairs(const Measured *at, Vec u, Vec weighted, Vec shear, StepReport *report)
 {
   ForceSum *sides;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscCall(PetscCalloc1(2 * report->npairs, &sides));
-  for (PetscInt p = 0; p < report->npairs; ++p) PetscCall(ForcesMeasurePair(sim, p, u, weighted, shear, &sides[2 * p]));
-  PetscCall(ForceSumReduce(sim->comm, 2 * report->npairs, sides));
+  for (PetscInt p = 0; p < report->npairs; ++p) PetscCall(ForcesMeasurePair(at, p, u, weighted, shear, &sides[2 * p]));
+  PetscCall(ForceSumReduce(at->comm, 2 * report->npairs, sides));
   PetscCall(PetscArrayzero(report->contact_force, 3));
   for (PetscInt p = 0; p < report->npairs; ++p) {
     PairReport *pair = &report->pairs[p];

@@ -5,35 +5,34 @@
 */
 #include "measureimpl.h"
 #include "src/mesh/supports/supportsimpl.h"
-#include "src/state/path.h"
 
 /*
    Creates the matrix of all rigid motions at the positions x, six columns per body: translations, and rotations about
    the mean of the body's nodes by 1/size, with its largest coordinate from there as the size
 */
-static PetscErrorCode FreeMotionsCreateModes(Simulation sim, Vec places, Mat *modes)
+static PetscErrorCode FreeMotionsCreateModes(const Measured *at, Vec places, Mat *modes)
 {
-  const PetscInt     nbodies = sim->scene->nbodies;
+  const PetscInt     nbodies = at->scene->nbodies;
   const PetscScalar *x;
   PetscReal         *center, *size;
   PetscInt           n, N, first;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc2(3 * nbodies, &center, nbodies, &size));
-  PetscCall(VertexPlacesGetCentres(&sim->places, places, nbodies, center));
+  PetscCall(VertexPlacesGetCentres(&at->places, places, nbodies, center));
   PetscCall(VecGetLocalSize(places, &n));
   PetscCall(VecGetSize(places, &N));
   PetscCall(VecGetOwnershipRange(places, &first, NULL));
   PetscCall(VecGetArrayRead(places, &x));
   for (PetscInt i = 0; i < n; ++i) {
-    const PetscInt b = sim->places.body[i / 3];
+    const PetscInt b = at->places.body[i / 3];
 
     size[b] = PetscMax(size[b], PetscAbsReal(PetscRealPart(x[i]) - center[3 * b + i % 3]));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, size, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_MAX, sim->comm));
-  PetscCall(MatCreateAIJ(sim->comm, n, PETSC_DECIDE, N, 6 * nbodies, 3, NULL, 3, NULL, modes));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, size, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_MAX, at->comm));
+  PetscCall(MatCreateAIJ(at->comm, n, PETSC_DECIDE, N, 6 * nbodies, 3, NULL, 3, NULL, modes));
   for (PetscInt i = 0; i < n; ++i) {
-    const PetscInt    b = sim->places.body[i / 3], c = i % 3, d = (c + 1) % 3, e = (c + 2) % 3, row = first + i;
+    const PetscInt    b = at->places.body[i / 3], c = i % 3, d = (c + 1) % 3, e = (c + 2) % 3, row = first + i;
     const PetscInt    columns[3] = {6 * b + c, 6 * b + 3 + d, 6 * b + 3 + e};
     const PetscScalar values[3]  = {1.0, (PetscRealPart(x[i - c + e]) - center[3 * b + e]) / size[b],
        (center[3 * b + d] - PetscRealPart(x[i - c + d])) / size[b]};
@@ -218,16 +217,17 @@ static PetscErrorCode FreeMotionsCombine(MPI_Comm comm, Scene scene, Mat modes, 
 */
 PetscErrorCode FreeMotionsCreate(Simulation sim, FreeMotions *m)
 {
-  PetscBool linear;
-  Mat       modes, resistance, combined;
-  Vec       places;
+  const Measured at = SimulationMeasured(sim);
+  PetscBool      linear;
+  Mat            modes, resistance, combined;
+  Vec            places;
 
   PetscFunctionBegin;
   PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
   PetscCall(VecDuplicate(sim->places.x, &places));
   PetscCall(VecCopy(sim->places.x, places));
   if (!linear || sim->rigid.turns) PetscCall(VecAXPY(places, 1.0, sim->path->u));
-  PetscCall(FreeMotionsCreateModes(sim, places, &modes));
+  PetscCall(FreeMotionsCreateModes(&at, places, &modes));
   PetscCall(VecDestroy(&places));
   PetscCall(FreeMotionsMeasureResistance(sim, modes, &resistance));
   m->comm = sim->comm;

@@ -6,7 +6,6 @@
 #include <vector3.h>
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
-#include "src/state/path.h"
 
 /*
    Gets the friction coefficient of a pair at a time: 0 without friction, PETSC_INFINITY if the pressure does not limit
@@ -33,17 +32,17 @@ PetscErrorCode FrictionGetCoefficient(Scene scene, PetscReal time, PetscInt whic
    they have dissipated since the last state (work). The latter is minus the work of the mean of the forces at the last
    and the present state; in the impact scheme, minus that of the present forces, which act during the whole step.
 */
-static PetscErrorCode FrictionPairWork(Simulation sim, Vec increment[2], const ContactSolution *sol, PetscInt pair,
+static PetscErrorCode FrictionPairWork(const Measured *at, Vec increment[2], const ContactSolution *sol, PetscInt pair,
   Vec force, PetscReal work[])
 {
-  const ContactHistory *m      = sim->history;
+  const ContactHistory *m      = at->history;
   const PetscReal      *before = &m->friction[3 * pair * m->nowned];
-  const PetscReal       part   = SchemeIsImpact(&sim->scene->dynamics) ? 1.0 : 0.5; /* as in WorkAdd() */
+  const PetscReal       part   = SchemeIsImpact(&at->scene->dynamics) ? 1.0 : 0.5; /* as in WorkAdd() */
   const PetscScalar    *now, *a, *b;
 
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(force));
-  PetscCall(FrictionAddForces(sim->solved->linearization, sim->solved->linearization->slip, sol->shear, pair, force));
+  PetscCall(FrictionAddForces(at->solved->linearization, at->solved->linearization->slip, sol->shear, pair, force));
   PetscCall(VecGetArrayRead(force, &now));
   PetscCall(VecGetArrayRead(increment[0], &a));
   PetscCall(VecGetArrayRead(increment[1], &b));
@@ -78,15 +77,15 @@ static PetscErrorCode FrictionAddSizes(ContactLinearization lin, const ContactSo
 }
 
 /* Computes the largest friction force that the pressure of a row allows [force] */
-static PetscErrorCode FrictionGetBound(Simulation sim, PetscReal time, PetscInt row, PetscReal mass, PetscReal pressure,
-  PetscReal *bound)
+static PetscErrorCode FrictionGetBound(const Measured *at, PetscReal time, PetscInt row, PetscReal mass,
+  PetscReal pressure, PetscReal *bound)
 {
-  const PetscInt          which = sim->solved->linearization->pair[row];
-  const SceneContactPair *pair  = &sim->scene->pairs[which];
+  const PetscInt          which = at->solved->linearization->pair[row];
+  const SceneContactPair *pair  = &at->scene->pairs[which];
   PetscReal               coefficient;
 
   PetscFunctionBegin;
-  PetscCall(FrictionGetCoefficient(sim->scene, time, which, &coefficient));
+  PetscCall(FrictionGetCoefficient(at->scene, time, which, &coefficient));
   *bound = PETSC_INFINITY;
   if (!(pressure > 0.0) || coefficient == 0.0) *bound = 0.0;
   else if (coefficient < PETSC_INFINITY) *bound = coefficient * pressure * mass;
@@ -128,11 +127,11 @@ static PetscReal FrictionLatePart(PetscReal now, PetscReal gap, const PetscScala
 }
 
 /* Computes the bounds of all rows [force], and for each pair their sum over that at the last state */
-static PetscErrorCode FrictionGetBounds(Simulation sim, PetscReal time, const ContactSolution *sol, PetscReal bound[],
-  PetscReal ratio[])
+static PetscErrorCode FrictionGetBounds(const Measured *at, PetscReal time, const ContactSolution *sol,
+  PetscReal bound[], PetscReal ratio[])
 {
-  ContactLinearization  lin = sim->solved->linearization;
-  const ContactHistory *m   = sim->history;
+  ContactLinearization  lin = at->solved->linearization;
+  const ContactHistory *m   = at->history;
   const PetscScalar    *z, *mass;
   PetscReal            *sums;
 
@@ -144,7 +143,7 @@ static PetscErrorCode FrictionGetBounds(Simulation sim, PetscReal time, const Co
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
     PetscReal now = 0.0;
 
-    PetscCall(FrictionGetBound(sim, time, r, PetscRealPart(mass[r]), PetscRealPart(z[r]), &now));
+    PetscCall(FrictionGetBound(at, time, r, PetscRealPart(mass[r]), PetscRealPart(z[r]), &now));
     if (now < PETSC_INFINITY) bound[ContactHistoryIndex(m, lin, r)] = now;
   }
   PetscCall(VecRestoreArrayRead(lin->mass, &mass));
@@ -153,7 +152,7 @@ static PetscErrorCode FrictionGetBounds(Simulation sim, PetscReal time, const Co
     sums[2 * (k / m->nowned)] += bound[k];
     sums[2 * (k / m->nowned) + 1] += m->bound[k];
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(2 * m->npairs), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(2 * m->npairs), MPIU_REAL, MPIU_SUM, at->comm));
   for (PetscInt p = 0; p < m->npairs; ++p) ratio[p] = sums[2 * p + 1] > 0.0 ? sums[2 * p] / sums[2 * p + 1] : 0.0;
   PetscCall(PetscFree(sums));
   PetscFunctionReturn(0);
@@ -180,6 +179,7 @@ static PetscReal FrictionShiftWork(const PetscReal shift[3], const PetscReal old
 static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const ContactSolution *sol, PetscReal late[],
   PetscReal bound[])
 {
+  const Measured        at  = SimulationMeasured(sim);
   ContactLinearization  lin = sim->solved->linearization;
   const ContactHistory *m   = sim->history;
   const PetscScalar    *f, *s, *g;
@@ -187,7 +187,7 @@ static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const 
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(m->npairs, &ratio));
-  PetscCall(FrictionGetBounds(sim, time, sol, bound, ratio));
+  PetscCall(FrictionGetBounds(&at, time, sol, bound, ratio));
   PetscCall(PetscArrayzero(late, m->npairs * m->nowned));
   PetscCall(VecGetArrayRead(sol->shear, &f));
   PetscCall(VecGetArrayRead(sol->slip, &s));
@@ -217,6 +217,7 @@ static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const 
 static PetscErrorCode FrictionGetWork(Simulation sim, PetscReal time, Vec u, const ContactSolution *sol,
   PetscReal work[], PetscReal bound[], PetscReal sums[], PetscReal friction[], PetscReal *late)
 {
+  const Measured        at     = SimulationMeasured(sim);
   const Bodies          bodies = SimulationBodies(sim);
   const ContactHistory *m      = sim->history;
   const PetscScalar    *now;
@@ -236,7 +237,7 @@ static PetscErrorCode FrictionGetWork(Simulation sim, PetscReal time, Vec u, con
       PetscCall(PetscArrayzero(of, m->nowned));
       continue;
     }
-    PetscCall(FrictionPairWork(sim, increment, sol, p, force, mean));
+    PetscCall(FrictionPairWork(&at, increment, sol, p, force, mean));
     for (PetscInt v = 0; v < m->nowned; ++v) {
       all[m->npairs] += of[v];
       of[v] += mean[v];

@@ -1,7 +1,6 @@
 /* Describes the contact pairs at the start, and warns of overlaps that the scene does not declare */
 #include "measureimpl.h"
 #include <math.h>
-#include "src/state/path.h"
 
 #define START_ROUNDING \
   1e-6 /* largest overlap that counts as rounding error, as a fraction of the square root of the
@@ -141,15 +140,15 @@ static PetscErrorCode StartLookAway(Contact contact, Scene scene, PetscInt p, ch
 }
 
 /* Warns of nodes that must stick although both faces have different prescribed displacements there */
-static PetscErrorCode StartWarnOfFrictionless(Simulation sim, PetscInt p)
+static PetscErrorCode StartWarnOfFrictionless(const Measured *at, PetscInt p)
 {
-  const SceneContactPair *pair = &sim->scene->pairs[p];
+  const SceneContactPair *pair = &at->scene->pairs[p];
   PetscInt                nfrictionless, nnodes;
 
   PetscFunctionBegin;
-  PetscCall(ContactGetFrictionless(sim->contact, p, &nfrictionless, &nnodes));
+  PetscCall(ContactGetFrictionless(at->contact, p, &nfrictionless, &nnodes));
   if (nfrictionless)
-    PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
+    PetscCall(ReportWarn(at->comm, at->report, pair->place,
       "contact pair \"%s\" cannot stick at %" PetscInt_FMT " of the %" PetscInt_FMT
       " nodes of %s, because different displacements are prescribed there on the two faces; no friction acts at these "
       "nodes: prescribe displacements away from the contact, or give the pair a coefficient of friction",
@@ -159,11 +158,11 @@ static PetscErrorCode StartWarnOfFrictionless(Simulation sim, PetscInt p)
 
 /* Warns that rebounds between two rigid bodies are not those of real bodies: contact is closed at the end of a time
    step, so that the velocity after it depends on where in the step the bodies meet */
-static PetscErrorCode StartWarnOfRigid(Simulation sim, const SceneContactPair *pair)
+static PetscErrorCode StartWarnOfRigid(const Measured *at, const SceneContactPair *pair)
 {
   PetscFunctionBegin;
-  if (!SceneIsDynamic(sim->scene) || !SceneContactPairIsRigid(sim->scene, pair)) PetscFunctionReturn(0);
-  PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
+  if (!SceneIsDynamic(at->scene) || !SceneContactPairIsRigid(at->scene, pair)) PetscFunctionReturn(0);
+  PetscCall(ReportWarn(at->comm, at->report, pair->place,
     "contact pair \"%s\" is between two rigid bodies, whose rebound depends on the time steps; their energy does not "
     "grow: give one of the two bodies an elastic material if the rebound matters",
     pair->name));
@@ -176,8 +175,9 @@ static PetscErrorCode StartWarnOfRigid(Simulation sim, const SceneContactPair *p
 */
 PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
 {
-  Scene      scene = sim->scene;
-  PairStart *starts;
+  const Measured at    = SimulationMeasured(sim);
+  Scene          scene = sim->scene;
+  PairStart     *starts;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(scene->npairs, &starts));
@@ -190,8 +190,8 @@ PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
 
     PetscCall(StartLookAway(sim->contact, scene, p, away, sizeof(away)));
     if (away[0]) PetscCall(ReportWarn(sim->comm, &sim->report, pair->place, "%s", away));
-    PetscCall(StartWarnOfRigid(sim, pair));
-    PetscCall(StartWarnOfFrictionless(sim, p));
+    PetscCall(StartWarnOfRigid(&at, pair));
+    PetscCall(StartWarnOfFrictionless(&at, p));
     if (!wanted) continue;
     if (starts[p].overlap > 0.0)
       PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
@@ -206,9 +206,9 @@ PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
 }
 
 /* Fails the last load step if the bodies of a pair that was open in all load steps have passed into each other */
-static PetscErrorCode StartRefuseEntered(Simulation sim, PetscInt p, StepReport *report)
+static PetscErrorCode StartRefuseEntered(const Measured *at, PetscInt p, StepReport *report)
 {
-  const SceneContactPair *pair = &sim->scene->pairs[p];
+  const SceneContactPair *pair = &at->scene->pairs[p];
   const PetscReal         part = 0.01; /* of the largest displacement, that does not count */
   PetscReal               place[3];
   PetscBool               entered;
@@ -216,13 +216,13 @@ static PetscErrorCode StartRefuseEntered(Simulation sim, PetscInt p, StepReport 
 
   PetscFunctionBegin;
   if (!report->converged) PetscFunctionReturn(0);
-  PetscCall(ContactGetEntered(sim->contact, p, sim->path->u, part * report->motion, &entered, place));
+  PetscCall(ContactGetEntered(at->contact, p, at->u, part * report->motion, &entered, place));
   if (!entered) PetscFunctionReturn(0);
   PetscCall(PetscSNPrintf(reason, sizeof(reason),
     "contact pair \"%s\" was open at the end of every load step, but its bodies have passed into each other, for "
     "example at the point (%g, %g, %g): the faces %s and %s are not those that meet",
     pair->name, (double)place[0], (double)place[1], (double)place[2], pair->mortar, pair->nonmortar));
-  PetscCall(PenetrationFail(sim, report, reason));
+  PetscCall(PenetrationFail(at, report, reason));
   PetscFunctionReturn(0);
 }
 
@@ -230,6 +230,7 @@ static PetscErrorCode StartRefuseEntered(Simulation sim, PetscInt p, StepReport 
    their bodies have passed into each other */
 PetscErrorCode StartWarnOfUnmet(Simulation sim, StepReport *report)
 {
+  const Measured   at  = SimulationMeasured(sim);
   const RunReport *run = &sim->report;
 
   PetscFunctionBegin;
@@ -239,7 +240,7 @@ PetscErrorCode StartWarnOfUnmet(Simulation sim, StepReport *report)
     if (sim->scene->pairs[p].why) continue; /* the pair was found by a rule and need not close */
     for (PetscInt s = 0; s < run->nsteps; ++s)
       if (p < run->steps[s].npairs) closed += run->steps[s].pairs[p].area + run->steps[s].pairs[p].normal_force;
-    if (closed == 0.0) PetscCall(StartRefuseEntered(sim, p, report));
+    if (closed == 0.0) PetscCall(StartRefuseEntered(&at, p, report));
     if (closed == 0.0 && sim->scene->pairs[p].self)
       PetscCall(ReportWarn(sim->comm, &sim->report, sim->scene->pairs[p].place,
         "contact pair \"%s\" was open at the end of every load step: %s did not come into contact with itself",

@@ -124,9 +124,9 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
    Scales the reactions. In the impact scheme they are only a part of the unbalanced forces; the rest is added to
    `applied`, the loads with the forces of inertia. ties and rigid may be NULL.
 */
-static PetscErrorCode MeasureShareForces(Simulation sim, Vec force, Vec ties, Vec rigid, Vec applied)
+static PetscErrorCode MeasureShareForces(const Measured *at, Vec force, Vec ties, Vec rigid, Vec applied)
 {
-  const PetscReal share    = SchemeShare(&sim->scene->dynamics);
+  const PetscReal share    = SchemeShare(&at->scene->dynamics);
   const Vec       forces[] = {force, ties, rigid};
 
   PetscFunctionBegin;
@@ -140,9 +140,9 @@ static PetscErrorCode MeasureShareForces(Simulation sim, Vec force, Vec ties, Ve
 }
 
 /* Moves the contact forces that a time step has in addition to those at its end from `force` to `inertia` */
-static PetscErrorCode MeasureAddMultipliers(Simulation sim, Vec contact, Vec force, Vec inertia)
+static PetscErrorCode MeasureAddMultipliers(const Measured *at, Vec contact, Vec force, Vec inertia)
 {
-  const PetscReal more = 1.0 / SchemeShare(&sim->scene->dynamics) - 1.0;
+  const PetscReal more = 1.0 / SchemeShare(&at->scene->dynamics) - 1.0;
 
   PetscFunctionBegin;
   PetscCall(VecAXPY(force, -more, contact));
@@ -175,6 +175,7 @@ static PetscErrorCode MeasurePlastic(Scene scene, Elasticity elasticity, StepRep
 static PetscErrorCode MeasureContact(Simulation sim, PetscReal time, Vec u, const ContactSolution *sol,
   StepReport *report, Vec *weighted, Vec *contact, PetscReal *late)
 {
+  const Measured             at  = SimulationMeasured(sim);
   const ContactLinearization lin = sim->solved->linearization;
 
   PetscFunctionBegin;
@@ -184,7 +185,7 @@ static PetscErrorCode MeasureContact(Simulation sim, PetscReal time, Vec u, cons
   PetscCall(VecPointwiseMult(*weighted, sol->pressure, lin->mass));
   PetscCall(MatMultTranspose(lin->J, *weighted, *contact));
   PetscCall(FrictionAddForces(lin, lin->slip, sol->shear, PETSC_DECIDE, *contact));
-  PetscCall(ForcesMeasurePairs(sim, u, *weighted, sol->shear, report));
+  PetscCall(ForcesMeasurePairs(&at, u, *weighted, sol->shear, report));
   PetscCall(FrictionMeasure(sim, time, u, sol, report, late));
   PetscCall(MeasureActionReaction(sim->comm, *contact, report));
   PetscFunctionReturn(0);
@@ -195,6 +196,7 @@ static PetscErrorCode MeasureContact(Simulation sim, PetscReal time, Vec u, cons
 static PetscErrorCode MeasureForces(Simulation sim, PetscReal time, Vec load, Vec inertia, Vec u,
   const ContactSolution *sol, StepReport *report, PetscBool *moves)
 {
+  const Measured    at          = SimulationMeasured(sim);
   const Constraints constraints = SimulationConstraints(sim);
   Vec               force, ties, rigid, contact = NULL, weighted = NULL, applied = load;
   PetscReal         size, residual, rounding, late = 0.0;
@@ -203,7 +205,7 @@ static PetscErrorCode MeasureForces(Simulation sim, PetscReal time, Vec load, Ve
   PetscCall(VecNorm(u, NORM_INFINITY, &rounding));
   rounding *= MEASURE_ROUNDING * sim->stiffness; /* rounding error of the forces on bodies without stress */
   report->force_rounding = rounding;
-  PetscCall(ForcesReserve(sim, report));
+  PetscCall(ForcesReserve(&at, report));
   PetscCall(VecDuplicate(u, &force));
   PetscCall(ElasticityEnergy(sim->elasticity, u, &report->energy));
   PetscCall(MeasurePlastic(sim->scene, sim->elasticity, report));
@@ -216,13 +218,13 @@ static PetscErrorCode MeasureForces(Simulation sim, PetscReal time, Vec load, Ve
   if (sol->pressure) {
     PetscCall(MeasureContact(sim, time, u, sol, report, &weighted, &contact, &late));
     PetscCall(VecAXPY(force, -1.0, contact));
-    if (inertia) PetscCall(MeasureAddMultipliers(sim, contact, force, applied));
+    if (inertia) PetscCall(MeasureAddMultipliers(&at, contact, force, applied));
     if (!sim->history->frictional && !inertia) PetscCall(VecDestroy(&contact));
   }
   PetscCall(TiesGetForces(&constraints, force, &ties, &rigid));
   PetscCall(WorkAdd(sim, load, u, force, rigid, &contact, late, report));
   if (inertia) PetscCall(MotionMeasure(sim, u, report));
-  PetscCall(MeasureShareForces(sim, force, ties, rigid, applied));
+  PetscCall(MeasureShareForces(&at, force, ties, rigid, applied));
   PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
   PetscCall(ForcesMeasureBodies(sim, u, applied, ties, rounding, report)); /* needs all forces on faces */
   PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));

@@ -6,6 +6,31 @@
 #define MEASUREIMPL_H
 
 #include "src/state/stateimpl.h"
+#include "src/state/path.h"
+
+/*
+   What the measures of a state follow from, apart from loads and constraints: the bodies, their displacement, the
+   contact rows of the last solve, the results at vertices, and the report of the run, to which warnings are added
+*/
+typedef struct {
+  MPI_Comm        comm;
+  Scene           scene;
+  DM              dm;
+  Elasticity      elasticity;
+  Contact         contact; /* NULL if the scene has no contact pair */
+  VertexPlaces    places;
+  PetscReal       stiffness; /* largest stiffness of all bodies [force/length] */
+  Vec             mass, u;
+  ContactState   *solved;
+  ContactHistory *history;
+  RunReport      *report;
+} Measured;
+
+static inline Measured SimulationMeasured(Simulation sim)
+{
+  return (Measured){sim->comm, sim->scene, sim->dm, sim->elasticity, sim->contact, sim->places, sim->stiffness,
+    sim->mass, sim->path->u, sim->solved, sim->history, &sim->report};
+}
 
 #define MEASURE_ROUNDING 1e-11 /* rounding error of forces, relative to the stiffness times the largest displacement */
 
@@ -40,8 +65,8 @@ PETSC_INTERN PetscErrorCode FreeMotionsDestroy(FreeMotions *);
 PETSC_INTERN PetscErrorCode EquilibriumDiagnose(Simulation, PetscReal time, Vec load, StepReport *, PetscBool *none);
 
 /* forces.c: forces and moments of pairs, faces and bodies */
-PETSC_INTERN PetscErrorCode ForcesReserve(Simulation, StepReport *);
-PETSC_INTERN PetscErrorCode ForcesMeasurePairs(Simulation, Vec u, Vec weighted, Vec shear, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesReserve(const Measured *, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasurePairs(const Measured *, Vec u, Vec weighted, Vec shear, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, Vec ties, PetscReal rounding,
   StepReport *);
@@ -56,7 +81,7 @@ PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
 /* penetration_warnings.c: penetration of single vertices, whereas the gaps of mortar pairs are means */
 PETSC_INTERN PetscErrorCode PenetrationMeasure(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode PenetrationTest(Simulation, StepReport *);
-PETSC_INTERN PetscErrorCode PenetrationFail(Simulation, StepReport *, const char reason[]);
+PETSC_INTERN PetscErrorCode PenetrationFail(const Measured *, StepReport *, const char reason[]);
 PETSC_INTERN PetscErrorCode PenetrationWarn(Simulation);
 
 /*

@@ -1,7 +1,6 @@
 /* Warns of contact meshes that are too coarse */
 #include "pair_rows.h"
 #include "src/state/contact_state.h"
-#include "src/state/path.h"
 
 #define PAIR_COARSE \
   2.0 /* ratio of the size of nonmortar facets to that of mortar facets above which a warning is
@@ -122,17 +121,17 @@ static PetscInt PairCountTurns(const RunReport *run, PetscInt p, PetscReal round
   return turns;
 }
 
-static PetscErrorCode PairWarnOfRotation(Simulation sim, PetscInt p)
+static PetscErrorCode PairWarnOfRotation(const Measured *at, PetscInt p)
 {
-  const SceneContactPair *pair      = &sim->scene->pairs[p];
+  const SceneContactPair *pair      = &at->scene->pairs[p];
   PetscReal               forces[2] = {0.0, 0.0}, motion = 0.0;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < sim->report.nsteps; ++k) motion = PetscMax(motion, sim->report.steps[k].motion);
-  if (SceneIsDynamic(sim->scene) || PairLoadTurns(&sim->report) ||
-      PairCountTurns(&sim->report, p, MEASURE_ROUNDING * sim->stiffness * motion, forces) < 2)
+  for (PetscInt k = 0; k < at->report->nsteps; ++k) motion = PetscMax(motion, at->report->steps[k].motion);
+  if (SceneIsDynamic(at->scene) || PairLoadTurns(at->report) ||
+      PairCountTurns(at->report, p, MEASURE_ROUNDING * at->stiffness * motion, forces) < 2)
     PetscFunctionReturn(0);
-  PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
+  PetscCall(ReportWarn(at->comm, at->report, pair->place,
     "contact pair \"%s\": the contact is only one facet of %s wide, and its force oscillates as it moves over the "
     "facets, for example from %.3g to %.3g: refine that face to about seven facets across the contact, or make the "
     "face that moves with the contact the nonmortar one",
@@ -141,21 +140,21 @@ static PetscErrorCode PairWarnOfRotation(Simulation sim, PetscInt p)
 }
 
 /* Warns of a nonmortar side that is coarser than the mortar side, unless it is also the softer one */
-static PetscErrorCode PairWarnOfCoarseness(Simulation sim, PetscInt p)
+static PetscErrorCode PairWarnOfCoarseness(const Measured *at, PetscInt p)
 {
-  const SceneContactPair *pair      = &sim->scene->pairs[p];
-  const Material         *nonmortar = &SceneFaceBody(sim->scene, pair->nonmortar)->material,
-                 *mortar            = &SceneFaceBody(sim->scene, pair->mortar)->material;
+  const SceneContactPair *pair      = &at->scene->pairs[p];
+  const Material         *nonmortar = &SceneFaceBody(at->scene, pair->nonmortar)->material,
+                 *mortar            = &SceneFaceBody(at->scene, pair->mortar)->material;
   const PetscBool softer            = (PetscBool)(nonmortar->type != MATERIAL_RIGID &&
                                        (mortar->type == MATERIAL_RIGID || nonmortar->young < mortar->young));
   PetscReal       coarseness        = 0.0;
 
   PetscFunctionBegin;
-  for (PetscInt s = 0; s < sim->report.nsteps; ++s) {
-    if (p < sim->report.steps[s].npairs) coarseness = PetscMax(coarseness, sim->report.steps[s].pairs[p].coarseness);
+  for (PetscInt s = 0; s < at->report->nsteps; ++s) {
+    if (p < at->report->steps[s].npairs) coarseness = PetscMax(coarseness, at->report->steps[s].pairs[p].coarseness);
   }
   if (!softer && !pair->self && coarseness > PAIR_COARSE)
-    PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
+    PetscCall(ReportWarn(at->comm, at->report, pair->place,
       "contact pair \"%s\": facets of the nonmortar face %s are %.2g times as large as those of the mortar face %s, "
       "whose vertices can penetrate between its constraints: swap the two faces, or refine %s",
       pair->name, pair->nonmortar, (double)coarseness, pair->mortar, pair->nonmortar));
@@ -166,23 +165,23 @@ static PetscErrorCode PairWarnOfCoarseness(Simulation sim, PetscInt p)
    Warns of facets that are too large for the radius of a rigid surface: about seven facets across the contact are
    needed, and its width is less than two radii. The contact must be one facet wide when it carries its largest force.
 */
-static PetscErrorCode PairWarnOfRadius(Simulation sim, PetscInt p)
+static PetscErrorCode PairWarnOfRadius(const Measured *at, PetscInt p)
 {
   const PetscReal         share   = 1.0 / 3.0;
-  const SceneContactPair *pair    = &sim->scene->pairs[p];
-  const SceneBody        *surface = SceneFaceBody(sim->scene, pair->mortar);
+  const SceneContactPair *pair    = &at->scene->pairs[p];
+  const SceneBody        *surface = SceneFaceBody(at->scene, pair->mortar);
   const PetscReal         radius  = SceneSurfaceRadius(surface);
   const PairReport       *largest = NULL;
 
   PetscFunctionBegin;
-  for (PetscInt s = 0; s < sim->report.nsteps; ++s) {
-    const StepReport *step = &sim->report.steps[s];
+  for (PetscInt s = 0; s < at->report->nsteps; ++s) {
+    const StepReport *step = &at->report->steps[s];
 
     if (p >= step->npairs || step->pairs[p].normal_force <= step->force_rounding) continue;
     if (!largest || step->pairs[p].normal_force > largest->normal_force) largest = &step->pairs[p];
   }
   if (!largest || !largest->narrow || !(largest->facet > share * radius)) PetscFunctionReturn(0);
-  PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
+  PetscCall(ReportWarn(at->comm, at->report, pair->place,
     "contact pair \"%s\": facets of %s are %.3g large, and the radius of the rigid surface \"%s\" is %.3g: the force "
     "depends on where the vertices are; refine %s to about seven facets across the contact",
     pair->name, pair->nonmortar, (double)largest->facet, surface->name, (double)radius, pair->nonmortar));
@@ -192,11 +191,12 @@ static PetscErrorCode PairWarnOfRadius(Simulation sim, PetscInt p)
 /* Warns of coarse contact meshes after the last load step */
 PetscErrorCode PairMeshWarn(Simulation sim)
 {
+  const Measured at = SimulationMeasured(sim);
   PetscFunctionBegin;
   for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
-    PetscCall(PairWarnOfCoarseness(sim, p));
-    PetscCall(PairWarnOfRotation(sim, p));
-    PetscCall(PairWarnOfRadius(sim, p));
+    PetscCall(PairWarnOfCoarseness(&at, p));
+    PetscCall(PairWarnOfRotation(&at, p));
+    PetscCall(PairWarnOfRadius(&at, p));
   }
   PetscFunctionReturn(0);
 }

@@ -76,7 +76,7 @@ static PetscErrorCode ResolvePlaces(DM dm, const VertexPlaces *places, ContactSt
    mortar facets is close to the centre of all rows there, relative to their spread. This excludes open rows beside the
    contact area.
 */
-static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, Vec covered, Vec open)
+static PetscErrorCode ResolveEnclosed(const Measured *at, const PairRows *rows, Vec covered, Vec open)
 {
   Vec          *place, *mean;
   PetscScalar **m, *o;
@@ -84,7 +84,7 @@ static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, Vec 
   PetscFunctionBegin;
   PetscCall(VecDuplicateVecs(open, 5, &place));
   PetscCall(VecDuplicateVecs(open, 7, &mean)); /* of all rows: places and squares; of closed rows: places */
-  PetscCall(ResolvePlaces(sim->dm, &sim->places, sim->solved, rows, place));
+  PetscCall(ResolvePlaces(at->dm, &at->places, at->solved, rows, place));
   for (PetscInt c = 0; c < 7; ++c)
     PetscCall(ResolveMean(rows, c < 4 ? covered : rows->value[ROW_CLOSED], place[c % 4], mean[c]));
   PetscCall(VecGetArrays(mean, 7, &m));
@@ -110,7 +110,7 @@ static PetscErrorCode ResolveEnclosed(Simulation sim, const PairRows *rows, Vec 
    mortar node with an enclosed open row. mark: 1 for these rows; *any: whether any rank has such a row. work: three
    vectors
 */
-static PetscErrorCode ResolveMark(Simulation sim, PetscReal young, const PairRows *rows, Vec mark, Vec work[],
+static PetscErrorCode ResolveMark(const Measured *at, PetscReal young, const PairRows *rows, Vec mark, Vec work[],
   PetscBool *any)
 {
   const Vec          covered = work[0], mean = work[1], open = work[2];
@@ -139,7 +139,7 @@ static PetscErrorCode ResolveMark(Simulation sim, PetscReal young, const PairRow
   PetscCall(VecPointwiseMult(open, mark, rows->value[ROW_CLOSED]));
   PetscCall(VecAYPX(open, -1.0, mark));
   PetscCall(VecNorm(open, NORM_INFINITY, &largest));
-  if (largest > 0.0) PetscCall(ResolveEnclosed(sim, rows, covered, open));
+  if (largest > 0.0) PetscCall(ResolveEnclosed(at, rows, covered, open));
   if (largest > 0.0) PetscCall(VecNorm(open, NORM_INFINITY, &largest));
   *any = (PetscBool)(largest > 0.0);
   if (!*any) PetscFunctionReturn(0);
@@ -189,22 +189,22 @@ static PetscErrorCode ResolveValues(PairRows *rows, Vec mark, Vec mean)
 }
 
 /* Smooths the pressures of a pair that the mortar side cannot resolve. Collective. */
-PetscErrorCode PairRowsResolve(Simulation sim, PetscInt pair, PairRows *rows)
+PetscErrorCode PairRowsResolve(const Measured *at, PetscInt pair, PairRows *rows)
 {
-  const Material   *material = &SceneFaceBody(sim->scene, sim->scene->pairs[pair].mortar)->material;
-  const char *const mortar   = sim->scene->pairs[pair].mortar;
+  const Material   *material = &SceneFaceBody(at->scene, at->scene->pairs[pair].mortar)->material;
+  const char *const mortar   = at->scene->pairs[pair].mortar;
   PetscBool         any;
   Vec               size, *work;
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(rows->sides, &size));
-  PetscCall(PairFacetsMeasure(sim->elasticity, &sim->places, 1, &mortar, size));
+  PetscCall(PairFacetsMeasure(at->elasticity, &at->places, 1, &mortar, size));
   PetscCall(VecSqrtAbs(size));
   PetscCall(PairGather(rows, size, rows->value[ROW_FACING]));
   PetscCall(VecDestroy(&size));
   if (material->type == MATERIAL_RIGID) PetscFunctionReturn(0);
   PetscCall(VecDuplicateVecs(rows->value[0], 4, &work));
-  PetscCall(ResolveMark(sim, material->young, rows, work[3], work, &any));
+  PetscCall(ResolveMark(at, material->young, rows, work[3], work, &any));
   if (any) PetscCall(ResolveValues(rows, work[3], work[0]));
   PetscCall(VecDestroyVecs(4, &work));
   PetscFunctionReturn(0);

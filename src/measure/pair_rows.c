@@ -5,7 +5,6 @@
 #include "pair_rows.h"
 #include <vector3.h>
 #include "src/state/contact_state.h"
-#include "src/state/path.h"
 
 /* Returns the matrix by which areas are distributed to nodes */
 static Mat PairCover(ContactLinearization lin)
@@ -25,25 +24,25 @@ static PetscErrorCode PairMarkFace(DM dm, const char face[], PetscInt component,
   PetscFunctionReturn(0);
 }
 
-/* Computes for each row A the vector mass_A x sum of A_AB over the nodes B of the mortar side. at: position of these
+/* Computes for each row A the vector mass_A x sum of A_AB over the nodes B of the mortar side. first: position of these
    sums in those of the linearization, if it has them */
-static PetscErrorCode PairRowsSum(Simulation sim, PetscInt pair, Mat A, PetscInt at, PetscReal vector[])
+static PetscErrorCode PairRowsSum(const Measured *at, PetscInt pair, Mat A, PetscInt first, PetscReal vector[])
 {
-  ContactLinearization lin = sim->solved->linearization;
+  ContactLinearization lin = at->solved->linearization;
   Vec                  mark, sum;
   const PetscScalar   *s, *mass;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(sim->path->u, &mark));
+  PetscCall(VecDuplicate(at->u, &mark));
   PetscCall(VecDuplicate(lin->mass, &sum));
   PetscCall(VecGetArrayRead(lin->mass, &mass));
   for (PetscInt c = 0; c < 3; ++c) {
     PetscCall(VecZeroEntries(mark));
-    PetscCall(PairMarkFace(sim->dm, sim->scene->pairs[pair].mortar, c, 1.0, mark));
+    PetscCall(PairMarkFace(at->dm, at->scene->pairs[pair].mortar, c, 1.0, mark));
     PetscCall(MatMult(A, mark, sum));
     PetscCall(VecGetArrayRead(sum, &s));
     for (PetscInt r = 0; r < lin->nlocal; ++r) {
-      const PetscReal all = lin->mortar_sum ? lin->mortar_sum[6 * r + at + c] : PetscRealPart(s[r]);
+      const PetscReal all = lin->mortar_sum ? lin->mortar_sum[6 * r + first + c] : PetscRealPart(s[r]);
 
       vector[3 * r + c] = lin->pair[r] == pair ? mass[r] * all : 0.0;
     }
@@ -143,24 +142,24 @@ static PetscErrorCode PairMarkSelf(PairRows *rows)
    Marks the sides, and computes the shared areas. If both sides are one face, `cover` holds the difference of the two
    sides' integrals. Their sum is then computed as twice the part of the mortar side minus `cover`.
 */
-static PetscErrorCode PairShareSides(Simulation sim, const SceneContactPair *faces, PairRows *rows)
+static PetscErrorCode PairShareSides(const Measured *at, const SceneContactPair *faces, PairRows *rows)
 {
-  ContactLinearization lin       = sim->solved->linearization;
+  ContactLinearization lin       = at->solved->linearization;
   const Mat            A[2]      = {PairCover(lin), lin->mortar_cover};
   const PetscReal      factor[2] = {rows->self ? -1.0 : 1.0, 2.0}, one = 1.0;
   PetscInt             n;
   Vec                  mark;
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(sim->path->u, &n));
-  PetscCall(VecCreateMPI(sim->comm, n / 3, PETSC_DETERMINE, &rows->sides));
+  PetscCall(VecGetLocalSize(at->u, &n));
+  PetscCall(VecCreateMPI(at->comm, n / 3, PETSC_DETERMINE, &rows->sides));
   PetscCall(VecDuplicate(rows->sides, &rows->gathered));
-  PetscCall(VecDuplicate(sim->path->u, &mark));
+  PetscCall(VecDuplicate(at->u, &mark));
   PetscCall(VecZeroEntries(mark));
-  PetscCall(PairMarkFace(sim->dm, faces->mortar, 0, 1.0, mark));
-  if (!rows->self) PetscCall(PairMarkFace(sim->dm, faces->nonmortar, 0, 0.0, mark));
+  PetscCall(PairMarkFace(at->dm, faces->mortar, 0, 1.0, mark));
+  if (!rows->self) PetscCall(PairMarkFace(at->dm, faces->nonmortar, 0, 0.0, mark));
   PetscCall(VecStrideGather(mark, 0, rows->gathered, INSERT_VALUES));
-  if (!rows->self) PetscCall(PairMarkFace(sim->dm, faces->nonmortar, 0, -1.0, mark));
+  if (!rows->self) PetscCall(PairMarkFace(at->dm, faces->nonmortar, 0, -1.0, mark));
   PetscCall(VecStrideGather(mark, 0, rows->sides, INSERT_VALUES));
   PetscCall(VecDestroy(&mark));
   PetscCall(PairShare(lin, rows, rows->self ? 2 : 1, A, factor, &rows->shares));
@@ -196,17 +195,17 @@ PetscBool PairIsClosed(PetscReal pressure, PetscReal gap, PetscReal young, Petsc
 }
 
 /* Sets friction stress and slip. A row slips if its slip exceeds the rounding error of displacements. */
-static PetscErrorCode PairRowsSetFriction(Simulation sim, PetscInt pair, const PetscScalar mass[], PairRows *rows,
+static PetscErrorCode PairRowsSetFriction(const Measured *at, PetscInt pair, const PetscScalar mass[], PairRows *rows,
   PetscScalar *a[])
 {
   const PetscReal      rounding = 1e-9;
-  ContactLinearization lin      = sim->solved->linearization;
+  ContactLinearization lin      = at->solved->linearization;
   PetscReal            size;
 
   PetscFunctionBegin;
-  PetscCall(VecNorm(sim->path->u, NORM_INFINITY, &size));
+  PetscCall(VecNorm(at->u, NORM_INFINITY, &size));
   for (PetscInt r = 0; r < rows->n; ++r) {
-    const PetscReal *s = &sim->solved->slip[2 * r], *f = &sim->solved->shear[2 * r], *t = &lin->tangent[6 * r];
+    const PetscReal *s = &at->solved->slip[2 * r], *f = &at->solved->shear[2 * r], *t = &lin->tangent[6 * r];
 
     if (lin->pair[r] != pair || !(PetscRealPart(a[ROW_AREA][r]) > 0.0)) continue;
     if (PetscSqr(s[0]) + PetscSqr(s[1]) > PetscSqr(rounding * size))
@@ -239,10 +238,10 @@ static void PairRowsSet(ContactState *solved, const PetscScalar mass[], const Pe
   }
 }
 
-PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
+PetscErrorCode PairRowsCreate(const Measured *at, PetscInt pair, PairRows *rows)
 {
-  const SceneContactPair *faces = &sim->scene->pairs[pair];
-  ContactLinearization    lin   = sim->solved->linearization;
+  const SceneContactPair *faces = &at->scene->pairs[pair];
+  ContactLinearization    lin   = at->solved->linearization;
   const PetscScalar      *mass;
   PetscScalar           **a;
   PetscReal              *force;
@@ -251,22 +250,22 @@ PetscErrorCode PairRowsCreate(Simulation sim, PetscInt pair, PairRows *rows)
   *rows = (PairRows){.n = lin->nlocal,
     .self               = (PetscBool)(faces->self != NULL),
     .frictional         = (PetscBool)(lin->slip && SceneContactPairHasFriction(faces)),
-    .young              = PetscMin(SceneFaceBody(sim->scene, faces->mortar)->material.young,
-                   SceneFaceBody(sim->scene, faces->nonmortar)->material.young)};
+    .young              = PetscMin(SceneFaceBody(at->scene, faces->mortar)->material.young,
+                   SceneFaceBody(at->scene, faces->nonmortar)->material.young)};
   PetscCall(VecDuplicateVecs(lin->mass, ROW_VALUES, &rows->value));
   for (PetscInt k = 0; k < ROW_VALUES; ++k) PetscCall(VecSet(rows->value[k], k == ROW_ONE));
   PetscCall(PetscMalloc1(3 * rows->n, &rows->normal));
   PetscCall(PetscMalloc1(3 * rows->n, &force));
-  PetscCall(PairRowsSum(sim, pair, rows->self ? lin->mortar_cover : PairCover(lin), 3, rows->normal));
-  PetscCall(PairRowsSum(sim, pair, rows->self ? lin->mortar : lin->J, 0, force));
+  PetscCall(PairRowsSum(at, pair, rows->self ? lin->mortar_cover : PairCover(lin), 3, rows->normal));
+  PetscCall(PairRowsSum(at, pair, rows->self ? lin->mortar : lin->J, 0, force));
   PetscCall(VecGetArrayRead(lin->mass, &mass));
   PetscCall(VecGetArrays(rows->value, ROW_VALUES, &a));
-  PairRowsSet(sim->solved, mass, force, rows, a);
-  if (rows->frictional) PetscCall(PairRowsSetFriction(sim, pair, mass, rows, a));
+  PairRowsSet(at->solved, mass, force, rows, a);
+  if (rows->frictional) PetscCall(PairRowsSetFriction(at, pair, mass, rows, a));
   PetscCall(VecRestoreArrays(rows->value, ROW_VALUES, &a));
   PetscCall(VecRestoreArrayRead(lin->mass, &mass));
   PetscCall(PetscFree(force));
-  PetscCall(PairShareSides(sim, faces, rows));
+  PetscCall(PairShareSides(at, faces, rows));
   PetscFunctionReturn(0);
 }
 

@@ -48,12 +48,12 @@ typedef struct {
 
 /* pair_rows.c */
 PETSC_INTERN PetscBool      PairIsClosed(PetscReal pressure, PetscReal gap, PetscReal young, PetscReal length);
-PETSC_INTERN PetscErrorCode PairRowsCreate(Simulation, PetscInt pair, PairRows *);
+PETSC_INTERN PetscErrorCode PairRowsCreate(const Measured *, PetscInt pair, PairRows *);
 PETSC_INTERN PetscErrorCode PairRowsDestroy(PairRows *);
 PETSC_INTERN PetscErrorCode PairGather(const PairRows *, Vec node, Vec row);
 
 /* pair_resolve.c */
-PETSC_INTERN PetscErrorCode PairRowsResolve(Simulation, PetscInt pair, PairRows *);
+PETSC_INTERN PetscErrorCode PairRowsResolve(const Measured *, PetscInt pair, PairRows *);
 
 /* nodal_pressure.c: the facets of both faces of a pair, those of the nonmortar face first. Facets of order 2 are
    divided at their nodes. */

@@ -4,7 +4,6 @@
 */
 #include "measureimpl.h"
 #include "src/state/control.h"
-#include "src/state/path.h"
 
 #define PENETRATION_SHARE 0.01 /* a warning is printed above this fraction of the largest displacement of the run */
 
@@ -68,14 +67,14 @@ static PetscErrorCode PenetrationSayShare(PetscReal depth, PetscReal motion, siz
 }
 
 /* Fails a load step because bodies penetrate each other in its solution */
-PetscErrorCode PenetrationFail(Simulation sim, StepReport *report, const char reason[])
+PetscErrorCode PenetrationFail(const Measured *at, StepReport *report, const char reason[])
 {
   PetscFunctionBegin;
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   report->gap_unconverged = PETSC_TRUE;
-  sim->report.converged   = PETSC_FALSE;
-  sim->report.reason      = report->reason;
-  sim->report.exit_code   = RUN_GAP_UNCONVERGED;
+  at->report->converged   = PETSC_FALSE;
+  at->report->reason      = report->reason;
+  at->report->exit_code   = RUN_GAP_UNCONVERGED;
   PetscFunctionReturn(0);
 }
 
@@ -86,6 +85,7 @@ PetscErrorCode PenetrationFail(Simulation sim, StepReport *report, const char re
 */
 PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
 {
+  const Measured  at     = SimulationMeasured(sim);
   const PetscReal motion = PenetrationMotion(&sim->report);
   char            reason[512], share[64];
 
@@ -106,7 +106,7 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
       SceneBodyIsSurface(SceneFaceBody(sim->scene, pair->mortar))
         ? "the rigid surface lies between the nonmortar vertices without touching one; refine the nonmortar face"
         : "the mean gap of the nonmortar facets there is open; use gap: node, swap the two faces, or refine them"));
-    PetscCall(PenetrationFail(sim, report, reason));
+    PetscCall(PenetrationFail(&at, report, reason));
   }
   PetscFunctionReturn(0);
 }
@@ -115,11 +115,11 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
    Warns, after the last load step, of a pair without force whose penetration is most of the motion, although it may be
    an error of the curved faces: with motions so small the mesh decides whether there is contact. run: has load steps.
 */
-static PetscErrorCode PenetrationWarnOfCoarse(Simulation sim, PetscInt p)
+static PetscErrorCode PenetrationWarnOfCoarse(const Measured *at, PetscInt p)
 {
-  const RunReport        *run    = &sim->report;
+  const RunReport        *run    = at->report;
   const StepReport       *report = &run->steps[run->nsteps - 1];
-  const SceneContactPair *pair   = &sim->scene->pairs[p];
+  const SceneContactPair *pair   = &at->scene->pairs[p];
   const PetscReal         motion = PenetrationMotion(run), most = 0.5;
   const PairReport       *its;
   char                    share[64];
@@ -131,7 +131,7 @@ static PetscErrorCode PenetrationWarnOfCoarse(Simulation sim, PetscInt p)
       its->penetration > its->penetration_rounding)
     PetscFunctionReturn(0);
   PetscCall(PenetrationSayShare(its->penetration, motion, sizeof(share), share));
-  PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
+  PetscCall(ReportWarn(at->comm, at->report, pair->place,
     "contact pair \"%s\" carries no force, although a point of %s or %s penetrates the other body by %.3g%s; the error "
     "of the curved faces there may be as large: refine them if the bodies are to touch",
     pair->name, pair->mortar, pair->nonmortar, (double)its->penetration, share));
@@ -144,6 +144,7 @@ static PetscErrorCode PenetrationWarnOfCoarse(Simulation sim, PetscInt p)
 */
 PetscErrorCode PenetrationWarn(Simulation sim)
 {
+  const Measured   at     = SimulationMeasured(sim);
   const RunReport *run    = &sim->report;
   const PetscReal  motion = PenetrationMotion(run);
 
@@ -166,7 +167,7 @@ PetscErrorCode PenetrationWarn(Simulation sim)
       step  = report->step;
       open  = (PetscBool)!PenetrationHasForce(report, p);
     }
-    if (run->nsteps) PetscCall(PenetrationWarnOfCoarse(sim, p));
+    if (run->nsteps) PetscCall(PenetrationWarnOfCoarse(&at, p));
     if (depth <= PENETRATION_SHARE * motion) continue;
     PetscCall(PenetrationSayShare(depth, motion, sizeof(share), share));
     if (pair->self)

@@ -2,7 +2,6 @@
 #include "measureimpl.h"
 #include <math.h>
 #include "src/state/contact_state.h"
-#include "src/state/path.h"
 #include "src/state/results.h"
 
 /*
@@ -34,19 +33,19 @@ PetscErrorCode ProbesDestroy(Probes *probes)
    Sets the values. A vertex in several pairs gets the mean pressure and the smallest gap, and is closed if it is closed
    in one of them.
 */
-static PetscErrorCode ProbeContactFill(Simulation sim, PetscScalar values[], PetscScalar paired[])
+static PetscErrorCode ProbeContactFill(const Measured *at, PetscScalar values[], PetscScalar paired[])
 {
   PetscSection global;
   PetscReal   *area;
   PetscInt     n, rstart;
 
   PetscFunctionBegin;
-  PetscCall(DMGetGlobalSection(sim->dm, &global));
-  PetscCall(VecGetLocalSize(sim->path->u, &n));
-  PetscCall(VecGetOwnershipRange(sim->path->u, &rstart, NULL));
+  PetscCall(DMGetGlobalSection(at->dm, &global));
+  PetscCall(VecGetLocalSize(at->u, &n));
+  PetscCall(VecGetOwnershipRange(at->u, &rstart, NULL));
   PetscCall(PetscCalloc1(n, &area));
-  for (PetscInt k = 0; k < sim->solved->npoints; ++k) {
-    const ContactPoint *point = &sim->solved->points[k];
+  for (PetscInt k = 0; k < at->solved->npoints; ++k) {
+    const ContactPoint *point = &at->solved->points[k];
     PetscInt            i;
 
     PetscCall(PetscSectionGetOffset(global, point->vertex, &i));
@@ -63,25 +62,25 @@ static PetscErrorCode ProbeContactFill(Simulation sim, PetscScalar values[], Pet
 }
 
 /* Creates local vectors, in which the values of all nodes of a cell can be read */
-static PetscErrorCode ProbeContactCreate(Simulation sim, ProbeContact *contact)
+static PetscErrorCode ProbeContactCreate(const Measured *at, ProbeContact *contact)
 {
   Vec          global[2];
   PetscScalar *a[2];
 
   PetscFunctionBegin;
   for (int i = 0; i < 2; ++i) {
-    PetscCall(DMGetGlobalVector(sim->dm, &global[i]));
+    PetscCall(DMGetGlobalVector(at->dm, &global[i]));
     PetscCall(VecZeroEntries(global[i]));
     PetscCall(VecGetArray(global[i], &a[i]));
   }
-  PetscCall(ProbeContactFill(sim, a[0], a[1]));
+  PetscCall(ProbeContactFill(at, a[0], a[1]));
   for (int i = 0; i < 2; ++i) {
     Vec *local = i ? &contact->paired : &contact->values;
 
     PetscCall(VecRestoreArray(global[i], &a[i]));
-    PetscCall(DMGetLocalVector(sim->dm, local));
-    PetscCall(DMGlobalToLocal(sim->dm, global[i], INSERT_VALUES, *local));
-    PetscCall(DMRestoreGlobalVector(sim->dm, &global[i]));
+    PetscCall(DMGetLocalVector(at->dm, local));
+    PetscCall(DMGlobalToLocal(at->dm, global[i], INSERT_VALUES, *local));
+    PetscCall(DMRestoreGlobalVector(at->dm, &global[i]));
   }
   PetscFunctionReturn(0);
 }
@@ -216,6 +215,7 @@ static PetscErrorCode ProbesSort(Scene scene, const ProbeReport all[], StepRepor
 /* Measures the probes at the last state, whose nodal stress and contact points must be known. Collective. */
 PetscErrorCode ProbesMeasure(Simulation sim, StepReport *report)
 {
+  const Measured     at = SimulationMeasured(sim);
   ProbeReport       *reports;
   ProbeContact       contact;
   Vec                local;
@@ -226,7 +226,7 @@ PetscErrorCode ProbesMeasure(Simulation sim, StepReport *report)
   PetscCall(PetscLogEventBegin(SIM_Results, NULL, NULL, NULL, NULL));
   PetscCall(PetscMalloc1(sim->results->probes.n, &reports));
   PetscCall(ProbesBegin(sim, reports));
-  if (sim->contact) PetscCall(ProbeContactCreate(sim, &contact));
+  if (sim->contact) PetscCall(ProbeContactCreate(&at, &contact));
   PetscCall(DMGetLocalVector(sim->dm, &local));
   PetscCall(DMGlobalToLocal(sim->dm, sim->path->u, INSERT_VALUES, local));
   PetscCall(VecGetArrayRead(local, &u));

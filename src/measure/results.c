@@ -2,7 +2,6 @@
 #include "measureimpl.h"
 #include "src/elasticity/recovery/recoveryimpl.h"
 #include <math.h>
-#include "src/state/path.h"
 #include "src/state/results.h"
 
 /* Completes a stress: stress, von Mises stress, principal values */

@@ -1,7 +1,6 @@
 /* Computes the positions of rigid bodies and their rotations since the start */
 #include "measureimpl.h"
 #include <vector3.h>
-#include "src/state/path.h"
 
 static PetscBool RigidPlacesHas(Scene scene, PetscInt body)
 {

@@ -1,7 +1,6 @@
 /* Warns of bodies with a law of small strain that are strained or rotated far beyond its range, and finds those that
    are turned inside out */
 #include "measureimpl.h"
-#include "src/state/path.h"
 #include "src/state/results.h"
 
 #define STRAIN_LIMIT   0.25 /* largest principal strain, in the mean over the body's strain energy */
@@ -18,9 +17,9 @@ static PetscBool StrainApplies(Scene scene, PetscInt b)
 
 /* Collective. Finds whether a body may be inverted, or may exceed a limit for which no warning has been printed. The
    test is the largest value at quadrature points, which bounds the mean. warned: bodies with a printed warning */
-static PetscErrorCode StrainMayExceed(Simulation sim, const PetscBool warned[], PetscBool *may)
+static PetscErrorCode StrainMayExceed(const Measured *at, const PetscBool warned[], PetscBool *may)
 {
-  Scene     scene = sim->scene;
+  Scene     scene = at->scene;
   PetscBool any   = PETSC_FALSE;
   PetscReal(*bounds)[2];
 
@@ -29,7 +28,7 @@ static PetscErrorCode StrainMayExceed(Simulation sim, const PetscBool warned[], 
   for (PetscInt b = 0; b < scene->nbodies; ++b) any = (PetscBool)(any || StrainApplies(scene, b));
   if (!any) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(scene->nbodies, &bounds));
-  PetscCall(ElasticityBoundStrain(sim->elasticity, sim->path->u, bounds));
+  PetscCall(ElasticityBoundStrain(at->elasticity, at->u, bounds));
   for (PetscInt b = 0; b < scene->nbodies; ++b)
     *may = (PetscBool)(*may || (StrainApplies(scene, b) &&
                                  (bounds[b][0] >= 1.0 ||
@@ -39,7 +38,7 @@ static PetscErrorCode StrainMayExceed(Simulation sim, const PetscBool warned[], 
 }
 
 /* Fails the load step if a body is turned inside out. inverted: share of its volume */
-static PetscErrorCode StrainRefuse(Simulation sim, PetscInt b, PetscReal inverted, StepReport *report)
+static PetscErrorCode StrainRefuse(const Measured *at, PetscInt b, PetscReal inverted, StepReport *report)
 {
   char reason[320];
 
@@ -48,11 +47,11 @@ static PetscErrorCode StrainRefuse(Simulation sim, PetscInt b, PetscReal inverte
     "body \"%s\" is turned inside out: %.3g %% of its volume is compressed to a thickness below zero, which its "
     "material law for small strains does not prevent; use material: neohookean or another finite-strain law, or "
     "smaller loads",
-    sim->scene->bodies[b].name, 100.0 * (double)inverted));
+    at->scene->bodies[b].name, 100.0 * (double)inverted));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
-  sim->report.converged = PETSC_FALSE;
-  sim->report.reason    = report->reason;
-  sim->report.exit_code = RUN_FAILED;
+  at->report->converged = PETSC_FALSE;
+  at->report->reason    = report->reason;
+  at->report->exit_code = RUN_FAILED;
   PetscFunctionReturn(0);
 }
 
@@ -62,13 +61,14 @@ static PetscErrorCode StrainRefuse(Simulation sim, PetscInt b, PetscReal inverte
 */
 PetscErrorCode StrainTest(Simulation sim, StepReport *report)
 {
-  Scene scene = sim->scene;
+  const Measured at    = SimulationMeasured(sim);
+  Scene          scene = sim->scene;
   PetscReal(*values)[3];
   PetscBool may;
 
   PetscFunctionBegin;
   if (!sim->results->beyond) PetscCall(PetscCalloc1(scene->nbodies, &sim->results->beyond));
-  PetscCall(StrainMayExceed(sim, sim->results->beyond, &may));
+  PetscCall(StrainMayExceed(&at, sim->results->beyond, &may));
   if (!may) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(scene->nbodies, &values));
   PetscCall(ElasticityMeasureStrain(sim->elasticity, sim->path->u, values));
@@ -76,7 +76,7 @@ PetscErrorCode StrainTest(Simulation sim, StepReport *report)
     const PetscBool turned = (PetscBool)(values[b][0] <= STRAIN_LIMIT);
 
     if (!StrainApplies(scene, b)) continue;
-    if (report->converged && values[b][2] > INVERTED_LIMIT) PetscCall(StrainRefuse(sim, b, values[b][2], report));
+    if (report->converged && values[b][2] > INVERTED_LIMIT) PetscCall(StrainRefuse(&at, b, values[b][2], report));
     if (sim->results->beyond[b] || (turned && values[b][1] <= ROTATION_LIMIT)) continue;
     sim->results->beyond[b] = PETSC_TRUE;
     PetscCall(ReportWarn(sim->comm, &sim->report, scene->bodies[b].place,

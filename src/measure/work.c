@@ -1,7 +1,6 @@
 /* Computes the work of external forces (dead loads, reactions at prescribed displacements) and of contact forces */
 #include "measureimpl.h"
 #include "src/state/contact_history.h"
-#include "src/state/path.h"
 
 /*
    Adds the work of a force over the displacement since the last state: (1 - part) x before . increment[0] + part x now
@@ -71,9 +70,9 @@ PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
 }
 
 /* Adds the work of reactions in the impact scheme, which are those of the step as a whole, and sets them to zero */
-static PetscErrorCode WorkAddMean(Simulation sim, Vec increment[2], Vec reaction, PetscReal *work)
+static PetscErrorCode WorkAddMean(const Measured *at, Vec increment[2], Vec reaction, PetscReal *work)
 {
-  const PetscReal share = SchemeShare(&sim->scene->dynamics);
+  const PetscReal share = SchemeShare(&at->scene->dynamics);
 
   PetscFunctionBegin;
   for (int k = 0; k < 2; ++k) {
@@ -115,6 +114,7 @@ static PetscErrorCode WorkAddBolts(Simulation sim, Vec u, StepReport *report)
 PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, PetscReal late,
   StepReport *report)
 {
+  const Measured  at     = SimulationMeasured(sim);
   const Bodies    bodies = SimulationBodies(sim);
   LoadPath       *path   = sim->path;
   const PetscReal work = path->work, taken = path->contact_work, relative = 1e-12;
@@ -128,7 +128,7 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   PetscCall(PrescribedSet(&sim->prescribed, 0.0, outside));
   PetscCall(VecWAXPY(reaction, -1.0, outside, unbalanced));
   PetscCall(ArcsGetIncrements(&bodies, path->u, u, increment));
-  if (SchemeIsImpact(&sim->scene->dynamics)) PetscCall(WorkAddMean(sim, increment, reaction, &path->work));
+  if (SchemeIsImpact(&sim->scene->dynamics)) PetscCall(WorkAddMean(&at, increment, reaction, &path->work));
   if (load) PetscCall(VecWAXPY(outside, 1.0, load, reaction));
   else PetscCall(VecCopy(reaction, outside));
   if (rigid) PetscCall(VecAXPY(outside, SchemeShare(&sim->scene->dynamics), rigid));
