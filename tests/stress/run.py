@@ -65,7 +65,7 @@ class Report:
         self.done = {}
         self.title = None
         self.bad = []
-        self.rows = 0
+        self.rows = {}
         self.seconds = 0.0
         os.makedirs(args.folder, exist_ok=True)
         if args.resume and os.path.exists(self.done_file):
@@ -87,7 +87,7 @@ class Report:
             self.say("| " + " | ".join(columns) + " |")
             self.say("|" + " --- |" * len(columns))
         self.say("| " + " | ".join(cells) + " |")
-        self.rows += 1
+        self.rows[title] = self.rows.get(title, 0) + 1
         if wrong:
             self.bad.append(f"{title}, {cells[0]}: {'; '.join(wrong)}")
 
@@ -113,9 +113,11 @@ class Report:
         self.seconds += entry["seconds"]
 
     def end(self):
-        self.say(f"\n"
-                 f"{self.rows} rows, {self.seconds / 60:.0f} minutes of processor time; {len(self.bad)} rows are "
-                 f"not as they must be")
+        self.say("\n## Cases\n\n| table | cases |\n| --- | --- |")
+        for title, rows in self.rows.items():
+            self.say(f"| {title} | {rows} |")
+        self.say(f"\n{sum(self.rows.values())} cases, {self.seconds / 60:.0f} minutes of processor time; "
+                 f"{len(self.bad)} are not as they must be")
         for line in self.bad:
             self.say(f"- {line}")
         if self.stream:
