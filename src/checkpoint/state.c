@@ -49,10 +49,10 @@ static PetscErrorCode CheckpointGetForce(Checkpoint checkpoint, const char name[
    Restores velocities and accelerations, and computes the forces at rest. path.u, path.time, path.contact and the
    plastic strains must have been restored, since these forces depend on them and on the temperatures at that time.
 */
-static PetscErrorCode CheckpointGetMotion(Simulation sim, Checkpoint checkpoint)
+static PetscErrorCode CheckpointGetMotion(Model model, State state, Checkpoint checkpoint)
 {
-  const Constraints constraints = SimulationConstraints(sim);
-  Dynamics         *d           = &sim->dynamics;
+  const Constraints constraints = ModelConstraints(model);
+  Dynamics         *d           = &model->dynamics;
 
   PetscFunctionBegin;
   d->damped  = checkpoint->damping_work;
@@ -60,34 +60,34 @@ static PetscErrorCode CheckpointGetMotion(Simulation sim, Checkpoint checkpoint)
   PetscCall(CheckpointGetVec(checkpoint, "velocity", d->velocity));
   PetscCall(CheckpointGetVec(checkpoint, "acceleration", d->acceleration));
   PetscCall(CheckpointGetVec(checkpoint, "auxiliary_acceleration", d->auxiliary));
-  PetscCall(TemperaturesApply(&sim->temperatures, sim->path->time));
-  PetscCall(DynamicsSetRest(&constraints, &sim->loads, sim->path->time, sim->path->u, d));
-  PetscCall(SchemeRelease(sim->path->contact, d));
+  PetscCall(TemperaturesApply(&model->temperatures, state->path->time));
+  PetscCall(DynamicsSetRest(&constraints, &model->loads, state->path->time, state->path->u, d));
+  PetscCall(SchemeRelease(state->path->contact, d));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode CheckpointCopyContact(Simulation sim, Checkpoint checkpoint, PetscBool back)
+static PetscErrorCode CheckpointCopyContact(Model model, State state, Checkpoint checkpoint, PetscBool back)
 {
-  const PetscInt   nvertices                      = sim->history->nowned;
+  const PetscInt   nvertices                      = state->history->nowned;
   PetscReal *const memory[CHECKPOINT_PAIR_FIELDS] = {
-    [CHECKPOINT_PRESSURE]   = sim->history->pressure,
-    [CHECKPOINT_SLACK]      = sim->history->slack,
-    [CHECKPOINT_SHEAR]      = sim->history->settled,
-    [CHECKPOINT_FRICTION]   = sim->history->friction,
-    [CHECKPOINT_BOUND]      = sim->history->bound,
-    [CHECKPOINT_SLIP_PATH]  = sim->history->slip_path,
-    [CHECKPOINT_DISSIPATED] = sim->history->dissipated,
+    [CHECKPOINT_PRESSURE]   = state->history->pressure,
+    [CHECKPOINT_SLACK]      = state->history->slack,
+    [CHECKPOINT_SHEAR]      = state->history->settled,
+    [CHECKPOINT_FRICTION]   = state->history->friction,
+    [CHECKPOINT_BOUND]      = state->history->bound,
+    [CHECKPOINT_SLIP_PATH]  = state->history->slip_path,
+    [CHECKPOINT_DISSIPATED] = state->history->dissipated,
   };
 
   PetscFunctionBegin;
-  for (PetscInt p = 0; sim->contact && p < sim->scene->npairs; ++p) {
+  for (PetscInt p = 0; model->contact && p < model->scene->npairs; ++p) {
     for (int k = 0; k < CHECKPOINT_PAIR_FIELDS; ++k) {
       const PetscInt components = CheckpointPairFields[k].components;
       char           name[128];
       PetscBool      kept;
       PetscReal     *values;
 
-      PetscCall(CheckpointNamePairField(&sim->scene->pairs[p], (CheckpointPairKind)k, sizeof(name), name, &kept));
+      PetscCall(CheckpointNamePairField(&model->scene->pairs[p], (CheckpointPairKind)k, sizeof(name), name, &kept));
       if (!kept) continue;
       if (back) PetscCall(CheckpointGetField(checkpoint, name, (const PetscReal **)&values));
       else PetscCall(CheckpointAddField(checkpoint, name, components, nvertices, &values));
@@ -132,7 +132,7 @@ static PetscErrorCode CheckpointCopyDualGaps(Contact contact, Checkpoint checkpo
 @*/
 PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
 {
-  const LoadPath *path = sim->path;
+  const LoadPath *path = sim->state->path;
   PetscInt        n;
 
   PetscFunctionBegin;
@@ -140,28 +140,28 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
   (*checkpoint)->step              = (PetscInt)PetscFloorReal(path->time);
   (*checkpoint)->time              = path->time;
   (*checkpoint)->previous_time     = path->previous_time;
-  (*checkpoint)->increment         = sim->control->increment;
+  (*checkpoint)->increment         = sim->state->control->increment;
   (*checkpoint)->largest_increment = path->largest_increment;
   (*checkpoint)->work              = path->work;
   (*checkpoint)->contact_work      = path->contact_work;
-  PetscCall(CheckpointCopyDualGaps(sim->contact, *checkpoint, PETSC_FALSE));
-  PetscCall(PetscMalloc1(sim->bolts.n, &(*checkpoint)->shortening));
-  PetscCall(PetscArraycpy((*checkpoint)->shortening, sim->bolts.shortening, sim->bolts.n));
+  PetscCall(CheckpointCopyDualGaps(sim->model->contact, *checkpoint, PETSC_FALSE));
+  PetscCall(PetscMalloc1(sim->model->bolts.n, &(*checkpoint)->shortening));
+  PetscCall(PetscArraycpy((*checkpoint)->shortening, sim->model->bolts.shortening, sim->model->bolts.n));
   PetscCall(VecGetLocalSize(path->u, &n));
   PetscCall(CheckpointAddVec(*checkpoint, "displacement", n / 3, path->u));
   PetscCall(CheckpointAddVec(*checkpoint, "previous_displacement", n / 3, path->previous_u));
   PetscCall(CheckpointAddVec(*checkpoint, "outside_force", n / 3, path->outside));
-  if (sim->history->frictional || (sim->contact && SimulationIsDynamic(sim)))
+  if (sim->state->history->frictional || (sim->model->contact && ModelIsDynamic(sim->model)))
     PetscCall(CheckpointAddVec(*checkpoint, "contact_force", n / 3, path->contact));
-  if (SimulationIsDynamic(sim)) {
-    (*checkpoint)->damping_work  = sim->dynamics.damped;
-    (*checkpoint)->largest_speed = sim->dynamics.fastest;
-    PetscCall(CheckpointAddVec(*checkpoint, "velocity", n / 3, sim->dynamics.velocity));
-    PetscCall(CheckpointAddVec(*checkpoint, "acceleration", n / 3, sim->dynamics.acceleration));
-    PetscCall(CheckpointAddVec(*checkpoint, "auxiliary_acceleration", n / 3, sim->dynamics.auxiliary));
+  if (ModelIsDynamic(sim->model)) {
+    (*checkpoint)->damping_work  = sim->model->dynamics.damped;
+    (*checkpoint)->largest_speed = sim->model->dynamics.fastest;
+    PetscCall(CheckpointAddVec(*checkpoint, "velocity", n / 3, sim->model->dynamics.velocity));
+    PetscCall(CheckpointAddVec(*checkpoint, "acceleration", n / 3, sim->model->dynamics.acceleration));
+    PetscCall(CheckpointAddVec(*checkpoint, "auxiliary_acceleration", n / 3, sim->model->dynamics.auxiliary));
   }
-  PetscCall(CheckpointCopyContact(sim, *checkpoint, PETSC_FALSE));
-  PetscCall(CheckpointAddPlastic(sim->scene, sim->elasticity, *checkpoint));
+  PetscCall(CheckpointCopyContact(sim->model, sim->state, *checkpoint, PETSC_FALSE));
+  PetscCall(CheckpointAddPlastic(sim->model->scene, sim->model->elasticity, *checkpoint));
   PetscFunctionReturn(0);
 }
 
@@ -187,35 +187,35 @@ PetscErrorCode SimulationGetCheckpoint(Simulation sim, Checkpoint *checkpoint)
 @*/
 PetscErrorCode SimulationSetCheckpoint(Simulation sim, Checkpoint checkpoint, PetscInt *step)
 {
-  const Bodies    bodies = SimulationBodies(sim);
-  LoadPath       *path   = sim->path;
-  const PetscReal unit   = SceneTimeStep(sim->scene);
+  const Bodies    bodies = ModelBodies(sim->model);
+  LoadPath       *path   = sim->state->path;
+  const PetscReal unit   = SceneTimeStep(sim->model->scene);
 
   PetscFunctionBegin;
-  PetscCall(CheckpointCheck(sim->comm, checkpoint));
-  PetscCheck(checkpoint->time < (PetscReal)sim->scene->nsteps, sim->comm, PETSC_ERR_USER_INPUT,
+  PetscCall(CheckpointCheck(sim->model->comm, checkpoint));
+  PetscCheck(checkpoint->time < (PetscReal)sim->model->scene->nsteps, sim->model->comm, PETSC_ERR_USER_INPUT,
     "the checkpoint is at time %g and the load program ends at time %g: the analysis is "
     "already complete",
-    (double)(unit * checkpoint->time), (double)(unit * (PetscReal)sim->scene->nsteps));
-  *step = sim->control->first_step = checkpoint->step;
-  sim->control->increment          = checkpoint->increment;
-  path->time                       = checkpoint->time;
-  path->previous_time              = checkpoint->previous_time;
-  path->largest_increment          = checkpoint->largest_increment;
-  path->work                       = checkpoint->work;
-  path->contact_work               = checkpoint->contact_work;
-  PetscCall(CheckpointCopyDualGaps(sim->contact, checkpoint, PETSC_TRUE));
+    (double)(unit * checkpoint->time), (double)(unit * (PetscReal)sim->model->scene->nsteps));
+  *step = sim->state->control->first_step = checkpoint->step;
+  sim->state->control->increment          = checkpoint->increment;
+  path->time                              = checkpoint->time;
+  path->previous_time                     = checkpoint->previous_time;
+  path->largest_increment                 = checkpoint->largest_increment;
+  path->work                              = checkpoint->work;
+  path->contact_work                      = checkpoint->contact_work;
+  PetscCall(CheckpointCopyDualGaps(sim->model->contact, checkpoint, PETSC_TRUE));
   PetscCall(CheckpointGetVec(checkpoint, "displacement", path->u));
   PetscCall(CheckpointGetVec(checkpoint, "previous_displacement", path->previous_u));
-  PetscCall(PetscArraycpy(sim->bolts.shortening, checkpoint->shortening, sim->bolts.n));
-  PetscCall(BoltsRestore(&bodies, &sim->bolts, path->u));
+  PetscCall(PetscArraycpy(sim->model->bolts.shortening, checkpoint->shortening, sim->model->bolts.n));
+  PetscCall(BoltsRestore(&bodies, &sim->model->bolts, path->u));
   PetscCall(CheckpointGetForce(checkpoint, "outside_force", path->u, &path->outside));
-  if (sim->history->frictional || (sim->contact && SimulationIsDynamic(sim)))
+  if (sim->state->history->frictional || (sim->model->contact && ModelIsDynamic(sim->model)))
     PetscCall(CheckpointGetForce(checkpoint, "contact_force", path->u, &path->contact));
-  PetscCall(CheckpointCopyContact(sim, checkpoint, PETSC_TRUE));
-  PetscCall(CheckpointGetPlastic(sim->scene, sim->comm, sim->elasticity, checkpoint));
-  if (SimulationIsDynamic(sim)) PetscCall(CheckpointGetMotion(sim, checkpoint));
-  PetscCall(ElasticityEnergy(sim->elasticity, path->u, &path->energy));
-  PetscCall(FrictionRecall(sim->history));
+  PetscCall(CheckpointCopyContact(sim->model, sim->state, checkpoint, PETSC_TRUE));
+  PetscCall(CheckpointGetPlastic(sim->model->scene, sim->model->comm, sim->model->elasticity, checkpoint));
+  if (ModelIsDynamic(sim->model)) PetscCall(CheckpointGetMotion(sim->model, sim->state, checkpoint));
+  PetscCall(ElasticityEnergy(sim->model->elasticity, path->u, &path->energy));
+  PetscCall(FrictionRecall(sim->state->history));
   PetscFunctionReturn(0);
 }

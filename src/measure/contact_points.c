@@ -231,19 +231,19 @@ static PetscErrorCode PairMeasure(const Measured *at, PetscInt pair, const Petsc
 }
 
 /* Computes the contact points and reports of all pairs at the last state. Collective. */
-PetscErrorCode ContactPointsMeasure(Simulation sim, StepReport *report)
+PetscErrorCode ContactPointsMeasure(Model model, State state, StepReport *report)
 {
-  const Measured             at      = SimulationMeasured(sim);
-  const ContactLinearization lin     = sim->solved->linearization;
+  const Measured             at      = MeasuredAt(model, state, NULL);
+  const ContactLinearization lin     = state->solved->linearization;
   PetscReal                 *stretch = NULL;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
-  sim->solved->npoints = 0;
-  PetscCall(PetscFree(sim->solved->points));
+  state->solved->npoints = 0;
+  PetscCall(PetscFree(state->solved->points));
   if (lin && lin->area) {
     PetscCall(PetscMalloc1(lin->nlocal + 1, &stretch)); /* not NULL on ranks without rows */
-    PetscCall(ContactGetStretch(sim->contact, sim->path->u, lin, stretch));
+    PetscCall(ContactGetStretch(model->contact, state->path->u, lin, stretch));
   }
   for (PetscInt p = 0; lin && p < report->npairs; ++p) PetscCall(PairMeasure(&at, p, stretch, &report->pairs[p]));
   PetscCall(PetscFree(stretch));

@@ -302,10 +302,10 @@ static PetscErrorCode ConeBalance(ContactCone *cone, const PetscReal load[])
    Computes `left`, the loads that contact forces cannot balance. size: sum of the magnitudes of the nodal loads.
    *none: no equilibrium exists, or only one with contact forces of more than a thousand times the loads.
 */
-static PetscErrorCode ConeProject(Simulation sim, PetscReal time, const FreeMotions *m, const PetscReal load[],
-  PetscReal size, ContactCone *cone, PetscReal left[], PetscBool *none)
+static PetscErrorCode ConeProject(Model model, State state, PetscReal time, const FreeMotions *m,
+  const PetscReal load[], PetscReal size, ContactCone *cone, PetscReal left[], PetscBool *none)
 {
-  const PetscReal beyond = 1e3, negligible = sim->springs.weak ? WEAK_SPRINGS_SHARE : 1e-7;
+  const PetscReal beyond = 1e3, negligible = model->springs.weak ? WEAK_SPRINGS_SHARE : 1e-7;
   const PetscInt  n = m->n;
   PetscBool       stop;
 
@@ -314,15 +314,15 @@ static PetscErrorCode ConeProject(Simulation sim, PetscReal time, const FreeMoti
   for (PetscInt it = 0; it < cone->nmax && cone->nrays < cone->nmax && !*none; ++it) {
     PetscBool found = PETSC_FALSE;
 
-    PetscCall(InterruptTest(sim, &stop));
+    PetscCall(InterruptTest(model, state, &stop));
     if (stop) break;
     PetscCall(PetscArraycpy(left, load, n));
     ConeAdd(n, cone->nrays, cone->ray, 1.0, cone->amount, left);
     if (PetscSqrtReal(ConeDot(n, left, left)) <= negligible * size) break;
-    for (ConeKind kind = CONE_NEAR; kind < CONE_KINDS && sim->contact && !found; ++kind) {
+    for (ConeKind kind = CONE_NEAR; kind < CONE_KINDS && model->contact && !found; ++kind) {
       if (!cone->rows[kind].lin)
-        PetscCall(ConeLinearize(sim->contact, &sim->places, sim->path, m, kind, &cone->rows[kind]));
-      PetscCall(ConeAppend(sim->comm, sim->scene, time, cone, &cone->rows[kind], left,
+        PetscCall(ConeLinearize(model->contact, &model->places, state->path, m, kind, &cone->rows[kind]));
+      PetscCall(ConeAppend(model->comm, model->scene, time, cone, &cone->rows[kind], left,
         -ConeDot(n, load, left) / (beyond * size), &found));
     }
     *none = (PetscBool)!found;
@@ -357,33 +357,33 @@ static PetscErrorCode ConeSlide(const ContactCone *cone, PetscReal motion[])
 }
 
 /* Reports the motion of the bodies that contact does not hold. left: unbalanced load on the free motions. */
-static PetscErrorCode EquilibriumReport(Simulation sim, const FreeMotions *m, const ContactCone *cone, PetscReal left[],
+static PetscErrorCode EquilibriumReport(Model model, const FreeMotions *m, const ContactCone *cone, PetscReal left[],
   StepReport *report)
 {
   Vec w;
 
   PetscFunctionBegin;
   PetscCall(ConeSlide(cone, left));
-  PetscCall(VecDuplicate(sim->places.x, &w));
+  PetscCall(VecDuplicate(model->places.x, &w));
   PetscCall(FreeMotionsDisplace(m, left, w));
   PetscCall(ReportReason(report, PETSC_FALSE,
     cone->rows[CONE_NEAR].slip ? "friction does not hold the bodies"
-    : sim->contact             ? "contact does not hold the bodies"
+    : model->contact           ? "contact does not hold the bodies"
                                : "nothing holds the bodies"));
-  PetscCall(RigidMotionReport(sim, w, "nothing stops it", NULL, report));
+  PetscCall(RigidMotionReport(model, w, "nothing stops it", NULL, report));
   PetscCall(VecDestroy(&w));
   PetscFunctionReturn(0);
 }
 
 /* Rotates free rigid bodies, and the load on these bodies, back to the last state */
-static PetscErrorCode EquilibriumTurnBack(Simulation sim, PetscReal time, Vec load)
+static PetscErrorCode EquilibriumTurnBack(Model model, State state, PetscReal time, Vec load)
 {
-  const Constraints constraints = SimulationConstraints(sim);
+  const Constraints constraints = ModelConstraints(model);
   PetscBool         anew;
 
   PetscFunctionBegin;
   PetscCall(RigidTurnLoads(&constraints, -1.0, time, load));
-  PetscCall(TiesTurn(&constraints, time, sim->path->u, sim->path->u, &anew));
+  PetscCall(TiesTurn(&constraints, time, state->path->u, state->path->u, &anew));
   PetscCall(RigidTurnLoads(&constraints, 1.0, time, load));
   PetscFunctionReturn(0);
 }
@@ -392,7 +392,8 @@ static PetscErrorCode EquilibriumTurnBack(Simulation sim, PetscReal time, Vec lo
    Tests whether an equilibrium exists for the loads at `time` and the positions of the last state. *none: no
    equilibrium exists; the report then names the moving body and its motion. A signal ends the test, and *none is false.
 */
-PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, StepReport *report, PetscBool *none)
+PetscErrorCode EquilibriumDiagnose(Model model, State state, PetscReal time, Vec force, StepReport *report,
+  PetscBool *none)
 {
   ContactCone cone;
   FreeMotions motions;
@@ -402,17 +403,17 @@ PetscErrorCode EquilibriumDiagnose(Simulation sim, PetscReal time, Vec force, St
   PetscFunctionBegin;
   *none = PETSC_FALSE;
   if (!force) PetscFunctionReturn(0);
-  PetscCall(InterruptTest(sim, &stop));
+  PetscCall(InterruptTest(model, state, &stop));
   if (stop) PetscFunctionReturn(0);
-  PetscCall(EquilibriumTurnBack(sim, time, force));
+  PetscCall(EquilibriumTurnBack(model, state, time, force));
   PetscCall(NodalMagnitudesMeasure(force, &size, NULL));
-  PetscCall(FreeMotionsCreate(sim, &motions));
+  PetscCall(FreeMotionsCreate(model, state, &motions));
   if (motions.n && size > 0.0) {
     PetscCall(PetscMalloc2(motions.n, &load, motions.n, &left));
     PetscCall(ConeCreate(motions.n, &cone));
     PetscCall(FreeMotionsSum(&motions, force, load));
-    PetscCall(ConeProject(sim, time, &motions, load, size, &cone, left, none));
-    if (*none) PetscCall(EquilibriumReport(sim, &motions, &cone, left, report));
+    PetscCall(ConeProject(model, state, time, &motions, load, size, &cone, left, none));
+    if (*none) PetscCall(EquilibriumReport(model, &motions, &cone, left, report));
     PetscCall(ConeDestroy(&cone));
     PetscCall(PetscFree2(load, left));
   }

@@ -149,7 +149,7 @@ static PetscErrorCode RigidFitDescribe(RigidFitSums *sums, PetscReal distance, c
    Appends a description of the body with the largest displacement, and the text `known`, to the reason of a failed
    step; and the text `turning`, if it is not NULL and the body turns. Collective.
 */
-PetscErrorCode RigidMotionReport(Simulation sim, Vec u, const char known[], const char turning[], StepReport *report)
+PetscErrorCode RigidMotionReport(Model model, Vec u, const char known[], const char turning[], StepReport *report)
 {
   RigidFitSums sums;
   PetscReal    distance = 0.0;
@@ -158,11 +158,11 @@ PetscErrorCode RigidMotionReport(Simulation sim, Vec u, const char known[], cons
   PetscBool    turns;
 
   PetscFunctionBegin;
-  PetscCall(RigidFitFindFarthest(sim->scene, &sim->places, u, &body, &distance));
-  PetscCall(RigidFitSum(sim->comm, &sim->places, u, body, &sums));
+  PetscCall(RigidFitFindFarthest(model->scene, &model->places, u, &body, &distance));
+  PetscCall(RigidFitSum(model->comm, &model->places, u, body, &sums));
   PetscCall(RigidFitDescribe(&sums, distance, motion, sizeof(motion), &turns));
   PetscCall(PetscSNPrintf(reason, sizeof(reason), "%s; body \"%s\" %s: %s%s", report->reason,
-    sim->scene->bodies[body].name, motion, known, turns && turning ? turning : ""));
+    model->scene->bodies[body].name, motion, known, turns && turning ? turning : ""));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }

@@ -220,7 +220,7 @@ static PetscErrorCode ForcesMeasurePair(const Measured *at, PetscInt pair, Vec u
 }
 
 /*
-   Computes the contact forces of all pairs. weighted: mass x pressure, one entry per row of sim->solved->linearization;
+   Computes the contact forces of all pairs. weighted: mass x pressure, one entry per row of the last linearization;
    shear: friction forces, or NULL.
 */
 PetscErrorCode ForcesMeasurePairs(const Measured *at, Vec u, Vec weighted, Vec shear, StepReport *report)
@@ -272,30 +272,30 @@ static PetscErrorCode ForcesTakeAll(DM dm, const VertexPlaces *places, Vec u, Ve
 }
 
 /* Adds the reactions of each face to its sum, see ForcesMeasureFaces() */
-static PetscErrorCode ForcesSumFaces(Simulation sim, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *report,
+static PetscErrorCode ForcesSumFaces(Model model, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *report,
   ForceSum sums[])
 {
-  const Constraints constraints = SimulationConstraints(sim);
+  const Constraints constraints = ModelConstraints(model);
   Vec               shares;
   ForceField        field;
 
   PetscFunctionBegin;
   PetscCall(FaceForcesDivide(&constraints, reaction, ties, &shares));
-  PetscCall(ForceFieldGet(&sim->places, u, shares, &field));
-  for (PetscInt i = 0; i < sim->scene->ndisplacements; ++i) {
-    const SceneDisplacement *d   = &sim->scene->displacements[i];
+  PetscCall(ForceFieldGet(&model->places, u, shares, &field));
+  for (PetscInt i = 0; i < model->scene->ndisplacements; ++i) {
+    const SceneDisplacement *d   = &model->scene->displacements[i];
     ForceSum                *sum = &sums[ForcesFindFace(report, d->face)];
 
-    PetscCall(ForceSumAddFace(sim->dm, &field, d->face, d->fixed, sum));
-    if (d->inclined) PetscCall(ForceSumAddPlane(sim->dm, &field, d->face, d->normal, sum));
+    PetscCall(ForceSumAddFace(model->dm, &field, d->face, d->fixed, sum));
+    if (d->inclined) PetscCall(ForceSumAddPlane(model->dm, &field, d->face, d->normal, sum));
   }
-  PetscCall(ForceFieldRestore(&sim->places, u, shares, &field));
+  PetscCall(ForceFieldRestore(&model->places, u, shares, &field));
   PetscCall(VecDestroy(&shares));
-  for (PetscInt i = 0; rigid && i < sim->scene->ndisplacements; ++i) {
-    const SceneDisplacement *d = &sim->scene->displacements[i];
+  for (PetscInt i = 0; rigid && i < model->scene->ndisplacements; ++i) {
+    const SceneDisplacement *d = &model->scene->displacements[i];
 
     if (d->moves)
-      PetscCall(ForcesTakeAll(sim->dm, &sim->places, u, rigid, d->face, &sums[ForcesFindFace(report, d->face)]));
+      PetscCall(ForcesTakeAll(model->dm, &model->places, u, rigid, d->face, &sums[ForcesFindFace(report, d->face)]));
   }
   PetscFunctionReturn(0);
 }
@@ -305,15 +305,15 @@ static PetscErrorCode ForcesSumFaces(Simulation sim, Vec u, Vec reaction, Vec ti
    the bodies, on exit without those of the planes; rigid: forces on the rigid bodies, on exit without those of the
    faces. ties and rigid may be NULL.
 */
-PetscErrorCode ForcesMeasureFaces(Simulation sim, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *report)
+PetscErrorCode ForcesMeasureFaces(Model model, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *report)
 {
   ForceSum *sums;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscCall(PetscCalloc1(report->nfaces, &sums));
-  PetscCall(ForcesSumFaces(sim, u, reaction, ties, rigid, report, sums));
-  PetscCall(ForceSumReduce(sim->comm, report->nfaces, sums));
+  PetscCall(ForcesSumFaces(model, u, reaction, ties, rigid, report, sums));
+  PetscCall(ForceSumReduce(model->comm, report->nfaces, sums));
   for (PetscInt f = 0; f < report->nfaces; ++f) {
     PetscCall(PetscArraycpy(report->faces[f].reaction, sums[f].force, 3));
     report->faces[f].size = sums[f].size;
@@ -335,20 +335,20 @@ static BodyReport *ForcesFindBody(StepReport *report, const char face[])
   return NULL;
 }
 
-static PetscErrorCode ForcesMeasureConnectors(Simulation sim, Vec u, StepReport *report)
+static PetscErrorCode ForcesMeasureConnectors(Model model, Vec u, StepReport *report)
 {
-  const Bodies bodies = SimulationBodies(sim);
+  const Bodies bodies = ModelBodies(model);
 
   PetscFunctionBegin;
   PetscCall(PetscFree(report->connectors));
-  report->nconnectors = sim->scene->nconnectors;
+  report->nconnectors = model->scene->nconnectors;
   PetscCall(PetscCalloc1(report->nconnectors, &report->connectors));
   for (PetscInt c = 0; c < report->nconnectors; ++c) {
     ConnectorReport *connector = &report->connectors[c];
 
-    connector->name = sim->scene->connectors[c].name;
+    connector->name = model->scene->connectors[c].name;
     PetscCall(
-      ConnectorMeasure(&bodies, &sim->springs, c, u, sim->dynamics.velocity, connector->offset, connector->force));
+      ConnectorMeasure(&bodies, &model->springs, c, u, model->dynamics.velocity, connector->offset, connector->force));
   }
   PetscFunctionReturn(0);
 }
@@ -385,14 +385,14 @@ static PetscErrorCode ForcesAddToBodies(const VertexPlaces *places, Vec forces, 
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode ForcesSumSprings(Simulation sim, Vec u, StepReport *report)
+static PetscErrorCode ForcesSumSprings(Model model, Vec u, StepReport *report)
 {
   Vec forces;
 
   PetscFunctionBegin;
-  PetscCall(SpringsMeasure(&sim->springs, u, &forces, &report->weak_spring_force));
-  PetscCall(ForcesMeasureConnectors(sim, u, report));
-  PetscCall(ForcesAddToBodies(&sim->places, forces, offsetof(BodyReport, springs), report));
+  PetscCall(SpringsMeasure(&model->springs, u, &forces, &report->weak_spring_force));
+  PetscCall(ForcesMeasureConnectors(model, u, report));
+  PetscCall(ForcesAddToBodies(&model->places, forces, offsetof(BodyReport, springs), report));
   PetscCall(VecDestroy(&forces));
   PetscFunctionReturn(0);
 }
@@ -401,14 +401,14 @@ static PetscErrorCode ForcesSumSprings(Simulation sim, Vec u, StepReport *report
    Sums the forces on each body: those of pairs and faces from the report, springs, ties and loads (NULL: none). Forces
    below `rounding` count as balanced.
 */
-PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, PetscReal rounding, StepReport *report)
+PetscErrorCode ForcesMeasureBodies(Model model, Vec u, Vec load, Vec ties, PetscReal rounding, StepReport *report)
 {
   PetscReal largest = 0.0;
 
   PetscFunctionBegin;
   for (PetscInt p = 0; p < report->npairs; ++p) {
-    BodyReport *nonmortar = ForcesFindBody(report, sim->scene->pairs[p].nonmortar),
-               *mortar    = ForcesFindBody(report, sim->scene->pairs[p].mortar);
+    BodyReport *nonmortar = ForcesFindBody(report, model->scene->pairs[p].nonmortar),
+               *mortar    = ForcesFindBody(report, model->scene->pairs[p].mortar);
 
     PetscCall(ForcesAddToBody(nonmortar, nonmortar->contact, report->pairs[p].force, report->pairs[p].size));
     PetscCall(ForcesAddToBody(mortar, mortar->contact, report->pairs[p].mortar_force, report->pairs[p].size));
@@ -418,9 +418,9 @@ PetscErrorCode ForcesMeasureBodies(Simulation sim, Vec u, Vec load, Vec ties, Pe
 
     PetscCall(ForcesAddToBody(body, body->reaction, report->faces[f].reaction, report->faces[f].size));
   }
-  if (load) PetscCall(ForcesAddToBodies(&sim->places, load, offsetof(BodyReport, load), report));
-  if (sim->springs.stiffness) PetscCall(ForcesSumSprings(sim, u, report));
-  if (ties) PetscCall(ForcesAddToBodies(&sim->places, ties, offsetof(BodyReport, ties), report));
+  if (load) PetscCall(ForcesAddToBodies(&model->places, load, offsetof(BodyReport, load), report));
+  if (model->springs.stiffness) PetscCall(ForcesSumSprings(model, u, report));
+  if (ties) PetscCall(ForcesAddToBodies(&model->places, ties, offsetof(BodyReport, ties), report));
   report->balance = 0.0;
   for (PetscInt b = 0; b < report->nbodies; ++b) largest = PetscMax(largest, report->bodies[b].balance);
   for (PetscInt b = 0; b < report->nbodies; ++b) {

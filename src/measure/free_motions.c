@@ -85,7 +85,7 @@ static PetscErrorCode FreeMotionsAdd(Mat A, PetscReal factor, Mat *B)
    Computes the matrix of the resistance to the modes, with a stiffness of 1 of each prescribed, sprung or tied row,
    on all ranks
 */
-static PetscErrorCode FreeMotionsMeasureResistance(Simulation sim, Mat modes, Mat *resistance)
+static PetscErrorCode FreeMotionsMeasureResistance(Model model, Mat modes, Mat *resistance)
 {
   Mat       part, more, *all;
   Vec       resisted;
@@ -93,25 +93,25 @@ static PetscErrorCode FreeMotionsMeasureResistance(Simulation sim, Mat modes, Ma
   PetscReal size;
 
   PetscFunctionBegin;
-  PetscCall(FreeMotionsMarkResisted(&sim->places, &sim->springs, &sim->prescribed, &resisted));
+  PetscCall(FreeMotionsMarkResisted(&model->places, &model->springs, &model->prescribed, &resisted));
   PetscCall(MatDuplicate(modes, MAT_COPY_VALUES, &part));
   PetscCall(MatDiagonalScale(part, resisted, NULL));
   PetscCall(VecDestroy(&resisted));
   PetscCall(MatTransposeMatMult(part, part, MAT_INITIAL_MATRIX, PETSC_DEFAULT, resistance));
   PetscCall(MatDestroy(&part));
-  if (sim->ties.C) {
-    PetscCall(MatMatMult(sim->ties.C, modes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &part));
+  if (model->ties.C) {
+    PetscCall(MatMatMult(model->ties.C, modes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &part));
     PetscCall(MatAXPY(part, -1.0, modes, DIFFERENT_NONZERO_PATTERN));
     PetscCall(MatTransposeMatMult(part, part, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &more));
     PetscCall(MatDestroy(&part));
     PetscCall(FreeMotionsAdd(*resistance, 1.0, &more));
   }
-  if (sim->springs.between) {
-    PetscCall(MatNorm(sim->springs.between, NORM_INFINITY, &size));
-    PetscCall(MatPtAP(sim->springs.between, modes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &more));
+  if (model->springs.between) {
+    PetscCall(MatNorm(model->springs.between, NORM_INFINITY, &size));
+    PetscCall(MatPtAP(model->springs.between, modes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &more));
     PetscCall(FreeMotionsAdd(*resistance, size > 0.0 ? 1.0 / size : 0.0, &more));
   }
-  PetscCall(ISCreateStride(PETSC_COMM_SELF, 6 * sim->scene->nbodies, 0, 1, &rows));
+  PetscCall(ISCreateStride(PETSC_COMM_SELF, 6 * model->scene->nbodies, 0, 1, &rows));
   PetscCall(MatCreateSubMatrices(*resistance, 1, &rows, &rows, MAT_INITIAL_MATRIX, &all));
   PetscCall(ISDestroy(&rows));
   PetscCall(MatDestroy(resistance));
@@ -215,23 +215,23 @@ static PetscErrorCode FreeMotionsCombine(MPI_Comm comm, Scene scene, Mat modes, 
    Collective. Computes the free motions at the last state. Bodies at small strain are at their undeformed positions, as
    in the energy, unless rigid bodies turn.
 */
-PetscErrorCode FreeMotionsCreate(Simulation sim, FreeMotions *m)
+PetscErrorCode FreeMotionsCreate(Model model, State state, FreeMotions *m)
 {
-  const Measured at = SimulationMeasured(sim);
+  const Measured at = MeasuredAt(model, state, NULL);
   PetscBool      linear;
   Mat            modes, resistance, combined;
   Vec            places;
 
   PetscFunctionBegin;
-  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
-  PetscCall(VecDuplicate(sim->places.x, &places));
-  PetscCall(VecCopy(sim->places.x, places));
-  if (!linear || sim->rigid.turns) PetscCall(VecAXPY(places, 1.0, sim->path->u));
+  PetscCall(ElasticityIsLinear(model->elasticity, &linear));
+  PetscCall(VecDuplicate(model->places.x, &places));
+  PetscCall(VecCopy(model->places.x, places));
+  if (!linear || model->rigid.turns) PetscCall(VecAXPY(places, 1.0, state->path->u));
   PetscCall(FreeMotionsCreateModes(&at, places, &modes));
   PetscCall(VecDestroy(&places));
-  PetscCall(FreeMotionsMeasureResistance(sim, modes, &resistance));
-  m->comm = sim->comm;
-  PetscCall(FreeMotionsCombine(sim->comm, sim->scene, modes, resistance, &m->n, &combined));
+  PetscCall(FreeMotionsMeasureResistance(model, modes, &resistance));
+  m->comm = model->comm;
+  PetscCall(FreeMotionsCombine(model->comm, model->scene, modes, resistance, &m->n, &combined));
   PetscCall(MatMatMult(modes, combined, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &m->Z));
   PetscCall(MatDestroy(&combined));
   PetscCall(MatDestroy(&resistance));

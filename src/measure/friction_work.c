@@ -176,12 +176,12 @@ static PetscReal FrictionShiftWork(const PetscReal shift[3], const PetscReal old
    Computes the parts of FrictionLateWork() that count, and the bounds of the friction forces. late, bound: [npairs x
    nowned] by vertex. Time integration has its own balance of energy: there `late` is zero.
 */
-static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const ContactSolution *sol, PetscReal late[],
-  PetscReal bound[])
+static PetscErrorCode FrictionGetLateWork(Model model, State state, PetscReal time, const ContactSolution *sol,
+  PetscReal late[], PetscReal bound[])
 {
-  const Measured        at  = SimulationMeasured(sim);
-  ContactLinearization  lin = sim->solved->linearization;
-  const ContactHistory *m   = sim->history;
+  const Measured        at  = MeasuredAt(model, state, NULL);
+  ContactLinearization  lin = state->solved->linearization;
+  const ContactHistory *m   = state->history;
   const PetscScalar    *f, *s, *g;
   PetscReal            *ratio;
 
@@ -192,7 +192,7 @@ static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const 
   PetscCall(VecGetArrayRead(sol->shear, &f));
   PetscCall(VecGetArrayRead(sol->slip, &s));
   PetscCall(VecGetArrayRead(sol->gap, &g));
-  for (PetscInt r = 0; r < lin->nlocal && !SimulationIsDynamic(sim); ++r) {
+  for (PetscInt r = 0; r < lin->nlocal && !ModelIsDynamic(model); ++r) {
     const PetscInt   k       = ContactHistoryIndex(m, lin, r);
     const PetscReal *tangent = &lin->tangent[6 * r], *old = &m->settled[3 * k];
 
@@ -214,26 +214,26 @@ static PetscErrorCode FrictionGetLateWork(Simulation sim, PetscReal time, const 
    until the end. sums: [npairs] work of each pair on all ranks; *late: the part of the work that the mean of the forces
    at the two states omits, on all ranks; friction: [3 npairs x nowned] friction forces at u, or NULL.
 */
-static PetscErrorCode FrictionGetWork(Simulation sim, PetscReal time, Vec u, const ContactSolution *sol,
+static PetscErrorCode FrictionGetWork(Model model, State state, PetscReal time, Vec u, const ContactSolution *sol,
   PetscReal work[], PetscReal bound[], PetscReal sums[], PetscReal friction[], PetscReal *late)
 {
-  const Measured        at     = SimulationMeasured(sim);
-  const Bodies          bodies = SimulationBodies(sim);
-  const ContactHistory *m      = sim->history;
+  const Measured        at     = MeasuredAt(model, state, NULL);
+  const Bodies          bodies = ModelBodies(model);
+  const ContactHistory *m      = state->history;
   const PetscScalar    *now;
   PetscReal            *mean, *all;
   Vec                   force, increment[2];
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &force));
-  PetscCall(ArcsGetIncrements(&bodies, sim->path->u, u, increment));
+  PetscCall(ArcsGetIncrements(&bodies, state->path->u, u, increment));
   PetscCall(PetscCalloc1(m->npairs + 1, &all));
   PetscCall(PetscMalloc1(m->nowned, &mean));
-  PetscCall(FrictionGetLateWork(sim, time, sol, work, bound));
+  PetscCall(FrictionGetLateWork(model, state, time, sol, work, bound));
   for (PetscInt p = 0; p < m->npairs; ++p) {
     PetscReal *of = &work[p * m->nowned];
 
-    if (!SceneContactPairHasFriction(&sim->scene->pairs[p])) {
+    if (!SceneContactPairHasFriction(&model->scene->pairs[p])) {
       PetscCall(PetscArrayzero(of, m->nowned));
       continue;
     }
@@ -248,11 +248,11 @@ static PetscErrorCode FrictionGetWork(Simulation sim, PetscReal time, Vec u, con
     for (PetscInt i = 0; i < 3 * m->nowned; ++i) friction[3 * p * m->nowned + i] = PetscRealPart(now[i]);
     PetscCall(VecRestoreArrayRead(force, &now));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, all, (PetscMPIInt)(m->npairs + 1), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, all, (PetscMPIInt)(m->npairs + 1), MPIU_REAL, MPIU_SUM, model->comm));
   *late = all[m->npairs];
   for (PetscInt p = 0; p < m->npairs; ++p) {
     sums[p] = all[p];
-    if (all[p] >= 0.0 || SimulationIsDynamic(sim)) continue;
+    if (all[p] >= 0.0 || ModelIsDynamic(model)) continue;
     sums[p] = 0.0;
     *late -= all[p];
     PetscCall(PetscArrayzero(&work[p * m->nowned], m->nowned));
@@ -268,10 +268,10 @@ static PetscErrorCode FrictionGetWork(Simulation sim, PetscReal time, Vec u, con
    Computes for every pair the work of friction from the start to the solution `sol` at u, and the sum of the magnitudes
    of the friction forces. *late: see FrictionGetWork().
 */
-PetscErrorCode FrictionMeasure(Simulation sim, PetscReal time, Vec u, const ContactSolution *sol, StepReport *report,
-  PetscReal *late)
+PetscErrorCode FrictionMeasure(Model model, State state, PetscReal time, Vec u, const ContactSolution *sol,
+  StepReport *report, PetscReal *late)
 {
-  const ContactHistory *m = sim->history;
+  const ContactHistory *m = state->history;
   PetscReal            *sums, *since, *work, *bound;
 
   PetscFunctionBegin;
@@ -279,10 +279,10 @@ PetscErrorCode FrictionMeasure(Simulation sim, PetscReal time, Vec u, const Cont
   if (!sol->shear) PetscFunctionReturn(0);
   PetscCall(PetscCalloc2(2 * m->npairs, &sums, m->npairs, &since));
   PetscCall(PetscMalloc2(m->npairs * m->nowned, &work, m->npairs * m->nowned, &bound));
-  PetscCall(FrictionGetWork(sim, time, u, sol, work, bound, since, NULL, late));
+  PetscCall(FrictionGetWork(model, state, time, u, sol, work, bound, since, NULL, late));
   for (PetscInt k = 0; k < m->npairs * m->nowned; ++k) sums[2 * (k / m->nowned)] += m->dissipated[k];
-  PetscCall(FrictionAddSizes(sim->solved->linearization, sol, sums));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(2 * m->npairs), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCall(FrictionAddSizes(state->solved->linearization, sol, sums));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(2 * m->npairs), MPIU_REAL, MPIU_SUM, model->comm));
   for (PetscInt p = 0; p < m->npairs; ++p) {
     report->pairs[p].dissipated  = sums[2 * p] + since[p];
     report->pairs[p].shear_force = sums[2 * p + 1];
@@ -294,15 +294,15 @@ PetscErrorCode FrictionMeasure(Simulation sim, PetscReal time, Vec u, const Cont
 }
 
 /* Adds the dissipation up to u to the history, and stores the friction forces and their bounds at u */
-static PetscErrorCode FrictionSettleForces(Simulation sim, PetscReal time, Vec u, const ContactSolution *sol)
+static PetscErrorCode FrictionSettleForces(Model model, State state, PetscReal time, Vec u, const ContactSolution *sol)
 {
-  ContactHistory *m = sim->history;
+  ContactHistory *m = state->history;
   PetscReal      *sums, *work, *bound, late;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(m->npairs, &sums));
   PetscCall(PetscMalloc2(m->npairs * m->nowned, &work, m->npairs * m->nowned, &bound));
-  PetscCall(FrictionGetWork(sim, time, u, sol, work, bound, sums, m->friction, &late));
+  PetscCall(FrictionGetWork(model, state, time, u, sol, work, bound, sums, m->friction, &late));
   PetscCall(PetscArraycpy(m->bound, bound, m->npairs * m->nowned));
   for (PetscInt k = 0; k < m->npairs * m->nowned; ++k) m->dissipated[k] += work[k];
   PetscCall(PetscFree2(work, bound));
@@ -314,26 +314,26 @@ static PetscErrorCode FrictionSettleForces(Simulation sim, PetscReal time, Vec u
    Makes the solution at u the new state of equilibrium: adds its dissipation and slip to the history. Later slip is
    relative to this state.
 */
-PetscErrorCode FrictionSettle(Simulation sim, PetscReal time, Vec u, const ContactSolution *sol)
+PetscErrorCode FrictionSettle(Model model, State state, PetscReal time, Vec u, const ContactSolution *sol)
 {
-  ContactLinearization lin = sim->solved->linearization;
-  ContactHistory      *m   = sim->history;
+  ContactLinearization lin = state->solved->linearization;
+  ContactHistory      *m   = state->history;
   const PetscScalar   *f, *s;
 
   PetscFunctionBegin;
-  PetscCall(PetscFree2(sim->solved->shear, sim->solved->slip));
+  PetscCall(PetscFree2(state->solved->shear, state->solved->slip));
   if (!sol->shear) PetscFunctionReturn(0);
-  PetscCall(FrictionSettleForces(sim, time, u, sol));
-  PetscCall(PetscMalloc2(2 * lin->nlocal, &sim->solved->shear, 2 * lin->nlocal, &sim->solved->slip));
+  PetscCall(FrictionSettleForces(model, state, time, u, sol));
+  PetscCall(PetscMalloc2(2 * lin->nlocal, &state->solved->shear, 2 * lin->nlocal, &state->solved->slip));
   PetscCall(VecGetArrayRead(sol->shear, &f));
   PetscCall(VecGetArrayRead(sol->slip, &s));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
-    if (sim->solved->pressure[r] > 0.0)
+    if (state->solved->pressure[r] > 0.0)
       m->slip_path[ContactHistoryIndex(m, lin, r)] +=
         PetscSqrtReal(PetscSqr(PetscRealPart(s[2 * r])) + PetscSqr(PetscRealPart(s[2 * r + 1])));
     for (PetscInt a = 0; a < 2; ++a) {
-      sim->solved->shear[2 * r + a] = PetscRealPart(f[2 * r + a]);
-      sim->solved->slip[2 * r + a]  = PetscRealPart(s[2 * r + a]);
+      state->solved->shear[2 * r + a] = PetscRealPart(f[2 * r + a]);
+      state->solved->slip[2 * r + a]  = PetscRealPart(s[2 * r + a]);
     }
   }
   PetscCall(VecRestoreArrayRead(sol->slip, &s));

@@ -176,29 +176,29 @@ static PetscErrorCode StartWarnOfRigid(const Measured *at, const SceneContactPai
 PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
 {
   const Measured at    = SimulationMeasured(sim);
-  Scene          scene = sim->scene;
+  Scene          scene = sim->model->scene;
   PairStart     *starts;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(scene->npairs, &starts));
-  PetscCall(StartMeasure(sim->comm, lin, scene->npairs, starts));
-  PetscCall(StartClearDual(sim->scene, sim->contact, sim->path, starts));
+  PetscCall(StartMeasure(sim->model->comm, lin, scene->npairs, starts));
+  PetscCall(StartClearDual(sim->model->scene, sim->model->contact, sim->state->path, starts));
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *pair   = &scene->pairs[p];
     const char             *wanted = StartJudge(pair, &starts[p]);
     char                    away[512];
 
-    PetscCall(StartLookAway(sim->contact, scene, p, away, sizeof(away)));
-    if (away[0]) PetscCall(ReportWarn(sim->comm, &sim->report, pair->place, "%s", away));
+    PetscCall(StartLookAway(sim->model->contact, scene, p, away, sizeof(away)));
+    if (away[0]) PetscCall(ReportWarn(sim->model->comm, &sim->report, pair->place, "%s", away));
     PetscCall(StartWarnOfRigid(&at, pair));
     PetscCall(StartWarnOfFrictionless(&at, p));
     if (!wanted) continue;
     if (starts[p].overlap > 0.0)
-      PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
+      PetscCall(ReportWarn(sim->model->comm, &sim->report, pair->place,
         "contact pair \"%s\" overlaps at the start, by up to %g over an area of %g, %s", pair->name,
         -(double)starts[p].least, (double)starts[p].overlap, wanted));
     else
-      PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
+      PetscCall(ReportWarn(sim->model->comm, &sim->report, pair->place,
         "contact pair \"%s\": the faces do not overlap at the start, %s", pair->name, wanted));
   }
   PetscCall(PetscFree(starts));
@@ -234,22 +234,22 @@ PetscErrorCode StartWarnOfUnmet(Simulation sim, StepReport *report)
   const RunReport *run = &sim->report;
 
   PetscFunctionBegin;
-  for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
+  for (PetscInt p = 0; p < sim->model->scene->npairs; ++p) {
     PetscReal closed = 0.0; /* area and force; on coarse facets no vertex may be closed although a force acts */
 
-    if (sim->scene->pairs[p].why) continue; /* the pair was found by a rule and need not close */
+    if (sim->model->scene->pairs[p].why) continue; /* the pair was found by a rule and need not close */
     for (PetscInt s = 0; s < run->nsteps; ++s)
       if (p < run->steps[s].npairs) closed += run->steps[s].pairs[p].area + run->steps[s].pairs[p].normal_force;
     if (closed == 0.0) PetscCall(StartRefuseEntered(&at, p, report));
-    if (closed == 0.0 && sim->scene->pairs[p].self)
-      PetscCall(ReportWarn(sim->comm, &sim->report, sim->scene->pairs[p].place,
+    if (closed == 0.0 && sim->model->scene->pairs[p].self)
+      PetscCall(ReportWarn(sim->model->comm, &sim->report, sim->model->scene->pairs[p].place,
         "contact pair \"%s\" was open at the end of every load step: %s did not come into contact with itself",
-        sim->scene->pairs[p].name, sim->scene->pairs[p].self));
+        sim->model->scene->pairs[p].name, sim->model->scene->pairs[p].self));
     else if (closed == 0.0)
-      PetscCall(ReportWarn(sim->comm, &sim->report, sim->scene->pairs[p].place,
+      PetscCall(ReportWarn(sim->model->comm, &sim->report, sim->model->scene->pairs[p].place,
         "contact pair \"%s\" was open at the end of every load step (mortar %s, nonmortar %s): check load direction, "
         "faces and clearance",
-        sim->scene->pairs[p].name, sim->scene->pairs[p].mortar, sim->scene->pairs[p].nonmortar));
+        sim->model->scene->pairs[p].name, sim->model->scene->pairs[p].mortar, sim->model->scene->pairs[p].nonmortar));
   }
   PetscFunctionReturn(0);
 }

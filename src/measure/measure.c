@@ -51,15 +51,14 @@ static PetscErrorCode MeasureGap(const ContactSolution *sol, StepReport *report)
 }
 
 /* Adds the squared errors of the cells to those of earlier load steps */
-static PetscErrorCode MeasureAddErrors(Simulation sim, PetscReal cells[])
+static PetscErrorCode MeasureAddErrors(Model model, RunState *run, PetscReal cells[])
 {
   PetscInt cstart, cend;
 
   PetscFunctionBegin;
-  PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
-  if (!sim->run->adapt.errors)
-    PetscCall(PetscCalloc2(cend - cstart, &sim->run->adapt.errors, cend - cstart, &sim->run->adapt.marked));
-  for (PetscInt c = 0; c < cend - cstart; ++c) sim->run->adapt.errors[c] += cells[c];
+  PetscCall(DMPlexGetHeightStratum(model->dm, 0, &cstart, &cend));
+  if (!run->adapt.errors) PetscCall(PetscCalloc2(cend - cstart, &run->adapt.errors, cend - cstart, &run->adapt.marked));
+  for (PetscInt c = 0; c < cend - cstart; ++c) run->adapt.errors[c] += cells[c];
   PetscCall(PetscFree(cells));
   PetscFunctionReturn(0);
 }
@@ -68,17 +67,18 @@ static PetscErrorCode MeasureAddErrors(Simulation sim, PetscReal cells[])
    Estimates the discretization error in the energy norm, relative to the energy norm of the displacement.
    report->energy must be set. moves: the bodies only move as a whole, so that their energy is rounding error.
 */
-static PetscErrorCode MeasureDiscretization(Simulation sim, Vec u, PetscBool moves, StepReport *report)
+static PetscErrorCode MeasureDiscretization(Model model, Results *results, RunState *run, Vec u, PetscBool moves,
+  StepReport *report)
 {
   const PetscReal size = moves ? 0.0 : PetscSqrtReal(2.0 * report->energy);
   PetscReal       sum = 0.0, *cells = NULL;
 
   PetscFunctionBegin;
   PetscCall(PetscFree(report->body_errors));
-  PetscCall(PetscMalloc1(sim->scene->nbodies, &report->body_errors));
-  PetscCall(ResultsRecover(sim, u, report->body_errors, sim->run->marks ? &cells : NULL, report));
-  if (sim->run->marks) PetscCall(MeasureAddErrors(sim, cells));
-  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
+  PetscCall(PetscMalloc1(model->scene->nbodies, &report->body_errors));
+  PetscCall(ResultsRecover(model, results, u, report->body_errors, run->marks ? &cells : NULL, report));
+  if (run->marks) PetscCall(MeasureAddErrors(model, run, cells));
+  for (PetscInt b = 0; b < model->scene->nbodies; ++b) {
     sum += report->body_errors[b];
     report->body_errors[b] = size > 0.0 ? PetscSqrtReal(report->body_errors[b]) / size : 0.0;
   }
@@ -172,11 +172,11 @@ static PetscErrorCode MeasurePlastic(Scene scene, Elasticity elasticity, StepRep
    Measures the contact pairs. *weighted: forces of the rows; *contact: forces on the bodies; *late: see
    FrictionMeasure()
 */
-static PetscErrorCode MeasureContact(Simulation sim, PetscReal time, Vec u, const ContactSolution *sol,
+static PetscErrorCode MeasureContact(Model model, State state, PetscReal time, Vec u, const ContactSolution *sol,
   StepReport *report, Vec *weighted, Vec *contact, PetscReal *late)
 {
-  const Measured             at  = SimulationMeasured(sim);
-  const ContactLinearization lin = sim->solved->linearization;
+  const Measured             at  = MeasuredAt(model, state, NULL);
+  const ContactLinearization lin = state->solved->linearization;
 
   PetscFunctionBegin;
   PetscCall(MeasureGap(sol, report));
@@ -186,8 +186,8 @@ static PetscErrorCode MeasureContact(Simulation sim, PetscReal time, Vec u, cons
   PetscCall(MatMultTranspose(lin->J, *weighted, *contact));
   PetscCall(FrictionAddForces(lin, lin->slip, sol->shear, PETSC_DECIDE, *contact));
   PetscCall(ForcesMeasurePairs(&at, u, *weighted, sol->shear, report));
-  PetscCall(FrictionMeasure(sim, time, u, sol, report, late));
-  PetscCall(MeasureActionReaction(sim->comm, *contact, report));
+  PetscCall(FrictionMeasure(model, state, time, u, sol, report, late));
+  PetscCall(MeasureActionReaction(model->comm, *contact, report));
   PetscFunctionReturn(0);
 }
 
@@ -196,41 +196,41 @@ static PetscErrorCode MeasureContact(Simulation sim, PetscReal time, Vec u, cons
 static PetscErrorCode MeasureForces(Simulation sim, PetscReal time, Vec load, Vec inertia, Vec u,
   const ContactSolution *sol, StepReport *report, PetscBool *moves)
 {
-  const Measured    at          = SimulationMeasured(sim);
-  const Constraints constraints = SimulationConstraints(sim);
+  const Measured    at          = MeasuredAt(sim->model, sim->state, NULL);
+  const Constraints constraints = ModelConstraints(sim->model);
   Vec               force, ties, rigid, contact = NULL, weighted = NULL, applied = load;
   PetscReal         size, residual, rounding, late = 0.0;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &rounding));
-  rounding *= MEASURE_ROUNDING * sim->stiffness; /* rounding error of the forces on bodies without stress */
+  rounding *= MEASURE_ROUNDING * sim->model->stiffness; /* rounding error of the forces on bodies without stress */
   report->force_rounding = rounding;
   PetscCall(ForcesReserve(&at, report));
   PetscCall(VecDuplicate(u, &force));
-  PetscCall(ElasticityEnergy(sim->elasticity, u, &report->energy));
-  PetscCall(MeasurePlastic(sim->scene, sim->elasticity, report));
-  PetscCall(ElasticityForce(sim->elasticity, u, force));
+  PetscCall(ElasticityEnergy(sim->model->elasticity, u, &report->energy));
+  PetscCall(MeasurePlastic(sim->model->scene, sim->model->elasticity, report));
+  PetscCall(ElasticityForce(sim->model->elasticity, u, force));
   PetscCall(VecNorm(force, NORM_2, &size));
   *moves = (PetscBool)(size <= rounding);
   if (inertia && load) PetscCall(VecAXPY(inertia, 1.0, load));
   if (inertia) applied = inertia; /* the loads together with the forces of inertia */
   if (applied) PetscCall(VecAXPY(force, -1.0, applied));
   if (sol->pressure) {
-    PetscCall(MeasureContact(sim, time, u, sol, report, &weighted, &contact, &late));
+    PetscCall(MeasureContact(sim->model, sim->state, time, u, sol, report, &weighted, &contact, &late));
     PetscCall(VecAXPY(force, -1.0, contact));
     if (inertia) PetscCall(MeasureAddMultipliers(&at, contact, force, applied));
-    if (!sim->history->frictional && !inertia) PetscCall(VecDestroy(&contact));
+    if (!sim->state->history->frictional && !inertia) PetscCall(VecDestroy(&contact));
   }
   PetscCall(TiesGetForces(&constraints, force, &ties, &rigid));
   PetscCall(WorkAdd(sim, load, u, force, rigid, &contact, late, report));
-  if (inertia) PetscCall(MotionMeasure(sim, u, report));
+  if (inertia) PetscCall(MotionMeasure(sim->model, sim->state, u, report));
   PetscCall(MeasureShareForces(&at, force, ties, rigid, applied));
-  PetscCall(ForcesMeasureFaces(sim, u, force, ties, rigid, report));
-  PetscCall(ForcesMeasureBodies(sim, u, applied, ties, rounding, report)); /* needs all forces on faces */
-  PetscCall(PrescribedSum(&sim->prescribed, force, report->reaction));
+  PetscCall(ForcesMeasureFaces(sim->model, u, force, ties, rigid, report));
+  PetscCall(ForcesMeasureBodies(sim->model, u, applied, ties, rounding, report)); /* needs all forces on faces */
+  PetscCall(PrescribedSum(&sim->model->prescribed, force, report->reaction));
   PetscCall(VecDestroy(&ties));
   PetscCall(VecDestroy(&rigid));
-  PetscCall(PrescribedSet(&sim->prescribed, 0.0, force));
+  PetscCall(PrescribedSet(&sim->model->prescribed, 0.0, force));
   PetscCall(VecNorm(force, NORM_2, &residual));
   report->equilibrium = *moves ? 0.0 : residual / size;
   PetscCall(MeasureAlgebraicError(u, force, sol, weighted, *moves, report));
@@ -254,6 +254,6 @@ PetscErrorCode MeasureState(Simulation sim, PetscReal time, Vec load, Vec inerti
   PetscCall(MeasureForces(sim, time, load, inertia, u, sol, report, &moves));
   PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   if (sim->results->estimate && time == (PetscReal)report->step)
-    PetscCall(MeasureDiscretization(sim, u, moves, report));
+    PetscCall(MeasureDiscretization(sim->model, sim->results, sim->run, u, moves, report));
   PetscFunctionReturn(0);
 }

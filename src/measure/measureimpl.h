@@ -26,10 +26,16 @@ typedef struct {
   RunReport      *report;
 } Measured;
 
+/* report: NULL if no warning is added */
+static inline Measured MeasuredAt(Model m, State s, RunReport *report)
+{
+  return (Measured){m->comm, m->scene, m->dm, m->elasticity, m->contact, m->places, m->stiffness, m->mass, s->path->u,
+    s->solved, s->history, report};
+}
+
 static inline Measured SimulationMeasured(Simulation sim)
 {
-  return (Measured){sim->comm, sim->scene, sim->dm, sim->elasticity, sim->contact, sim->places, sim->stiffness,
-    sim->mass, sim->path->u, sim->solved, sim->history, &sim->report};
+  return MeasuredAt(sim->model, sim->state, &sim->report);
 }
 
 #define MEASURE_ROUNDING 1e-11 /* rounding error of forces, relative to the stiffness times the largest displacement */
@@ -37,14 +43,13 @@ static inline Measured SimulationMeasured(Simulation sim)
 /* friction_work.c */
 PETSC_INTERN PetscErrorCode FrictionGetCoefficient(Scene, PetscReal time, PetscInt pair, PetscReal *coefficient);
 PETSC_INTERN PetscErrorCode FrictionAddForces(ContactLinearization, Mat slip, Vec shear, PetscInt pair, Vec force);
-PETSC_INTERN PetscErrorCode FrictionMeasure(Simulation, PetscReal time, Vec u, const ContactSolution *, StepReport *,
+PETSC_INTERN PetscErrorCode FrictionMeasure(Model, State, PetscReal time, Vec u, const ContactSolution *, StepReport *,
   PetscReal *late);
-PETSC_INTERN PetscErrorCode FrictionSettle(Simulation, PetscReal time, Vec u, const ContactSolution *);
+PETSC_INTERN PetscErrorCode FrictionSettle(Model, State, PetscReal time, Vec u, const ContactSolution *);
 PETSC_INTERN PetscErrorCode FrictionRecall(ContactHistory *);
 
 /* diagnose_rigid_motion.c */
-PETSC_INTERN PetscErrorCode RigidMotionReport(Simulation, Vec u, const char known[], const char turning[],
-  StepReport *);
+PETSC_INTERN PetscErrorCode RigidMotionReport(Model, Vec u, const char known[], const char turning[], StepReport *);
 
 /* free_motions.c: rigid motions of all bodies that no prescribed displacement, spring or tie resists */
 typedef struct {
@@ -53,7 +58,7 @@ typedef struct {
   Mat      Z; /* one column for each motion: the displacements of the nodes [length] */
 } FreeMotions;
 
-PETSC_INTERN PetscErrorCode FreeMotionsCreate(Simulation, FreeMotions *);
+PETSC_INTERN PetscErrorCode FreeMotionsCreate(Model, State, FreeMotions *);
 PETSC_INTERN PetscErrorCode FreeMotionsGetRate(Mat, PetscInt row, const PetscReal motion[], PetscReal *rate);
 PETSC_INTERN PetscErrorCode FreeMotionsDisplace(const FreeMotions *, const PetscReal motion[], Vec w);
 PETSC_INTERN PetscErrorCode FreeMotionsSum(const FreeMotions *, Vec force, PetscReal motion[]);
@@ -62,24 +67,23 @@ PETSC_INTERN PetscErrorCode FreeMotionsDestroy(FreeMotions *);
 /* diagnose_equilibrium.c */
 #define WEAK_SPRINGS_SHARE 0.01 /* largest part of the loads on a body that its weak springs may carry */
 
-PETSC_INTERN PetscErrorCode EquilibriumDiagnose(Simulation, PetscReal time, Vec load, StepReport *, PetscBool *none);
+PETSC_INTERN PetscErrorCode EquilibriumDiagnose(Model, State, PetscReal time, Vec load, StepReport *, PetscBool *none);
 
 /* forces.c: forces and moments of pairs, faces and bodies */
 PETSC_INTERN PetscErrorCode ForcesReserve(const Measured *, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasurePairs(const Measured *, Vec u, Vec weighted, Vec shear, StepReport *);
-PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Simulation, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *);
-PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Simulation, Vec u, Vec load, Vec ties, PetscReal rounding,
-  StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Model, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *);
+PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Model, Vec u, Vec load, Vec ties, PetscReal rounding, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
 
 /*
-   contact_points.c: computes sim->solved->points, with pressure, gap and status on both sides of every pair, and the
+   contact_points.c: computes state->solved->points, with pressure, gap and status on both sides of every pair, and the
    pairs' reports
 */
-PETSC_INTERN PetscErrorCode ContactPointsMeasure(Simulation, StepReport *);
+PETSC_INTERN PetscErrorCode ContactPointsMeasure(Model, State, StepReport *);
 
 /* penetration_warnings.c: penetration of single vertices, whereas the gaps of mortar pairs are means */
-PETSC_INTERN PetscErrorCode PenetrationMeasure(Simulation, StepReport *);
+PETSC_INTERN PetscErrorCode PenetrationMeasure(Model, State, StepReport *);
 PETSC_INTERN PetscErrorCode PenetrationTest(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode PenetrationFail(const Measured *, StepReport *, const char reason[]);
 PETSC_INTERN PetscErrorCode PenetrationWarn(Simulation);
@@ -101,13 +105,14 @@ PETSC_INTERN PetscErrorCode WorkAdd(Simulation, Vec load, Vec u, Vec unbalanced,
 
 /* results.c */
 PETSC_INTERN PetscErrorCode ResultsComplete(const PetscReal stress[6], PetscReal values[STRESS_VALUES]);
-PETSC_INTERN PetscErrorCode ResultsRecover(Simulation, Vec u, PetscReal errors[], PetscReal *cells[], StepReport *);
+PETSC_INTERN PetscErrorCode ResultsRecover(Model, Results *, Vec u, PetscReal errors[], PetscReal *cells[],
+  StepReport *);
 PETSC_INTERN PetscErrorCode ResultsMeasure(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode ResultsFree(Results *);
 
 /* probes.c */
 PETSC_INTERN PetscErrorCode ProbesCreate(DM, Scene, Probes *);
-PETSC_INTERN PetscErrorCode ProbesMeasure(Simulation, StepReport *);
+PETSC_INTERN PetscErrorCode ProbesMeasure(Model, State, Results *, StepReport *);
 PETSC_INTERN PetscErrorCode ProbesDestroy(Probes *);
 
 /* measure.c */
@@ -115,7 +120,7 @@ PETSC_INTERN PetscErrorCode MeasureState(Simulation, PetscReal time, Vec load, V
   const ContactSolution *, StepReport *);
 
 /* motion.c */
-PETSC_INTERN PetscErrorCode MotionMeasure(Simulation, Vec u, StepReport *);
+PETSC_INTERN PetscErrorCode MotionMeasure(Model, State, Vec u, StepReport *);
 
 /* initial_contact.c */
 PETSC_INTERN PetscErrorCode StartWarn(Simulation, ContactLinearization);

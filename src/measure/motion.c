@@ -8,16 +8,16 @@
    initial kinetic energy, minus kinetic energy, stored energy, and the work of friction, damping and plasticity.
    Overlaps that the scene removes on purpose store energy by the work of normal forces, which is then no loss.
 */
-PetscErrorCode MotionMeasure(Simulation sim, Vec u, StepReport *report)
+PetscErrorCode MotionMeasure(Model model, State state, Vec u, StepReport *report)
 {
-  const Constraints constraints = SimulationConstraints(sim);
-  const Dynamics   *d           = &sim->dynamics;
+  const Constraints constraints = ModelConstraints(model);
+  const Dynamics   *d           = &model->dynamics;
   PetscReal         taken       = report->dissipated;
   MotionReport     *motion;
 
   PetscFunctionBegin;
-  for (PetscInt p = 0; p < sim->scene->npairs; ++p)
-    if (sim->scene->pairs[p].interference > 0.0) taken = report->contact_work;
+  for (PetscInt p = 0; p < model->scene->npairs; ++p)
+    if (model->scene->pairs[p].interference > 0.0) taken = report->contact_work;
   if (!report->motions) PetscCall(PetscCalloc1(1, &report->motions));
   report->nmotions = 1;
   motion           = report->motions;
@@ -25,9 +25,9 @@ PetscErrorCode MotionMeasure(Simulation sim, Vec u, StepReport *report)
   PetscCall(MassMeasure(&constraints, d, u, &motion->kinetic_energy, motion->momentum, motion->angular_momentum));
   motion->total_energy   = motion->kinetic_energy + report->energy;
   motion->damping_work   = d->damped;
-  motion->rejected_steps = sim->control->time_step.rejected;
-  motion->shortest_step  = sim->control->time_step.shortest * SceneTimeStep(sim->scene);
-  motion->time_error     = sim->control->time_step.largest;
+  motion->rejected_steps = state->control->time_step.rejected;
+  motion->shortest_step  = state->control->time_step.shortest * SceneTimeStep(model->scene);
+  motion->time_error     = state->control->time_step.largest;
   motion->numerical_dissipation =
     d->kinetic + report->work - motion->total_energy - taken - motion->damping_work - report->plastic_work;
   PetscFunctionReturn(0);

@@ -193,7 +193,7 @@ PetscErrorCode PairMeshWarn(Simulation sim)
 {
   const Measured at = SimulationMeasured(sim);
   PetscFunctionBegin;
-  for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
+  for (PetscInt p = 0; p < sim->model->scene->npairs; ++p) {
     PetscCall(PairWarnOfCoarseness(&at, p));
     PetscCall(PairWarnOfRotation(&at, p));
     PetscCall(PairWarnOfRadius(&at, p));

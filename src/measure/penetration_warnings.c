@@ -15,7 +15,7 @@ static PetscBool PenetrationHasForce(const StepReport *report, PetscInt p)
 
 /* Measures penetration at the last state. After the last load step, pairs without force are measured in their facets as
    well. Collective. */
-PetscErrorCode PenetrationMeasure(Simulation sim, StepReport *report)
+PetscErrorCode PenetrationMeasure(Model model, State state, StepReport *report)
 {
   PetscReal *depth, *rounding, sum;
   PetscBool *within;
@@ -24,9 +24,9 @@ PetscErrorCode PenetrationMeasure(Simulation sim, StepReport *report)
   if (!report->npairs) PetscFunctionReturn(0);
   PetscCall(PetscMalloc3(report->npairs, &depth, report->npairs, &rounding, report->npairs, &within));
   for (PetscInt p = 0; p < report->npairs; ++p)
-    within[p] = (PetscBool)(report->step == sim->scene->nsteps && !PenetrationHasForce(report, p));
-  PetscCall(ContactGetPenetration(sim->contact, sim->path->u, within, depth, rounding));
-  PetscCall(NodalMagnitudesMeasure(sim->path->u, &sum, &report->motion));
+    within[p] = (PetscBool)(report->step == model->scene->nsteps && !PenetrationHasForce(report, p));
+  PetscCall(ContactGetPenetration(model->contact, state->path->u, within, depth, rounding));
+  PetscCall(NodalMagnitudesMeasure(state->path->u, &sum, &report->motion));
   for (PetscInt p = 0; p < report->npairs; ++p) {
     report->pairs[p].penetration          = depth[p];
     report->pairs[p].penetration_rounding = rounding[p];
@@ -90,11 +90,11 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
   char            reason[512], share[64];
 
   PetscFunctionBegin;
-  if (PenetrationIsAllowed(sim->scene, sim->control) || SimulationIsDynamic(sim) || motion == 0.0)
+  if (PenetrationIsAllowed(sim->model->scene, sim->state->control) || ModelIsDynamic(sim->model) || motion == 0.0)
     PetscFunctionReturn(0);
-  if (report->step < sim->scene->nsteps) PetscFunctionReturn(0);
+  if (report->step < sim->model->scene->nsteps) PetscFunctionReturn(0);
   for (PetscInt p = 0; p < report->npairs && report->converged; ++p) {
-    const SceneContactPair *pair = &sim->scene->pairs[p];
+    const SceneContactPair *pair = &sim->model->scene->pairs[p];
     const PairReport       *its  = &report->pairs[p];
 
     if (PenetrationHasForce(report, p) || PenetrationIsMeant(pair, report)) continue;
@@ -103,7 +103,7 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
       "contact pair \"%s\" carries no force, although a point of %s or %s penetrates the other body by %.3g%s: %s",
       pair->name, pair->mortar, pair->nonmortar, (double)its->penetration, share,
-      SceneBodyIsSurface(SceneFaceBody(sim->scene, pair->mortar))
+      SceneBodyIsSurface(SceneFaceBody(sim->model->scene, pair->mortar))
         ? "the rigid surface lies between the nonmortar vertices without touching one; refine the nonmortar face"
         : "the mean gap of the nonmortar facets there is open; use gap: node, swap the two faces, or refine them"));
     PetscCall(PenetrationFail(&at, report, reason));
@@ -149,9 +149,9 @@ PetscErrorCode PenetrationWarn(Simulation sim)
   const PetscReal  motion = PenetrationMotion(run);
 
   PetscFunctionBegin;
-  if (PenetrationIsAllowed(sim->scene, sim->control)) PetscFunctionReturn(0);
-  for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
-    const SceneContactPair *pair  = &sim->scene->pairs[p];
+  if (PenetrationIsAllowed(sim->model->scene, sim->state->control)) PetscFunctionReturn(0);
+  for (PetscInt p = 0; p < sim->model->scene->npairs; ++p) {
+    const SceneContactPair *pair  = &sim->model->scene->pairs[p];
     PetscReal               depth = 0.0;
     PetscInt                step  = 0;
     PetscBool               open  = PETSC_FALSE;
@@ -171,12 +171,12 @@ PetscErrorCode PenetrationWarn(Simulation sim)
     if (depth <= PENETRATION_SHARE * motion) continue;
     PetscCall(PenetrationSayShare(depth, motion, sizeof(share), share));
     if (pair->self)
-      PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
+      PetscCall(ReportWarn(sim->model->comm, &sim->report, pair->place,
         "contact pair \"%s\": a vertex of %s penetrates its own body by %.3g at the end of load step %" PetscInt_FMT
         "%s, although the mean gap is closed: refine the surface there",
         pair->name, pair->self, (double)depth, step, share));
     else
-      PetscCall(ReportWarn(sim->comm, &sim->report, pair->place,
+      PetscCall(ReportWarn(sim->model->comm, &sim->report, pair->place,
         "contact pair \"%s\": a point of %s or %s penetrates the other body by %.3g at the end of load step "
         "%" PetscInt_FMT "%s, although the %s is %s: %s",
         pair->name, pair->mortar, pair->nonmortar, (double)depth, step, share,

@@ -150,13 +150,13 @@ static PetscErrorCode ProbeRead(DM dm, Results *results, const PetscScalar u[], 
 }
 
 /* Sets positions and names from the scene. The rank that has the point sets the other values. */
-static PetscErrorCode ProbesBegin(Simulation sim, ProbeReport reports[])
+static PetscErrorCode ProbesBegin(Model model, Results *results, ProbeReport reports[])
 {
   PetscInt k = 0;
 
   PetscFunctionBegin;
-  for (PetscInt p = 0; p < sim->scene->nprobes; ++p) {
-    const SceneProbe *probe  = &sim->scene->probes[p];
+  for (PetscInt p = 0; p < model->scene->nprobes; ++p) {
+    const SceneProbe *probe  = &model->scene->probes[p];
     PetscReal         length = 0.0;
 
     for (PetscInt d = 0; d < 3 && probe->line; ++d) length += PetscSqr(probe->to[d] - probe->from[d]);
@@ -164,7 +164,7 @@ static PetscErrorCode ProbesBegin(Simulation sim, ProbeReport reports[])
       reports[k]                  = (ProbeReport){.name = probe->name};
       reports[k].arc              = PetscSqrtReal(length) * (PetscReal)i / (PetscReal)PetscMax(1, probe->n - 1);
       reports[k].contact_pressure = reports[k].contact_gap = reports[k].contact_status = NAN;
-      PetscCall(PetscArraycpy(reports[k].place, sim->results->probes.points[k], 3));
+      PetscCall(PetscArraycpy(reports[k].place, results->probes.points[k], 3));
     }
   }
   PetscFunctionReturn(0);
@@ -213,33 +213,33 @@ static PetscErrorCode ProbesSort(Scene scene, const ProbeReport all[], StepRepor
 }
 
 /* Measures the probes at the last state, whose nodal stress and contact points must be known. Collective. */
-PetscErrorCode ProbesMeasure(Simulation sim, StepReport *report)
+PetscErrorCode ProbesMeasure(Model model, State state, Results *results, StepReport *report)
 {
-  const Measured     at = SimulationMeasured(sim);
+  const Measured     at = MeasuredAt(model, state, NULL);
   ProbeReport       *reports;
   ProbeContact       contact;
   Vec                local;
   const PetscScalar *u;
 
   PetscFunctionBegin;
-  if (!sim->results->probes.n) PetscFunctionReturn(0);
+  if (!results->probes.n) PetscFunctionReturn(0);
   PetscCall(PetscLogEventBegin(SIM_Results, NULL, NULL, NULL, NULL));
-  PetscCall(PetscMalloc1(sim->results->probes.n, &reports));
-  PetscCall(ProbesBegin(sim, reports));
-  if (sim->contact) PetscCall(ProbeContactCreate(&at, &contact));
-  PetscCall(DMGetLocalVector(sim->dm, &local));
-  PetscCall(DMGlobalToLocal(sim->dm, sim->path->u, INSERT_VALUES, local));
+  PetscCall(PetscMalloc1(results->probes.n, &reports));
+  PetscCall(ProbesBegin(model, results, reports));
+  if (model->contact) PetscCall(ProbeContactCreate(&at, &contact));
+  PetscCall(DMGetLocalVector(model->dm, &local));
+  PetscCall(DMGlobalToLocal(model->dm, state->path->u, INSERT_VALUES, local));
   PetscCall(VecGetArrayRead(local, &u));
-  for (PetscInt k = 0; k < sim->results->probes.n; ++k) {
-    if (sim->results->probes.places[k].cell >= 0)
-      PetscCall(ProbeRead(sim->dm, sim->results, u, sim->contact ? &contact : NULL, &sim->results->probes.places[k],
-        &reports[k]));
+  for (PetscInt k = 0; k < results->probes.n; ++k) {
+    if (results->probes.places[k].cell >= 0)
+      PetscCall(
+        ProbeRead(model->dm, results, u, model->contact ? &contact : NULL, &results->probes.places[k], &reports[k]));
   }
   PetscCall(VecRestoreArrayRead(local, &u));
-  PetscCall(DMRestoreLocalVector(sim->dm, &local));
-  if (sim->contact) PetscCall(ProbeContactDestroy(sim->dm, &contact));
-  PetscCall(ProbesShare(sim->comm, sim->results, reports));
-  PetscCall(ProbesSort(sim->scene, reports, report));
+  PetscCall(DMRestoreLocalVector(model->dm, &local));
+  if (model->contact) PetscCall(ProbeContactDestroy(model->dm, &contact));
+  PetscCall(ProbesShare(model->comm, results, reports));
+  PetscCall(ProbesSort(model->scene, reports, report));
   PetscCall(PetscFree(reports));
   PetscCall(PetscLogEventEnd(SIM_Results, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);

@@ -22,11 +22,11 @@ static PetscErrorCode ResultsPickOwned(Simulation sim)
   PetscInt     pstart, pend, rstart, n;
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(sim->path->u, &n));
-  PetscCall(VecGetOwnershipRange(sim->path->u, &rstart, NULL));
+  PetscCall(VecGetLocalSize(sim->state->path->u, &n));
+  PetscCall(VecGetOwnershipRange(sim->state->path->u, &rstart, NULL));
   PetscCall(PetscMalloc1(STRESS_VALUES * (n / 3) + 1, &results->nodal));
-  PetscCall(DMGetLocalSection(sim->dm, &local));
-  PetscCall(DMGetGlobalSection(sim->dm, &global));
+  PetscCall(DMGetLocalSection(sim->model->dm, &local));
+  PetscCall(DMGetGlobalSection(sim->model->dm, &global));
   PetscCall(PetscSectionGetChart(local, &pstart, &pend));
   for (PetscInt v = pstart; v < pend; ++v) {
     PetscInt from, to, ndofs;
@@ -64,16 +64,17 @@ static PetscErrorCode ResultsReportBody(const Material *material, const LargestO
    Collective. Recovers the stress at the nodes, unless this was done, and reports the largest values of each body.
    errors, cells: see ElasticityRecoverStress(); NULL: no errors are estimated
 */
-PetscErrorCode ResultsRecover(Simulation sim, Vec u, PetscReal errors[], PetscReal *cells[], StepReport *report)
+PetscErrorCode ResultsRecover(Model model, Results *results, Vec u, PetscReal errors[], PetscReal *cells[],
+  StepReport *report)
 {
   LargestOfBody *largest;
 
   PetscFunctionBegin;
-  if (sim->results->recovered) PetscFunctionReturn(0);
-  PetscCall(PetscCalloc1(sim->scene->nbodies, &largest));
-  PetscCall(ElasticityRecoverStress(sim->elasticity, u, &sim->results->recovered, largest, errors, cells));
+  if (results->recovered) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(model->scene->nbodies, &largest));
+  PetscCall(ElasticityRecoverStress(model->elasticity, u, &results->recovered, largest, errors, cells));
   for (PetscInt b = 0; b < report->nbodies; ++b)
-    PetscCall(ResultsReportBody(&sim->scene->bodies[b].material, &largest[b], &report->bodies[b]));
+    PetscCall(ResultsReportBody(&model->scene->bodies[b].material, &largest[b], &report->bodies[b]));
   PetscCall(PetscFree(largest));
   PetscFunctionReturn(0);
 }
@@ -84,15 +85,15 @@ PetscErrorCode ResultsMeasure(Simulation sim, StepReport *report)
   Results *results = sim->results;
 
   PetscFunctionBegin;
-  PetscCall(ElasticityCellPlastic(sim->elasticity, &results->plastic));
+  PetscCall(ElasticityCellPlastic(sim->model->elasticity, &results->plastic));
   PetscCall(PetscLogEventBegin(SIM_Results, NULL, NULL, NULL, NULL));
-  PetscCall(ResultsRecover(sim, sim->path->u, NULL, NULL, report));
+  PetscCall(ResultsRecover(sim->model, sim->results, sim->state->path->u, NULL, NULL, report));
   if (results->nodes) {
     PetscCall(ResultsPickOwned(sim));
-    PetscCall(ElasticityCellEnergy(sim->elasticity, sim->path->u, &results->density));
+    PetscCall(ElasticityCellEnergy(sim->model->elasticity, sim->state->path->u, &results->density));
   }
   if (results->points)
-    PetscCall(ElasticityPointStress(sim->elasticity, sim->path->u, &results->npoints, &results->places,
+    PetscCall(ElasticityPointStress(sim->model->elasticity, sim->state->path->u, &results->npoints, &results->places,
       &results->point_stress));
   PetscCall(PetscLogEventEnd(SIM_Results, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);

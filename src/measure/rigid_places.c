@@ -52,32 +52,32 @@ static void RigidPlacesReport(const PetscReal from[3], const PetscReal position[
 /* Computes positions and rotations at the last state */
 PetscErrorCode RigidPlacesMeasure(Simulation sim, StepReport *report)
 {
-  const Bodies       bodies  = SimulationBodies(sim);
+  const Bodies       bodies  = ModelBodies(sim->model);
   const RigidReport *before  = report > sim->report.steps ? report[-1].rigid_bodies : NULL;
   const PetscReal    none[3] = {0.0, 0.0, 0.0};
   BodyPose          *poses;
   PetscInt           n = 0;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) n += RigidPlacesHas(sim->scene, b);
+  for (PetscInt b = 0; b < sim->model->scene->nbodies; ++b) n += RigidPlacesHas(sim->model->scene, b);
   PetscCall(PetscFree(report->rigid_bodies));
   report->nrigid_bodies = n;
   if (!n) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(n, &report->rigid_bodies));
-  PetscCall(PetscMalloc1(sim->scene->nbodies, &poses));
-  PetscCall(PosesFind(&bodies, NULL, sim->path->u, poses));
+  PetscCall(PetscMalloc1(sim->model->scene->nbodies, &poses));
+  PetscCall(PosesFind(&bodies, NULL, sim->state->path->u, poses));
   n = 0;
-  for (PetscInt b = 0; b < sim->scene->nbodies; ++b) {
+  for (PetscInt b = 0; b < sim->model->scene->nbodies; ++b) {
     RigidReport     *body = &report->rigid_bodies[n];
-    const PetscReal *from = RigidPlacesFindPoint(sim->scene, b, &poses[b]);
+    const PetscReal *from = RigidPlacesFindPoint(sim->model->scene, b, &poses[b]);
 
-    if (!RigidPlacesHas(sim->scene, b)) continue;
-    *body = (RigidReport){.name = sim->scene->bodies[b].name};
+    if (!RigidPlacesHas(sim->model->scene, b)) continue;
+    *body = (RigidReport){.name = sim->model->scene->bodies[b].name};
     PosePlace(&poses[b], from, body->position);
     PoseGetVector((const PetscReal(*)[3])poses[b].Q, body->rotation);
     for (PetscInt i = 0; i < 3; ++i) body->rotation[i] *= 180.0 / PETSC_PI;
     RigidPlacesUnwind(before ? before[n].rotation : none, body->rotation);
-    if (report->nbodies && SceneBodyIsSurface(&sim->scene->bodies[b]))
+    if (report->nbodies && SceneBodyIsSurface(&sim->model->scene->bodies[b]))
       RigidPlacesReport(from, body->position, &report->bodies[b]);
     ++n;
   }

@@ -62,7 +62,7 @@ static PetscErrorCode StrainRefuse(const Measured *at, PetscInt b, PetscReal inv
 PetscErrorCode StrainTest(Simulation sim, StepReport *report)
 {
   const Measured at    = SimulationMeasured(sim);
-  Scene          scene = sim->scene;
+  Scene          scene = sim->model->scene;
   PetscReal(*values)[3];
   PetscBool may;
 
@@ -71,7 +71,7 @@ PetscErrorCode StrainTest(Simulation sim, StepReport *report)
   PetscCall(StrainMayExceed(&at, sim->results->beyond, &may));
   if (!may) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(scene->nbodies, &values));
-  PetscCall(ElasticityMeasureStrain(sim->elasticity, sim->path->u, values));
+  PetscCall(ElasticityMeasureStrain(sim->model->elasticity, sim->state->path->u, values));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     const PetscBool turned = (PetscBool)(values[b][0] <= STRAIN_LIMIT);
 
@@ -79,7 +79,7 @@ PetscErrorCode StrainTest(Simulation sim, StepReport *report)
     if (report->converged && values[b][2] > INVERTED_LIMIT) PetscCall(StrainRefuse(&at, b, values[b][2], report));
     if (sim->results->beyond[b] || (turned && values[b][1] <= ROTATION_LIMIT)) continue;
     sim->results->beyond[b] = PETSC_TRUE;
-    PetscCall(ReportWarn(sim->comm, &sim->report, scene->bodies[b].place,
+    PetscCall(ReportWarn(sim->model->comm, &sim->report, scene->bodies[b].place,
       "body \"%s\" is %s by %.3g %s on average in load step %" PetscInt_FMT ", but its material law is for small "
       "strains: its forces have an error of about that size; use material: neohookean or another finite-strain law",
       scene->bodies[b].name, turned ? "rotated" : "strained",

@@ -57,15 +57,16 @@ static PetscErrorCode WorkBalance(LoadPath *path, PetscReal work, PetscReal take
 */
 PetscErrorCode WorkWarn(Simulation sim, const StepReport *report)
 {
-  const PetscReal allowed = PetscMax(1e-2, 2.0 * sim->path->told);
+  const PetscReal allowed = PetscMax(1e-2, 2.0 * sim->state->path->told);
 
   PetscFunctionBegin;
-  if (!sim->path->pressed || !(report->imbalance > allowed)) PetscFunctionReturn(0);
-  sim->path->told = report->imbalance;
-  PetscCall(ReportWarn(sim->comm, &sim->report, NULL,
+  if (!sim->state->path->pressed || !(report->imbalance > allowed)) PetscFunctionReturn(0);
+  sim->state->path->told = report->imbalance;
+  PetscCall(ReportWarn(sim->model->comm, &sim->report, NULL,
     "load step %" PetscInt_FMT ": %.2g %% of the work is neither stored nor taken up by friction and contact (%g of "
     "%g); use more load steps",
-    report->step, 100.0 * (double)report->imbalance, (double)sim->path->unbalanced, (double)sim->path->turnover));
+    report->step, 100.0 * (double)report->imbalance, (double)sim->state->path->unbalanced,
+    (double)sim->state->path->turnover));
   PetscFunctionReturn(0);
 }
 
@@ -86,21 +87,21 @@ static PetscErrorCode WorkAddMean(const Measured *at, Vec increment[2], Vec reac
 }
 
 /* Reports the pretension of bolts at u, and adds its work */
-static PetscErrorCode WorkAddBolts(Simulation sim, Vec u, StepReport *report)
+static PetscErrorCode WorkAddBolts(Model model, State state, Vec u, StepReport *report)
 {
-  const Bodies bodies = SimulationBodies(sim);
+  const Bodies bodies = ModelBodies(model);
   PetscReal    work;
 
   PetscFunctionBegin;
-  PetscCall(BoltsSettle(&bodies, &sim->bolts, u, &work));
-  sim->path->work += work;
+  PetscCall(BoltsSettle(&bodies, &model->bolts, u, &work));
+  state->path->work += work;
   PetscCall(PetscFree(report->bolts));
-  report->nbolts = sim->bolts.n;
+  report->nbolts = model->bolts.n;
   PetscCall(PetscCalloc1(report->nbolts, &report->bolts));
   for (PetscInt b = 0; b < report->nbolts; ++b)
-    report->bolts[b] = (BoltReport){.name = sim->scene->bolts[b].name,
-      .force                              = sim->bolts.force[b],
-      .shortening                         = sim->bolts.shortening[b]};
+    report->bolts[b] = (BoltReport){.name = model->scene->bolts[b].name,
+      .force                              = model->bolts.force[b],
+      .shortening                         = model->bolts.shortening[b]};
   PetscFunctionReturn(0);
 }
 
@@ -114,9 +115,9 @@ static PetscErrorCode WorkAddBolts(Simulation sim, Vec u, StepReport *report)
 PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigid, Vec *contact, PetscReal late,
   StepReport *report)
 {
-  const Measured  at     = SimulationMeasured(sim);
-  const Bodies    bodies = SimulationBodies(sim);
-  LoadPath       *path   = sim->path;
+  const Measured  at     = MeasuredAt(sim->model, sim->state, NULL);
+  const Bodies    bodies = ModelBodies(sim->model);
+  LoadPath       *path   = sim->state->path;
   const PetscReal work = path->work, taken = path->contact_work, relative = 1e-12;
   PetscReal       place, way;
   Vec             outside, reaction, increment[2];
@@ -125,13 +126,13 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   PetscCall(VecDuplicate(u, &outside));
   PetscCall(VecDuplicate(u, &reaction));
   PetscCall(VecCopy(unbalanced, outside));
-  PetscCall(PrescribedSet(&sim->prescribed, 0.0, outside));
+  PetscCall(PrescribedSet(&sim->model->prescribed, 0.0, outside));
   PetscCall(VecWAXPY(reaction, -1.0, outside, unbalanced));
   PetscCall(ArcsGetIncrements(&bodies, path->u, u, increment));
-  if (SchemeIsImpact(&sim->scene->dynamics)) PetscCall(WorkAddMean(&at, increment, reaction, &path->work));
+  if (SchemeIsImpact(&sim->model->scene->dynamics)) PetscCall(WorkAddMean(&at, increment, reaction, &path->work));
   if (load) PetscCall(VecWAXPY(outside, 1.0, load, reaction));
   else PetscCall(VecCopy(reaction, outside));
-  if (rigid) PetscCall(VecAXPY(outside, SchemeShare(&sim->scene->dynamics), rigid));
+  if (rigid) PetscCall(VecAXPY(outside, SchemeShare(&sim->model->scene->dynamics), rigid));
   PetscCall(VecDestroy(&reaction));
   PetscCall(VecNorm(u, NORM_INFINITY, &place));
   PetscCall(VecNorm(increment[0], NORM_INFINITY, &way));
@@ -139,18 +140,18 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   if (*contact)
     PetscCall(VecScale(*contact, -1.0)); /* the forces on the contacts are opposite to those on the
                                                         bodies */
-  PetscCall(WorkAddForce(increment, SchemeIsImpact(&sim->scene->dynamics) ? 1.0 : 0.5, &path->contact, contact,
+  PetscCall(WorkAddForce(increment, SchemeIsImpact(&sim->model->scene->dynamics) ? 1.0 : 0.5, &path->contact, contact,
     &path->contact_work));
-  if (!sim->scene->ntemperatures) path->work += late;
+  if (!sim->model->scene->ntemperatures) path->work += late;
   path->contact_work += late;
-  PetscCall(WorkAddBolts(sim, u, report));
+  PetscCall(WorkAddBolts(sim->model, sim->state, u, report));
   for (int k = 0; k < 2; ++k) PetscCall(VecDestroy(&increment[k]));
   report->work         = path->work;
   report->contact_work = path->contact_work;
-  if (!sim->history->frictional) PetscFunctionReturn(0);
+  if (!sim->state->history->frictional) PetscFunctionReturn(0);
   report->normal_work = report->contact_work - report->dissipated;
-  if (!sim->scene->ntemperatures && !SimulationIsDynamic(sim))
-    PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken, relative * sim->stiffness * place * way,
-      report));
+  if (!sim->model->scene->ntemperatures && !ModelIsDynamic(sim->model))
+    PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken,
+      relative * sim->model->stiffness * place * way, report));
   PetscFunctionReturn(0);
 }

@@ -16,24 +16,24 @@
 */
 PetscErrorCode SimulationSetMarks(Simulation sim, const MeshMarks *marks)
 {
-  Scene scene = sim->scene;
+  Scene scene = sim->model->scene;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     const SceneBody *body = &scene->bodies[b];
 
-    PetscCheck(body->order < 2, sim->comm, PETSC_ERR_SUP,
+    PetscCheck(body->order < 2, sim->model->comm, PETSC_ERR_SUP,
       "-accuracy_adaptive: body \"%s\" has order %" PetscInt_FMT ", but only hexahedra of order 1 are refined locally",
       body->name, body->order);
-    PetscCheck(body->material.type != MATERIAL_RIGID || body->shape == SHAPE_BOX || SceneBodyIsSurface(body), sim->comm,
-      PETSC_ERR_SUP,
+    PetscCheck(body->material.type != MATERIAL_RIGID || body->shape == SHAPE_BOX || SceneBodyIsSurface(body),
+      sim->model->comm, PETSC_ERR_SUP,
       "-accuracy_adaptive: the rigid body \"%s\" has curved faces made of facets, which the error of stresses cannot "
       "refine: use a rigid surface without facets, or omit the option",
       body->name);
   }
-  PetscCheck(!scene->nties, sim->comm, PETSC_ERR_SUP,
+  PetscCheck(!scene->nties, sim->model->comm, PETSC_ERR_SUP,
     "-accuracy_adaptive: the faces of tie \"%s\" must be refined as a whole: omit the option", scene->ties[0].name);
-  PetscCheck(!scene->ncyclic, sim->comm, PETSC_ERR_SUP,
+  PetscCheck(!scene->ncyclic, sim->model->comm, PETSC_ERR_SUP,
     "-accuracy_adaptive: the faces of cyclic symmetry \"%s\" must be refined as a whole: omit the option",
     scene->cyclic[0].name);
   sim->run->marks = marks;
@@ -85,12 +85,12 @@ PetscErrorCode SimulationPropose(Simulation sim, PetscReal *growth)
   PetscInt cstart, cend, counts[2] = {0, 0};
 
   PetscFunctionBegin;
-  PetscCall(DMPlexGetHeightStratum(sim->dm, 0, &cstart, &cend));
-  PetscCall(AdaptMarkErrors(sim->comm, sim->run, cend - cstart));
-  PetscCall(AdaptMarkContact(sim));
+  PetscCall(DMPlexGetHeightStratum(sim->model->dm, 0, &cstart, &cend));
+  PetscCall(AdaptMarkErrors(sim->model->comm, sim->run, cend - cstart));
+  PetscCall(AdaptMarkContact(sim->model, sim->state, sim->run));
   for (PetscInt c = 0; c < cend - cstart; ++c) counts[0] += sim->run->adapt.marked[c];
   counts[1] = cend - cstart;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, sim->model->comm));
   *growth = 1.0 + 7.0 * (PetscReal)counts[0] / (PetscReal)counts[1];
   PetscFunctionReturn(0);
 }
@@ -102,6 +102,6 @@ PetscErrorCode SimulationPropose(Simulation sim, PetscReal *growth)
 PetscErrorCode SimulationMark(Simulation sim, MeshMarks *marks)
 {
   PetscFunctionBegin;
-  PetscCall(MeshMarksAdd(sim->dm, sim->run->adapt.marked, marks));
+  PetscCall(MeshMarksAdd(sim->model->dm, sim->run->adapt.marked, marks));
   PetscFunctionReturn(0);
 }

@@ -182,30 +182,30 @@ static PetscErrorCode AdaptMarkFace(Scene scene, DM dm, RunState *run, const cha
    Marks cells on both sides of each pair. Below a plane face only cells at the edge of contact are marked, since
    otherwise most refined cells would be there.
 */
-PetscErrorCode AdaptMarkContact(Simulation sim)
+PetscErrorCode AdaptMarkContact(Model model, State state, RunState *run)
 {
   PetscFunctionBegin;
-  for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
-    const char *const face[2] = {sim->scene->pairs[p].mortar, sim->scene->pairs[p].nonmortar};
+  for (PetscInt p = 0; p < model->scene->npairs; ++p) {
+    const char *const face[2] = {model->scene->pairs[p].mortar, model->scene->pairs[p].nonmortar};
     PetscBool         plane[2];
     Vec               facts, local;
 
-    PetscCall(DMGetGlobalVector(sim->dm, &facts));
+    PetscCall(DMGetGlobalVector(model->dm, &facts));
     PetscCall(VecZeroEntries(facts));
-    PetscCall(AdaptSetClosed(sim->dm, sim->solved, p, facts));
-    PetscCall(AdaptSetHanging(sim->dm, facts));
+    PetscCall(AdaptSetClosed(model->dm, state->solved, p, facts));
+    PetscCall(AdaptSetHanging(model->dm, facts));
     for (PetscInt k = 0; k < 2; ++k) {
-      const SceneBody *body = SceneFaceBody(sim->scene, face[k]);
+      const SceneBody *body = SceneFaceBody(model->scene, face[k]);
 
       if (SceneBodyIsSurface(body)) plane[k] = (PetscBool)(body->shape == SHAPE_RIGID_PLANE);
-      else PetscCall(AdaptMeasureFace(sim->dm, face[k], facts, &plane[k]));
+      else PetscCall(AdaptMeasureFace(model->dm, face[k], facts, &plane[k]));
     }
-    PetscCall(DMGetLocalVector(sim->dm, &local));
-    PetscCall(DMGlobalToLocal(sim->dm, facts, INSERT_VALUES, local));
-    PetscCall(DMRestoreGlobalVector(sim->dm, &facts));
+    PetscCall(DMGetLocalVector(model->dm, &local));
+    PetscCall(DMGlobalToLocal(model->dm, facts, INSERT_VALUES, local));
+    PetscCall(DMRestoreGlobalVector(model->dm, &facts));
     for (PetscInt k = 0; k < 2; ++k)
-      PetscCall(AdaptMarkFace(sim->scene, sim->dm, sim->run, face[k], local, (PetscBool)(plane[0] && plane[1])));
-    PetscCall(DMRestoreLocalVector(sim->dm, &local));
+      PetscCall(AdaptMarkFace(model->scene, model->dm, run, face[k], local, (PetscBool)(plane[0] && plane[1])));
+    PetscCall(DMRestoreLocalVector(model->dm, &local));
   }
   PetscFunctionReturn(0);
 }

@@ -7,7 +7,7 @@
    Gets the stiffness matrix in the optimizer's format: with both triangles if an option names another AMG than that of
    PCAMGF, which needs only one
 */
-static PetscErrorCode ContactFreeMatrix(Simulation sim, KSP ksp, Mat *K)
+static PetscErrorCode ContactFreeMatrix(Model model, KSP ksp, Mat *K)
 {
   PC          pc, amg;
   const char *prefix;
@@ -21,22 +21,22 @@ static PetscErrorCode ContactFreeMatrix(Simulation sim, KSP ksp, Mat *K)
     PetscCall(PCGetOptionsPrefix(amg, &prefix));
     PetscCall(PetscOptionsHasName(NULL, prefix, "-pc_type", &given));
   }
-  if (given) PetscCall(StiffnessGetWhole(sim, MATBAIJ, K));
+  if (given) PetscCall(StiffnessGetWhole(model, MATBAIJ, K));
   else {
-    PetscCall(PetscObjectReference((PetscObject)sim->K));
-    *K = sim->K;
+    PetscCall(PetscObjectReference((PetscObject)model->K));
+    *K = model->K;
   }
   PetscFunctionReturn(0);
 }
 
 /* Creates a solver like the optimizer's, with its options. PCAMGF without a subspace is its AMG alone. */
-static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
+static PetscErrorCode ContactFreeKSP(Model model, KSP *ksp)
 {
   Tao tao;
   Mat K;
 
   PetscFunctionBegin;
-  PetscCall(TaoCreate(sim->comm, &tao));
+  PetscCall(TaoCreate(model->comm, &tao));
   PetscCall(TaoSetType(tao, TAOIPFILTER));
   PetscCall(TaoGetKSP(tao, ksp));
   PetscCall(PetscObjectReference((PetscObject)*ksp));
@@ -44,8 +44,8 @@ static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
   PetscCall(KSPSetFromOptions(*ksp));
   PetscCall(KSPSetNormType(*ksp, KSP_NORM_PRECONDITIONED));
   PetscCall(KSPSetTolerances(*ksp, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT, 10000));
-  PetscCall(ContactFreeMatrix(sim, *ksp, &K));
-  PetscCall(StiffnessSetModes(sim, *ksp, K));
+  PetscCall(ContactFreeMatrix(model, *ksp, &K));
+  PetscCall(StiffnessSetModes(model, *ksp, K));
   PetscCall(KSPSetOperators(*ksp, K, K));
   PetscCall(MatDestroy(&K));
   PetscFunctionReturn(0);
@@ -55,19 +55,19 @@ static PetscErrorCode ContactFreeKSP(Simulation sim, KSP *ksp)
    Computes the load of the comparison: the first load step's forces due to prescribed displacements, and a uniform
    pressure on the contact faces with an equal norm, so that every body is loaded as by contact
 */
-static PetscErrorCode ContactFreeLoad(Simulation sim, Vec load)
+static PetscErrorCode ContactFreeLoad(Model model, State state, Vec load)
 {
   ContactLinearization lin;
   Vec                  pressure;
   PetscReal            size, contact;
 
   PetscFunctionBegin;
-  if (!sim->contact) PetscFunctionReturn(0);
-  PetscCall(ContactLinearize(sim->contact, sim->path->u, CONTACT_FORCES, &lin));
+  if (!model->contact) PetscFunctionReturn(0);
+  PetscCall(ContactLinearize(model->contact, state->path->u, CONTACT_FORCES, &lin));
   PetscCall(VecDuplicate(load, &pressure));
   PetscCall(MatMultTranspose(lin->J, lin->mass, pressure));
-  PetscCall(TiesGather(&sim->ties, pressure));
-  PetscCall(PrescribedSet(&sim->prescribed, 0.0, pressure));
+  PetscCall(TiesGather(&model->ties, pressure));
+  PetscCall(PrescribedSet(&model->prescribed, 0.0, pressure));
   PetscCall(VecNorm(load, NORM_2, &size));
   PetscCall(VecNorm(pressure, NORM_2, &contact));
   if (contact > 0.0) PetscCall(VecAXPY(load, -(size > 0.0 ? size : 1.0) / contact, pressure));
@@ -106,13 +106,13 @@ PetscErrorCode SimulationContactFree(Simulation sim)
   PetscLogDouble     t0, t1;
 
   PetscFunctionBegin;
-  PetscCheck(sim->quadratic, sim->comm, PETSC_ERR_SUP,
+  PetscCheck(sim->model->quadratic, sim->model->comm, PETSC_ERR_SUP,
     "The comparison without contact needs a scene whose load steps are quadratic: linear bodies, or model quadratic");
   PetscCall(PetscLogEventBegin(SIM_Comparison, NULL, NULL, NULL, NULL));
   PetscCall(PetscLogStagePush(SIM_ComparisonStage));
   PetscCall(StepProblemCreate(sim, 1.0, &problem));
-  PetscCall(ContactFreeLoad(sim, problem.force));
-  PetscCall(ContactFreeKSP(sim, &ksp));
+  PetscCall(ContactFreeLoad(sim->model, sim->state, problem.force));
+  PetscCall(ContactFreeKSP(sim->model, &ksp));
   PetscCall(KSPSetComputeSingularValues(ksp, PETSC_TRUE));
   PetscCall(PetscTime(&t0));
   PetscCall(KSPSolve(ksp, problem.force, problem.w));

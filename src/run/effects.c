@@ -42,17 +42,17 @@ typedef struct {
   PetscInt planes;                                      /* symmetry planes */
 } EffectCounts;
 
-static PetscErrorCode EffectsCount(Simulation sim, EffectCounts *n)
+static PetscErrorCode EffectsCount(Model model, EffectCounts *n)
 {
-  Scene        scene = sim->scene;
+  Scene        scene = model->scene;
   PetscInt    *nnodes;
   ElementType *elements;
 
   PetscFunctionBegin;
   *n = (EffectCounts){.finite = 0};
   PetscCall(PetscMalloc2(scene->nbodies, &nnodes, scene->nbodies, &elements));
-  PetscCall(MeshGetBodyNodes(sim->dm, scene->nbodies, nnodes));
-  PetscCall(SceneChooseElements(scene, sim->dm, elements, NULL));
+  PetscCall(MeshGetBodyNodes(model->dm, scene->nbodies, nnodes));
+  PetscCall(SceneChooseElements(scene, model->dm, elements, NULL));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     n->finite += MaterialIsFinite(&scene->bodies[b].material);
     n->plastic += MaterialYields(&scene->bodies[b].material);
@@ -101,9 +101,9 @@ static PetscErrorCode EffectsSetBodies(Scene scene, PetscBool quadratic, const E
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode EffectsSetLoads(Simulation sim, const EffectCounts *n, RunReport *report)
+static PetscErrorCode EffectsSetLoads(Model model, const EffectCounts *n, RunReport *report)
 {
-  Scene scene = sim->scene;
+  Scene scene = model->scene;
 
   PetscFunctionBegin;
   PetscCall(EffectSetCount(report, "pressure", scene->npressures, "pressures"));
@@ -117,9 +117,9 @@ static PetscErrorCode EffectsSetLoads(Simulation sim, const EffectCounts *n, Run
   PetscCall(EffectSet(report, "springs", (PetscBool)(scene->nsprings + scene->nconnectors > 0),
     "%" PetscInt_FMT " springs on faces, %" PetscInt_FMT " between points", scene->nsprings, scene->nconnectors));
   PetscCall(EffectSetCount(report, "pretension", scene->nbolts, "bolts"));
-  PetscCall(EffectSet(report, "weak springs", (PetscBool)(sim->springs.weak != NULL),
-    sim->springs.weak ? "they hold %" PetscInt_FMT " bodies without supports" : "weak_springs is not set",
-    sim->springs.nweak));
+  PetscCall(EffectSet(report, "weak springs", (PetscBool)(model->springs.weak != NULL),
+    model->springs.weak ? "they hold %" PetscInt_FMT " bodies without supports" : "weak_springs is not set",
+    model->springs.nweak));
   PetscCall(EffectSetCount(report, "thermal strain", scene->ntemperatures, "temperatures"));
   PetscCall(EffectSet(report, "ties", (PetscBool)(scene->nties + scene->ncyclic > 0),
     "%" PetscInt_FMT " ties, %" PetscInt_FMT " cyclic symmetries", scene->nties, scene->ncyclic));
@@ -132,13 +132,13 @@ static PetscErrorCode EffectsSetLoads(Simulation sim, const EffectCounts *n, Run
 }
 
 /* Lists the effects of a scene. Their times are set at the end of the run. */
-PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
+PetscErrorCode EffectsCreate(Model model, Results *results, RunReport *report)
 {
-  Scene        scene = sim->scene;
+  Scene        scene = model->scene;
   EffectCounts n;
 
   PetscFunctionBegin;
-  PetscCall(EffectsCount(sim, &n));
+  PetscCall(EffectsCount(model, &n));
   PetscCall(PetscCalloc1(EFFECTS_MAX, &report->effects));
   PetscCall(EffectSetCount(report, "contact", scene->npairs, "contact pairs"));
   PetscCall(EffectSet(report, "contact updates", (PetscBool)(scene->npairs && scene->contact_updates > 1),
@@ -146,19 +146,18 @@ PetscErrorCode EffectsCreate(Simulation sim, RunReport *report)
   PetscCall(EffectSetCount(report, "friction", n.friction, "contact pairs with friction, shear_limit or stick"));
   PetscCall(EffectSet(report, "AMG filter", (PetscBool)(scene->npairs > 0),
     scene->npairs ? "contact constraints are stiff" : "no contact, nothing to filter"));
-  PetscCall(EffectsSetBodies(sim->scene, sim->quadratic, &n, report));
-  PetscCall(EffectsSetLoads(sim, &n, report));
-  PetscCall(EffectSet(report, "error estimate", sim->results->estimate,
-    sim->results->estimate ? "stress recovery at the end of every load step" : "-error_estimate is 0"));
-  PetscCall(EffectSet(report, "probes and fields",
-    (PetscBool)(sim->results->probes.n || sim->results->nodes || sim->results->points),
-    "%" PetscInt_FMT " points of probes; %sstress at nodes, %sat quadrature points", sim->results->probes.n,
-    sim->results->nodes ? "" : "no ", sim->results->points ? "" : "not "));
+  PetscCall(EffectsSetBodies(model->scene, model->quadratic, &n, report));
+  PetscCall(EffectsSetLoads(model, &n, report));
+  PetscCall(EffectSet(report, "error estimate", results->estimate,
+    results->estimate ? "stress recovery at the end of every load step" : "-error_estimate is 0"));
+  PetscCall(EffectSet(report, "probes and fields", (PetscBool)(results->probes.n || results->nodes || results->points),
+    "%" PetscInt_FMT " points of probes; %sstress at nodes, %sat quadrature points", results->probes.n,
+    results->nodes ? "" : "no ", results->points ? "" : "not "));
   PetscFunctionReturn(0);
 }
 
 /* Sets the times of the effects. Whether the filter was used is known only after the solve. */
-PetscErrorCode EffectsSetTimes(Simulation sim, RunReport *report)
+PetscErrorCode EffectsSetTimes(Model model, RunReport *report)
 {
   PetscInt systems = 0, filtered = 0;
 
@@ -167,10 +166,10 @@ PetscErrorCode EffectsSetTimes(Simulation sim, RunReport *report)
     systems += report->steps[s].systems;
     filtered += report->steps[s].filtered_systems;
   }
-  if (sim->contact && !systems && report->nsteps)
+  if (model->contact && !systems && report->nsteps)
     PetscCall(EffectSet(report, "AMG filter", PETSC_FALSE,
       "not needed: the subspace method solves the contact constraints separately"));
-  if (sim->contact && systems)
+  if (model->contact && systems)
     PetscCall(EffectSet(report, "AMG filter", (PetscBool)(filtered > 0),
       "constraints stiff enough in %" PetscInt_FMT " of %" PetscInt_FMT " systems", filtered, systems));
   EffectFind(report, "contact")->time           = report->time.contact;

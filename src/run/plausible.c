@@ -15,22 +15,22 @@
 #define METALS_RATIO 0.38
 
 /* Warns with a question about a constant, and a sentence about it */
-static PetscErrorCode PlausibleAsk(Simulation sim, const SceneBody *body, const char constant[], PetscReal value,
-  const char unit[], const char sentence[])
+static PetscErrorCode PlausibleAsk(Model model, RunReport *report, const SceneBody *body, const char constant[],
+  PetscReal value, const char unit[], const char sentence[])
 {
   char text[512];
 
   PetscFunctionBegin;
   (void)snprintf(text, sizeof(text), "body \"%s\": is %s = %g in %s? %s", body->name, constant, (double)value, unit,
     sentence);
-  PetscCall(ReportWarn(sim->comm, &sim->report, body->place, "%s", text));
+  PetscCall(ReportWarn(model->comm, report, body->place, "%s", text));
   PetscFunctionReturn(0);
 }
 
 /* Asks about a Young's modulus. si: unit of stress [Pa] */
-static PetscErrorCode PlausibleModulus(Simulation sim, const SceneBody *body, PetscReal si)
+static PetscErrorCode PlausibleModulus(Model model, RunReport *report, const SceneBody *body, PetscReal si)
 {
-  const char     *unit      = UnitsFind(sim->scene->units, UNIT_STRESS, NULL);
+  const char     *unit      = UnitsFind(model->scene->units, UNIT_STRESS, NULL);
   const Material *m         = &body->material;
   const PetscReal E         = m->young * si;
   char            text[256] = ""; /* snprintf() is used because PETSc's formatting would print 210. for 210 */
@@ -43,29 +43,29 @@ static PetscErrorCode PlausibleModulus(Simulation sim, const SceneBody *body, Pe
     (void)snprintf(text, sizeof(text), "This would be %s; steel has %g %s",
       E < SOFTEST ? "softer than a gel" : "stiffer than diamond", 2.1e11 / (double)si, unit);
   if (!text[0]) PetscFunctionReturn(0);
-  PetscCall(PlausibleAsk(sim, body, "Young's modulus young", m->young, unit, text));
+  PetscCall(PlausibleAsk(model, report, body, "Young's modulus young", m->young, unit, text));
   PetscFunctionReturn(0);
 }
 
 /* Asks about a density. si: unit of mass per volume [kg/m^3] */
-static PetscErrorCode PlausibleDensity(Simulation sim, const SceneBody *body, PetscReal si)
+static PetscErrorCode PlausibleDensity(Model model, RunReport *report, const SceneBody *body, PetscReal si)
 {
   const PetscReal density = body->material.density * si;
   char            text[256], unit[96];
 
   PetscFunctionBegin;
   if (density == 0.0 || (density >= LIGHTEST && density <= HEAVIEST)) PetscFunctionReturn(0);
-  (void)snprintf(unit, sizeof(unit), "the units \"%s\"", sim->scene->units);
+  (void)snprintf(unit, sizeof(unit), "the units \"%s\"", model->scene->units);
   (void)snprintf(text, sizeof(text), "This would be %.3g kg/m^3; steel has %g in these units", (double)density,
     7850.0 / (double)si);
-  PetscCall(PlausibleAsk(sim, body, "density", body->material.density, unit, text));
+  PetscCall(PlausibleAsk(model, report, body, "density", body->material.density, unit, text));
   PetscFunctionReturn(0);
 }
 
 /* Warns of constants of elastic bodies that no solid has in the scene's units. Nothing is known without units. */
-PetscErrorCode PlausibleTest(Simulation sim)
+PetscErrorCode PlausibleTest(Model model, RunReport *report)
 {
-  Scene     scene = sim->scene;
+  Scene     scene = model->scene;
   PetscReal length, force, stress, time;
 
   PetscFunctionBegin;
@@ -78,11 +78,11 @@ PetscErrorCode PlausibleTest(Simulation sim)
     const SceneBody *body = &scene->bodies[b];
 
     if (length > 0.0 && force > 0.0)
-      PetscCall(PlausibleDensity(sim, body, force * PetscSqr(time) / PetscSqr(PetscSqr(length))));
+      PetscCall(PlausibleDensity(model, report, body, force * PetscSqr(time) / PetscSqr(PetscSqr(length))));
     if (body->material.type == MATERIAL_RIGID) continue;
-    if (stress > 0.0) PetscCall(PlausibleModulus(sim, body, stress));
+    if (stress > 0.0) PetscCall(PlausibleModulus(model, report, body, stress));
     if (body->material.poisson < 0.0)
-      PetscCall(ReportWarn(sim->comm, &sim->report, body->place,
+      PetscCall(ReportWarn(model->comm, report, body->place,
         "body \"%s\" has Poisson's ratio poisson = %g: only auxetic foams and lattices have one below 0", body->name,
         (double)body->material.poisson));
   }

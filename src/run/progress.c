@@ -59,18 +59,20 @@ PetscBool ProgressEstimate(const Progress *p, PetscLogDouble elapsed, PetscInt l
 /* Prints a progress message. With -accuracy the remaining time is not estimated, since a finer mesh may follow. */
 static PetscErrorCode ProgressPrint(Simulation sim, PetscLogDouble now, const char inside[])
 {
-  const PetscInt  nsteps = sim->scene->nsteps, step = PetscMin((PetscInt)PetscFloorReal(sim->path->time) + 1, nsteps);
+  const PetscInt nsteps = sim->model->scene->nsteps,
+                 step   = PetscMin((PetscInt)PetscFloorReal(sim->state->path->time) + 1, nsteps);
   char            so_far[PROGRESS_LENGTH], to_come[PROGRESS_LENGTH];
   PetscLogDouble  left;
   const PetscBool known =
-    (PetscBool)(!sim->control->forecast.found &&
+    (PetscBool)(!sim->state->control->forecast.found &&
                 ProgressEstimate(&sim->run->progress, now - sim->run->progress.begun, nsteps - step, &left));
 
   PetscFunctionBegin;
   PetscCall(ProgressDuration(now - sim->run->start.total, so_far));
   if (known) PetscCall(ProgressDuration(left, to_come));
-  PetscCall(PetscPrintf(sim->comm, "Progress: load step %" PetscInt_FMT " of %" PetscInt_FMT "%s, %s so far%s%s%s\n",
-    step, nsteps, inside, so_far, known ? ", about " : "", known ? to_come : "", known ? " left" : ""));
+  PetscCall(
+    PetscPrintf(sim->model->comm, "Progress: load step %" PetscInt_FMT " of %" PetscInt_FMT "%s, %s so far%s%s%s\n",
+      step, nsteps, inside, so_far, known ? ", about " : "", known ? to_come : "", known ? " left" : ""));
   PetscFunctionReturn(0);
 }
 
@@ -79,24 +81,24 @@ static PetscErrorCode ProgressBegin(Simulation sim)
 {
   PetscFunctionBegin;
   PetscCall(PetscTime(&sim->run->progress.begun));
-  sim->run->progress.whole = (PetscBool)(sim->path->time == PetscFloorReal(sim->path->time));
+  sim->run->progress.whole = (PetscBool)(sim->state->path->time == PetscFloorReal(sim->state->path->time));
   PetscFunctionReturn(0);
 }
 
 /* Prints a progress message after a converged attempt if one is due */
 static PetscErrorCode ProgressReach(Simulation sim)
 {
-  const PetscBool end        = (PetscBool)(sim->path->time == PetscFloorReal(sim->path->time));
+  const PetscBool end        = (PetscBool)(sim->state->path->time == PetscFloorReal(sim->state->path->time));
   char            inside[48] = "";
   PetscBool       due;
   PetscLogDouble  now;
 
   PetscFunctionBegin;
-  PetscCall(ProgressIsDue(sim->control, sim->run, &now, &due));
+  PetscCall(ProgressIsDue(sim->state->control, sim->run, &now, &due));
   if (end && sim->run->progress.whole) ProgressRecord(&sim->run->progress, now - sim->run->progress.begun);
   if (end) sim->run->progress.begun = now;
-  if (!due || sim->path->time >= (PetscReal)sim->scene->nsteps) PetscFunctionReturn(0);
-  if (!end) PetscCall(PetscSNPrintf(inside, sizeof(inside), " from time %g", (double)sim->path->time));
+  if (!due || sim->state->path->time >= (PetscReal)sim->model->scene->nsteps) PetscFunctionReturn(0);
+  if (!end) PetscCall(PetscSNPrintf(inside, sizeof(inside), " from time %g", (double)sim->state->path->time));
   PetscCall(ProgressPrint(sim, now, inside));
   PetscFunctionReturn(0);
 }
@@ -109,7 +111,7 @@ static PetscErrorCode ProgressIterate(Simulation sim, PetscInt iteration, PetscR
   PetscLogDouble now;
 
   PetscFunctionBegin;
-  PetscCall(ProgressIsDue(sim->control, sim->run, &now, &due));
+  PetscCall(ProgressIsDue(sim->state->control, sim->run, &now, &due));
   if (!due) PetscFunctionReturn(0);
   PetscCall(PetscSNPrintf(inside, sizeof(inside), ", iteration %" PetscInt_FMT " with an error of %.1e (ends at %.0e)",
     iteration, (double)error, (double)goal));
@@ -146,7 +148,7 @@ PetscErrorCode ProgressObserve(Simulation sim)
 {
   PetscFunctionBegin;
   sim->run->progress = (Progress){.every = 10.0};
-  sim->control->observer =
+  sim->state->control->observer =
     (StepObserver){ProgressBegin, ProgressReach, ProgressMonitorOptimizer, ProgressMonitorLinear};
   PetscFunctionReturn(0);
 }

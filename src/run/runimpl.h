@@ -16,14 +16,14 @@ PETSC_INTERN void           ProgressRecord(Progress *, PetscLogDouble duration);
 PETSC_INTERN PetscBool ProgressEstimate(const Progress *, PetscLogDouble elapsed, PetscInt later, PetscLogDouble *);
 
 /* adapt_contact.c */
-PETSC_INTERN PetscErrorCode AdaptMarkContact(Simulation);
+PETSC_INTERN PetscErrorCode AdaptMarkContact(Model, State, RunState *);
 
 /* effects.c */
-PETSC_INTERN PetscErrorCode EffectsCreate(Simulation, RunReport *);
-PETSC_INTERN PetscErrorCode EffectsSetTimes(Simulation, RunReport *);
+PETSC_INTERN PetscErrorCode EffectsCreate(Model, Results *, RunReport *);
+PETSC_INTERN PetscErrorCode EffectsSetTimes(Model, RunReport *);
 
 /* plausible.c */
-PETSC_INTERN PetscErrorCode PlausibleTest(Simulation);
+PETSC_INTERN PetscErrorCode PlausibleTest(Model, RunReport *);
 
 /* figures.c */
 PETSC_INTERN PetscErrorCode FiguresCollect(RunReport *);

@@ -8,7 +8,7 @@
 
 static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
 {
-  Scene        scene = sim->scene;
+  Scene        scene = sim->model->scene;
   Material    *materials;
   ElementType *elements;
   PetscBool    linear;
@@ -19,78 +19,82 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(scene->nbodies, &materials, scene->nbodies, &elements));
   for (PetscInt b = 0; b < scene->nbodies; ++b) materials[b] = scene->bodies[b].material;
-  PetscCall(SceneChooseElements(scene, sim->dm, elements, NULL));
-  PetscCall(ElasticityCreate(sim->dm, scene->nbodies, materials, elements, &sim->elasticity));
+  PetscCall(SceneChooseElements(scene, sim->model->dm, elements, NULL));
+  PetscCall(ElasticityCreate(sim->model->dm, scene->nbodies, materials, elements, &sim->model->elasticity));
   PetscCall(PetscFree2(materials, elements));
-  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
-  sim->quadratic = (PetscBool)(linear || scene->model == MODEL_QUADRATIC);
-  PetscCheck(sim->control->penalty == 0.0 || SchemeShare(&scene->dynamics) == 1.0, sim->comm, PETSC_ERR_SUP,
+  PetscCall(ElasticityIsLinear(sim->model->elasticity, &linear));
+  sim->model->quadratic = (PetscBool)(linear || scene->model == MODEL_QUADRATIC);
+  PetscCheck(sim->state->control->penalty == 0.0 || SchemeShare(&scene->dynamics) == 1.0, sim->model->comm,
+    PETSC_ERR_SUP,
     "-contact_penalty does not support scheme impact of dynamics: omit the option, or use generalized_alpha");
-  PetscCheck(sim->control->penalty == 0.0 || (sim->quadratic && !scene->displacement_bounds), sim->comm, PETSC_ERR_SUP,
+  PetscCheck(sim->state->control->penalty == 0.0 || (sim->model->quadratic && !scene->displacement_bounds),
+    sim->model->comm, PETSC_ERR_SUP,
     "-contact_penalty needs load steps that are quadratic and without displacement bounds: linear bodies, or model "
     "quadratic");
-  PetscCall(VertexPlacesCreate(sim->dm, &sim->places));
-  PetscCall(PrescribedCreate(sim->dm, scene, &sim->places, &sim->prescribed));
-  PetscCall(ISCreateGeneral(sim->comm, sim->prescribed.n, sim->prescribed.rows, PETSC_USE_POINTER, &rows));
-  PetscCall(ElasticitySetPrescribed(sim->elasticity, rows));
+  PetscCall(VertexPlacesCreate(sim->model->dm, &sim->model->places));
+  PetscCall(PrescribedCreate(sim->model->dm, scene, &sim->model->places, &sim->model->prescribed));
+  PetscCall(
+    ISCreateGeneral(sim->model->comm, sim->model->prescribed.n, sim->model->prescribed.rows, PETSC_USE_POINTER, &rows));
+  PetscCall(ElasticitySetPrescribed(sim->model->elasticity, rows));
   PetscCall(ISDestroy(&rows));
-  PetscCall(DeadLoadsCreate(scene, sim->dm, sim->elasticity, &sim->loads));
-  PetscCall(TemperaturesCreate(scene, sim->elasticity, sim->comm, &sim->temperatures));
-  PetscCall(ElasticityLumpedMass(sim->elasticity, &sim->mass));
-  bodies = SimulationBodies(sim);
-  PetscCall(SpringsMeasureStiffness(&bodies, &sim->stiffness));
-  PetscCall(SpringsCreate(&bodies, &sim->springs));
-  PetscCall(BoltsCreate(&bodies, &sim->bolts));
-  PetscCall(StiffnessSetType(sim));
-  constraints = SimulationConstraints(sim);
+  PetscCall(DeadLoadsCreate(scene, sim->model->dm, sim->model->elasticity, &sim->model->loads));
+  PetscCall(TemperaturesCreate(scene, sim->model->elasticity, sim->model->comm, &sim->model->temperatures));
+  PetscCall(ElasticityLumpedMass(sim->model->elasticity, &sim->model->mass));
+  bodies = ModelBodies(sim->model);
+  PetscCall(SpringsMeasureStiffness(&bodies, &sim->model->stiffness));
+  PetscCall(SpringsCreate(&bodies, &sim->model->springs));
+  PetscCall(BoltsCreate(&bodies, &sim->model->bolts));
+  PetscCall(StiffnessSetType(sim->model));
+  constraints = ModelConstraints(sim->model);
   PetscCall(TiesCreate(&constraints));
-  PetscCall(DynamicsCreate(&constraints, &sim->loads, &sim->springs, &sim->dynamics));
-  if (SimulationIsDynamic(sim)) PetscCall(DeadLoadsGet(&sim->loads, 0.0, &sim->path->outside));
+  PetscCall(DynamicsCreate(&constraints, &sim->model->loads, &sim->model->springs, &sim->model->dynamics));
+  if (ModelIsDynamic(sim->model)) PetscCall(DeadLoadsGet(&sim->model->loads, 0.0, &sim->state->path->outside));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SimulationSetUpTangent(Simulation sim)
+static PetscErrorCode SimulationSetUpTangent(Model model, State state)
 {
-  const Constraints constraints = SimulationConstraints(sim);
+  const Constraints constraints = ModelConstraints(model);
   PetscBool         linear;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
-  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
-  PetscCall(TiesCreateTangent(&constraints, &sim->K));
-  if (linear || sim->ties.C) PetscCall(TiesTangent(&constraints, sim->path->u, sim->K));
+  PetscCall(ElasticityIsLinear(model->elasticity, &linear));
+  PetscCall(TiesCreateTangent(&constraints, &model->K));
+  if (linear || model->ties.C) PetscCall(TiesTangent(&constraints, state->path->u, model->K));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SimulationSetUpContact(Simulation sim)
+static PetscErrorCode SimulationSetUpContact(Model model, State state)
 {
-  Scene scene = sim->scene;
+  Scene scene = model->scene;
 
   PetscFunctionBegin;
   if (!scene->npairs) PetscFunctionReturn(0);
-  PetscCall(ContactCreate(sim->dm, scene->npairs, scene->pairs, &sim->contact));
-  PetscCall(ContactSetBodies(sim->contact, scene->bodies));
-  PetscCall(ContactSetFromOptions(sim->contact));
-  PetscCall(ContactSetDisplacements(sim->contact, scene->ndisplacements, scene->displacements));
-  PetscCall(ContactSetCyclic(sim->contact, scene->ncyclic, scene->cyclic));
+  PetscCall(ContactCreate(model->dm, scene->npairs, scene->pairs, &model->contact));
+  PetscCall(ContactSetBodies(model->contact, scene->bodies));
+  PetscCall(ContactSetFromOptions(model->contact));
+  PetscCall(ContactSetDisplacements(model->contact, scene->ndisplacements, scene->displacements));
+  PetscCall(ContactSetCyclic(model->contact, scene->ncyclic, scene->cyclic));
   for (PetscInt p = 0; p < scene->npairs; ++p)
-    PetscCheck(sim->control->penalty == 0.0 || !SceneContactPairHasFriction(&scene->pairs[p]), sim->comm, PETSC_ERR_SUP,
-      "-contact_penalty does not support friction, but contact pair \"%s\" has friction", scene->pairs[p].name);
-  PetscCall(ContactHistoryCreate(sim->dm, scene, sim->history));
+    PetscCheck(state->control->penalty == 0.0 || !SceneContactPairHasFriction(&scene->pairs[p]), model->comm,
+      PETSC_ERR_SUP, "-contact_penalty does not support friction, but contact pair \"%s\" has friction",
+      scene->pairs[p].name);
+  PetscCall(ContactHistoryCreate(model->dm, scene, state->history));
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode SimulationSetUpReport(Simulation sim)
 {
   RunReport  *report = &sim->report;
-  Scene       scene  = sim->scene;
+  Scene       scene  = sim->model->scene;
   PetscMPIInt size;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(sim->comm, &size));
+  PetscCallMPI(MPI_Comm_size(sim->model->comm, &size));
   report->ranks = size;
-  PetscCall(VecGetSize(sim->path->u, &report->dofs));
+  PetscCall(VecGetSize(sim->state->path->u, &report->dofs));
   report->problem   = scene->name;
   report->units     = scene->units ? scene->units : "";
   report->refine    = scene->refine;
@@ -100,28 +104,28 @@ static PetscErrorCode SimulationSetUpReport(Simulation sim)
   PetscCall(PetscCalloc1(scene->nsteps, &report->steps));
   PetscCall(PetscMalloc2(scene->nbodies, &report->bodies, scene->nbodies, &report->assemblies));
   for (PetscInt b = 0; b < scene->nbodies; ++b) report->bodies[b] = scene->bodies[b].name;
-  PetscCall(EffectsCreate(sim, report));
+  PetscCall(EffectsCreate(sim->model, sim->results, report));
   PetscFunctionReturn(0);
 }
 
 /* Warns of the bodies that can rotate freely although the scene has no weak springs. With weak_springs it is a note. */
-static PetscErrorCode SimulationReportRotations(Simulation sim)
+static PetscErrorCode SimulationReportRotations(Model model, State state, RunReport *report)
 {
-  Scene scene = sim->scene;
+  Scene scene = model->scene;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < scene->nbodies && sim->springs.rotations; ++b) {
+  for (PetscInt b = 0; b < scene->nbodies && model->springs.rotations; ++b) {
     char axis[160];
 
-    if (!sim->springs.rotations[b].free) continue;
-    PetscCall(RotationDescribe(&sim->springs.rotations[b], sizeof(axis), axis));
+    if (!model->springs.rotations[b].free) continue;
+    PetscCall(RotationDescribe(&model->springs.rotations[b], sizeof(axis), axis));
     if (!scene->weak_springs)
-      PetscCall(ReportWarn(sim->comm, &sim->report, scene->bodies[b].place,
+      PetscCall(ReportWarn(model->comm, report, scene->bodies[b].place,
         "body \"%s\" can turn %s: no contact or support resists; weak springs of %g of its stiffness hold it",
-        scene->bodies[b].name, axis, (double)sim->springs.softness));
-    else if (sim->control->monitor)
+        scene->bodies[b].name, axis, (double)model->springs.softness));
+    else if (state->control->monitor)
       PetscCall(
-        PetscPrintf(sim->comm, "Body \"%s\" can turn %s: only weak springs resist\n", scene->bodies[b].name, axis));
+        PetscPrintf(model->comm, "Body \"%s\" can turn %s: only weak springs resist\n", scene->bodies[b].name, axis));
   }
   PetscFunctionReturn(0);
 }
@@ -131,19 +135,19 @@ static PetscErrorCode SimulationSetUpMesh(Simulation sim)
 {
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Mesh, NULL, NULL, NULL, NULL));
-  PetscCall(PlausibleTest(sim));
-  PetscCall(MeshCreateScene(sim->comm, sim->scene, sim->run->marks, &sim->dm));
-  PetscCall(MeshCheckScene(sim->dm, sim->scene));
-  PetscCall(ProbesCreate(sim->dm, sim->scene, &sim->results->probes));
+  PetscCall(PlausibleTest(sim->model, &sim->report));
+  PetscCall(MeshCreateScene(sim->model->comm, sim->model->scene, sim->run->marks, &sim->model->dm));
+  PetscCall(MeshCheckScene(sim->model->dm, sim->model->scene));
+  PetscCall(ProbesCreate(sim->model->dm, sim->model->scene, &sim->results->probes));
   PetscCall(PetscLogEventEnd(SIM_Mesh, NULL, NULL, NULL, NULL));
-  PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.mesh));
+  PetscCall(MemoryUsageGet(sim->model->comm, &sim->report.memory.mesh));
   PetscCall(PetscLogEventBegin(SIM_SetUp, NULL, NULL, NULL, NULL));
-  PetscCall(DMCreateGlobalVector(sim->dm, &sim->path->u));
-  PetscCall(VecSet(sim->path->u, 0.0));
-  PetscCall(VecDuplicate(sim->path->u, &sim->path->previous_u));
-  PetscCall(VecSet(sim->path->previous_u, 0.0));
+  PetscCall(DMCreateGlobalVector(sim->model->dm, &sim->state->path->u));
+  PetscCall(VecSet(sim->state->path->u, 0.0));
+  PetscCall(VecDuplicate(sim->state->path->u, &sim->state->path->previous_u));
+  PetscCall(VecSet(sim->state->path->previous_u, 0.0));
   PetscCall(SimulationSetUpElasticity(sim));
-  PetscCall(SimulationSetUpContact(sim));
+  PetscCall(SimulationSetUpContact(sim->model, sim->state));
   PetscCall(PetscLogEventEnd(SIM_SetUp, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }
@@ -184,14 +188,14 @@ PetscErrorCode SimulationSetUp(Simulation sim)
 {
   PetscFunctionBegin;
   PetscCall(EventsRead(&sim->run->start));
-  PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.start));
+  PetscCall(MemoryUsageGet(sim->model->comm, &sim->report.memory.start));
   PetscCall(SimulationSetUpMesh(sim));
-  PetscCall(SimulationSetUpTangent(sim));
-  PetscCall(MemoryUsageGet(sim->comm, &sim->report.memory.assembly));
+  PetscCall(SimulationSetUpTangent(sim->model, sim->state));
+  PetscCall(MemoryUsageGet(sim->model->comm, &sim->report.memory.assembly));
   PetscCall(PetscLogEventBegin(SIM_SetUp, NULL, NULL, NULL, NULL));
-  PetscCall(ForecastSetUp(sim));
+  PetscCall(ForecastSetUp(sim->model, sim->state));
   PetscCall(SimulationSetUpReport(sim));
-  PetscCall(SimulationReportRotations(sim));
+  PetscCall(SimulationReportRotations(sim->model, sim->state, &sim->report));
   PetscCall(PetscLogEventEnd(SIM_SetUp, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

@@ -10,6 +10,8 @@
 /* The simulation and its parts, in one block of memory */
 typedef struct {
   struct _n_Simulation simulation;
+  struct _n_Model      model;
+  struct _n_State      state;
   LoadPath             path;
   ContactHistory       history;
   ContactState         solved;
@@ -44,15 +46,17 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
   PetscCall(PetscAMGFInitializePackage());
   PetscCall(ContactDetect(comm, scene));
   PetscCall(PetscNew(&memory));
-  *sim            = &memory->simulation;
-  (*sim)->comm    = comm;
-  (*sim)->scene   = scene;
-  (*sim)->path    = &memory->path;
-  (*sim)->history = &memory->history;
-  (*sim)->solved  = &memory->solved;
-  (*sim)->results = &memory->results;
-  (*sim)->control = &memory->control;
-  (*sim)->run     = &memory->run;
+  *sim                  = &memory->simulation;
+  (*sim)->model         = &memory->model;
+  (*sim)->state         = &memory->state;
+  (*sim)->results       = &memory->results;
+  (*sim)->run           = &memory->run;
+  memory->model.comm    = comm;
+  memory->model.scene   = scene;
+  memory->state.path    = &memory->path;
+  memory->state.history = &memory->history;
+  memory->state.solved  = &memory->solved;
+  memory->state.control = &memory->control;
   /* default values */
   memory->results.estimate = PETSC_TRUE;
   memory->control.warm     = PETSC_TRUE;
@@ -83,7 +87,7 @@ PetscErrorCode SimulationCreate(MPI_Comm comm, Scene scene, Simulation *sim)
 PetscErrorCode SimulationSetTolerances(Simulation sim, const StepTolerances *tolerances)
 {
   PetscFunctionBegin;
-  sim->control->tolerances = *tolerances;
+  sim->state->control->tolerances = *tolerances;
   PetscFunctionReturn(0);
 }
 
@@ -105,7 +109,7 @@ PetscErrorCode SimulationSetTolerances(Simulation sim, const StepTolerances *tol
 PetscErrorCode SimulationGetTolerances(Simulation sim, StepTolerances *tolerances)
 {
   PetscFunctionBegin;
-  *tolerances = sim->control->tolerances;
+  *tolerances = sim->state->control->tolerances;
   PetscFunctionReturn(0);
 }
 
@@ -126,7 +130,7 @@ PetscErrorCode SimulationGetTolerances(Simulation sim, StepTolerances *tolerance
 PetscErrorCode SimulationSetMonitor(Simulation sim, PetscBool monitor)
 {
   PetscFunctionBegin;
-  sim->control->monitor = monitor;
+  sim->state->control->monitor = monitor;
   PetscFunctionReturn(0);
 }
 
@@ -183,31 +187,33 @@ PetscErrorCode SimulationSetFields(Simulation sim, PetscBool nodes, PetscBool po
 PetscErrorCode SimulationSetFromOptions(Simulation sim)
 {
   PetscFunctionBegin;
-  PetscOptionsBegin(sim->comm, NULL, "Load steps", NULL);
+  PetscOptionsBegin(sim->model->comm, NULL, "Load steps", NULL);
   PetscCall(PetscOptionsBool("-load_warm_start",
     "Start each load step from extrapolated displacements and the pressures of the previous step", "SimulationStep",
-    sim->control->warm, &sim->control->warm, NULL));
+    sim->state->control->warm, &sim->state->control->warm, NULL));
   PetscCall(PetscOptionsInt("-load_max_cuts", "Number of times that a failed load step may be halved", "SimulationStep",
-    sim->control->maxcuts, &sim->control->maxcuts, NULL));
-  PetscCheck(sim->control->maxcuts >= 0, sim->comm, PETSC_ERR_USER_INPUT,
-    "-load_max_cuts must be at least 0, not %" PetscInt_FMT, sim->control->maxcuts);
+    sim->state->control->maxcuts, &sim->state->control->maxcuts, NULL));
+  PetscCheck(sim->state->control->maxcuts >= 0, sim->model->comm, PETSC_ERR_USER_INPUT,
+    "-load_max_cuts must be at least 0, not %" PetscInt_FMT, sim->state->control->maxcuts);
   PetscCall(PetscOptionsReal("-progress_every", "Seconds between two progress reports; 0: none", "SimulationStep",
     sim->run->progress.every, &sim->run->progress.every, NULL));
   PetscCall(PetscOptionsBool("-error_estimate", "Estimate the discretization error at the end of every load step",
     "SimulationStep", sim->results->estimate, &sim->results->estimate, NULL));
   PetscCall(PetscOptionsReal("-contact_update_tol",
     "Change of the gap, relative to the largest displacement, that ends the contact updates", "SimulationStep",
-    sim->control->tolerances.gap_change, &sim->control->tolerances.gap_change, NULL));
+    sim->state->control->tolerances.gap_change, &sim->state->control->tolerances.gap_change, NULL));
   PetscCall(PetscOptionsReal("-contact_gap_tol",
     "Change of the gap, relative to the largest displacement, beyond which a load step has not converged",
-    "SimulationStep", sim->control->tolerances.gap_unconverged, &sim->control->tolerances.gap_unconverged, NULL));
+    "SimulationStep", sim->state->control->tolerances.gap_unconverged, &sim->state->control->tolerances.gap_unconverged,
+    NULL));
   PetscCall(PetscOptionsReal("-contact_penalty",
     "Penalty method: stiffness of a contact constraint relative to that of the bodies there; 0: no penalty",
-    "SimulationStep", sim->control->penalty, &sim->control->penalty, NULL));
+    "SimulationStep", sim->state->control->penalty, &sim->state->control->penalty, NULL));
   PetscOptionsEnd();
-  PetscCheck(sim->control->penalty >= 0.0 && !PetscIsInfOrNanReal(sim->control->penalty), sim->comm,
-    PETSC_ERR_ARG_OUTOFRANGE, "-contact_penalty must not be negative, but is %g", (double)sim->control->penalty);
-  PetscCheck(sim->run->progress.every >= 0.0 && !PetscIsInfOrNanReal(sim->run->progress.every), sim->comm,
+  PetscCheck(sim->state->control->penalty >= 0.0 && !PetscIsInfOrNanReal(sim->state->control->penalty),
+    sim->model->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_penalty must not be negative, but is %g",
+    (double)sim->state->control->penalty);
+  PetscCheck(sim->run->progress.every >= 0.0 && !PetscIsInfOrNanReal(sim->run->progress.every), sim->model->comm,
     PETSC_ERR_ARG_OUTOFRANGE, "-progress_every is a number of seconds, not negative, but is %g",
     (double)sim->run->progress.every);
   PetscFunctionReturn(0);
@@ -231,7 +237,7 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
 PetscErrorCode SimulationGetDM(Simulation sim, DM *dm)
 {
   PetscFunctionBegin;
-  *dm = sim->dm;
+  *dm = sim->model->dm;
   PetscFunctionReturn(0);
 }
 
@@ -257,12 +263,12 @@ PetscErrorCode SimulationGetDM(Simulation sim, DM *dm)
 PetscErrorCode SimulationGetReport(Simulation sim, RunReport *report)
 {
   PetscFunctionBegin;
-  PetscCall(EventsGetTimes(sim->comm, &sim->run->start, &sim->report.time));
+  PetscCall(EventsGetTimes(sim->model->comm, &sim->run->start, &sim->report.time));
   for (PetscInt b = 0; b < sim->report.nbodies; ++b)
-    PetscCall(ElasticityGetAssemblies(sim->elasticity, b, &sim->report.assemblies[b]));
-  PetscCall(EffectsSetTimes(sim, &sim->report));
+    PetscCall(ElasticityGetAssemblies(sim->model->elasticity, b, &sim->report.assemblies[b]));
+  PetscCall(EffectsSetTimes(sim->model, &sim->report));
   PetscCall(FiguresCollect(&sim->report));
-  PetscCall(MemoryUsageGetPeak(sim->comm, &sim->report.peak_memory_bytes));
+  PetscCall(MemoryUsageGetPeak(sim->model->comm, &sim->report.peak_memory_bytes));
   *report = sim->report;
   PetscFunctionReturn(0);
 }
@@ -313,41 +319,41 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscFunctionBegin;
   if (!s) PetscFunctionReturn(0);
   PetscCall(SimulationFreeReport(&s->report));
-  PetscCall(PetscFree2(s->solved->pressure, s->solved->gap));
-  PetscCall(PetscFree2(s->solved->shear, s->solved->slip));
-  PetscCall(PetscFree(s->control->cause));
-  PetscCall(PetscFree(s->control->failure.reason));
+  PetscCall(PetscFree2(s->state->solved->pressure, s->state->solved->gap));
+  PetscCall(PetscFree2(s->state->solved->shear, s->state->solved->slip));
+  PetscCall(PetscFree(s->state->control->cause));
+  PetscCall(PetscFree(s->state->control->failure.reason));
   PetscCall(PetscFree(s->results->stress));
-  PetscCall(PetscFree(s->solved->points));
+  PetscCall(PetscFree(s->state->solved->points));
   PetscCall(PetscFree(s->results->beyond));
   PetscCall(ResultsFree(s->results));
   PetscCall(PetscFree2(s->run->adapt.errors, s->run->adapt.marked));
-  PetscCall(StepForecastDestroy(&s->control->forecast.here));
+  PetscCall(StepForecastDestroy(&s->state->control->forecast.here));
   PetscCall(ProbesDestroy(&s->results->probes));
-  PetscCall(ContactLinearizationDestroy(&s->solved->linearization));
-  PetscCall(ContactLinearizationDestroy(&s->solved->upcoming));
-  PetscCall(ContactHistoryDestroy(s->history));
-  PetscCall(ContactDestroy(&s->contact));
-  PetscCall(PrescribedDestroy(&s->prescribed));
-  PetscCall(DeadLoadsDestroy(&s->loads));
-  PetscCall(TemperaturesDestroy(&s->temperatures));
-  PetscCall(SpringsDestroy(&s->springs));
-  PetscCall(BoltsDestroy(&s->bolts));
-  PetscCall(TiesDestroy(&s->ties));
-  PetscCall(DynamicsDestroy(&s->dynamics));
-  PetscCall(MatDestroy(&s->follows));
-  PetscCall(RigidDestroy(&s->rigid));
-  PetscCall(VertexPlacesDestroy(&s->places));
-  PetscCall(KSPDestroy(&s->control->ksp));
-  PetscCall(PetscContainerDestroy(&s->solved->subspace));
-  PetscCall(ElasticityDestroy(&s->elasticity));
-  PetscCall(MatDestroy(&s->K));
-  PetscCall(VecDestroy(&s->mass));
-  PetscCall(VecDestroy(&s->path->u));
-  PetscCall(VecDestroy(&s->path->previous_u));
-  PetscCall(VecDestroy(&s->path->outside));
-  PetscCall(VecDestroy(&s->path->contact));
-  PetscCall(DMDestroy(&s->dm));
+  PetscCall(ContactLinearizationDestroy(&s->state->solved->linearization));
+  PetscCall(ContactLinearizationDestroy(&s->state->solved->upcoming));
+  PetscCall(ContactHistoryDestroy(s->state->history));
+  PetscCall(ContactDestroy(&s->model->contact));
+  PetscCall(PrescribedDestroy(&s->model->prescribed));
+  PetscCall(DeadLoadsDestroy(&s->model->loads));
+  PetscCall(TemperaturesDestroy(&s->model->temperatures));
+  PetscCall(SpringsDestroy(&s->model->springs));
+  PetscCall(BoltsDestroy(&s->model->bolts));
+  PetscCall(TiesDestroy(&s->model->ties));
+  PetscCall(DynamicsDestroy(&s->model->dynamics));
+  PetscCall(MatDestroy(&s->model->follows));
+  PetscCall(RigidDestroy(&s->model->rigid));
+  PetscCall(VertexPlacesDestroy(&s->model->places));
+  PetscCall(KSPDestroy(&s->state->control->ksp));
+  PetscCall(PetscContainerDestroy(&s->state->solved->subspace));
+  PetscCall(ElasticityDestroy(&s->model->elasticity));
+  PetscCall(MatDestroy(&s->model->K));
+  PetscCall(VecDestroy(&s->model->mass));
+  PetscCall(VecDestroy(&s->state->path->u));
+  PetscCall(VecDestroy(&s->state->path->previous_u));
+  PetscCall(VecDestroy(&s->state->path->outside));
+  PetscCall(VecDestroy(&s->state->path->contact));
+  PetscCall(DMDestroy(&s->model->dm));
   PetscCall(PetscFree(*sim));
   PetscFunctionReturn(0);
 }

@@ -17,16 +17,16 @@ static PetscReal InertiaPreviousStep(Scene scene, LoadPath *path)
    Sets the inertia term for the time step that ends at `time`. *changed: true if the tangent of the term differs from
    that of the previous time step.
 */
-PetscErrorCode InertiaBegin(Simulation sim, PetscReal time, PetscBool *changed)
+PetscErrorCode InertiaBegin(Model model, State state, PetscReal time, PetscBool *changed)
 {
-  const Constraints constraints = SimulationConstraints(sim);
-  Dynamics         *d           = &sim->dynamics;
+  const Constraints constraints = ModelConstraints(model);
+  Dynamics         *d           = &model->dynamics;
 
   PetscFunctionBegin;
-  PetscCall(SchemeBegin(&sim->scene->dynamics, InertiaStep(sim->scene, sim->path, time), sim->path->u, d));
-  PetscCall(DriveBegin(&constraints, time, InertiaStep(sim->scene, sim->path, time),
-    InertiaPreviousStep(sim->scene, sim->path), sim->path->u, sim->path->previous_u, d));
-  PetscCall(ElasticitySetInertia(sim->elasticity, d->inertia, d->viscosity, changed));
+  PetscCall(SchemeBegin(&model->scene->dynamics, InertiaStep(model->scene, state->path, time), state->path->u, d));
+  PetscCall(DriveBegin(&constraints, time, InertiaStep(model->scene, state->path, time),
+    InertiaPreviousStep(model->scene, state->path), state->path->u, state->path->previous_u, d));
+  PetscCall(ElasticitySetInertia(model->elasticity, d->inertia, d->viscosity, changed));
   PetscFunctionReturn(0);
 }
 
@@ -35,7 +35,7 @@ PetscErrorCode InertiaBegin(Simulation sim, PetscReal time, PetscBool *changed)
    rounding error of K u is as large as the error that a solver may leave in the inertia forces c M u, with c M the
    inertia term. Always false in a static analysis.
 */
-PetscErrorCode InertiaIsSmall(Simulation sim, PetscBool *small)
+PetscErrorCode InertiaIsSmall(Model model, PetscBool *small)
 {
   const PetscReal left = 1e-11; /* relative error that a solver may leave, with a safety factor of 100 */
   PetscReal       mass;
@@ -43,13 +43,13 @@ PetscErrorCode InertiaIsSmall(Simulation sim, PetscBool *small)
 
   PetscFunctionBegin;
   *small = PETSC_FALSE;
-  if (!SimulationIsDynamic(sim)) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(sim->dynamics.inert, &diagonal));
-  PetscCall(MatGetDiagonal(sim->dynamics.mass, diagonal));
-  PetscCall(VecPointwiseMult(diagonal, diagonal, sim->dynamics.inert));
+  if (!ModelIsDynamic(model)) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(model->dynamics.inert, &diagonal));
+  PetscCall(MatGetDiagonal(model->dynamics.mass, diagonal));
+  PetscCall(VecPointwiseMult(diagonal, diagonal, model->dynamics.inert));
   PetscCall(VecMax(diagonal, NULL, &mass));
   PetscCall(VecDestroy(&diagonal));
-  *small = (PetscBool)(PETSC_MACHINE_EPSILON * sim->stiffness > left * sim->dynamics.inertia * mass);
+  *small = (PetscBool)(PETSC_MACHINE_EPSILON * model->stiffness > left * model->dynamics.inertia * mass);
   PetscFunctionReturn(0);
 }
 
@@ -57,14 +57,14 @@ PetscErrorCode InertiaIsSmall(Simulation sim, PetscBool *small)
    Sets d->excess to twice the difference that makes the internal force of the step from path->u to u the mean force,
    which conserves energy (mean_force.c).
 */
-PetscErrorCode InertiaSetExcess(Simulation sim, Vec u)
+PetscErrorCode InertiaSetExcess(Model model, State state, Vec u)
 {
-  Dynamics *d = &sim->dynamics;
+  Dynamics *d = &model->dynamics;
   PetscBool valid;
 
   PetscFunctionBegin;
   if (!d->excess) PetscCall(VecDuplicate(u, &d->excess));
-  PetscCall(ElasticityExcess(sim->elasticity, sim->path->u, u, d->excess, &valid));
+  PetscCall(ElasticityExcess(model->elasticity, state->path->u, u, d->excess, &valid));
   PetscCall(VecScale(d->excess, 2.0));
   PetscFunctionReturn(0);
 }
@@ -73,16 +73,16 @@ PetscErrorCode InertiaSetExcess(Simulation sim, Vec u)
    Computes the forces of inertia and damping at u in a new vector; *force is NULL in a static analysis. In the impact
    scheme the multipliers are only a share of the contact forces (SchemeShare()); the rest is not part of *force.
 */
-PetscErrorCode InertiaGetForce(Simulation sim, Vec u, Vec *force)
+PetscErrorCode InertiaGetForce(Model model, Vec u, Vec *force)
 {
   PetscReal energy = 0.0;
 
   PetscFunctionBegin;
   *force = NULL;
-  if (!SimulationIsDynamic(sim)) PetscFunctionReturn(0);
+  if (!ModelIsDynamic(model)) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(u, force));
   PetscCall(VecZeroEntries(*force));
-  PetscCall(SchemeAddForce(&sim->dynamics, u, &energy, *force));
+  PetscCall(SchemeAddForce(&model->dynamics, u, &energy, *force));
   PetscCall(VecScale(*force, -1.0));
   PetscFunctionReturn(0);
 }
@@ -92,21 +92,21 @@ PetscErrorCode InertiaGetForce(Simulation sim, Vec u, Vec *force)
    change on the rows that are not prescribed, divided by the larger of the 2-norms of the internal forces at the start
    and at the end of the step; 0 if the norm of the change is below `rounding` [force].
 */
-PetscErrorCode InertiaMeasureExcess(Simulation sim, Vec u, PetscReal rounding, PetscReal *change)
+PetscErrorCode InertiaMeasureExcess(Model model, State state, Vec u, PetscReal rounding, PetscReal *change)
 {
-  Dynamics *d = &sim->dynamics;
+  Dynamics *d = &model->dynamics;
   PetscReal before, after;
   Vec       force, last;
 
   PetscFunctionBegin;
-  PetscCall(InertiaGetForce(sim, u, &force));
+  PetscCall(InertiaGetForce(model, u, &force));
   PetscCall(VecNorm(force, NORM_2, &after));
   PetscCall(VecNorm(d->residual, NORM_2, &before));
   last      = d->excess;
   d->excess = force;
-  PetscCall(InertiaSetExcess(sim, u));
+  PetscCall(InertiaSetExcess(model, state, u));
   PetscCall(VecAXPY(d->excess, -1.0, last));
-  PetscCall(PrescribedSet(&sim->prescribed, 0.0, d->excess));
+  PetscCall(PrescribedSet(&model->prescribed, 0.0, d->excess));
   PetscCall(VecNorm(d->excess, NORM_2, change));
   *change = *change > rounding ? *change / PetscMax(rounding, PetscMax(before, after)) : 0.0;
   PetscCall(VecDestroy(&d->excess));
@@ -118,24 +118,24 @@ PetscErrorCode InertiaMeasureExcess(Simulation sim, Vec u, PetscReal rounding, P
    Advances the dynamic state to the displacement u at `time`. Call this before PathAdvance(), because path->u must
    still be the old displacement.
 */
-PetscErrorCode InertiaAdvance(Simulation sim, PetscReal time, Vec u)
+PetscErrorCode InertiaAdvance(Model model, State state, PetscReal time, Vec u)
 {
-  const Constraints constraints = SimulationConstraints(sim);
+  const Constraints constraints = ModelConstraints(model);
 
   PetscFunctionBegin;
-  if (!SimulationIsDynamic(sim)) PetscFunctionReturn(0);
-  PetscCall(
-    SchemeAdvance(&sim->scene->dynamics, InertiaStep(sim->scene, sim->path, time), sim->path->u, u, &sim->dynamics));
-  PetscCall(DynamicsSetRest(&constraints, &sim->loads, time, u, &sim->dynamics));
+  if (!ModelIsDynamic(model)) PetscFunctionReturn(0);
+  PetscCall(SchemeAdvance(&model->scene->dynamics, InertiaStep(model->scene, state->path, time), state->path->u, u,
+    &model->dynamics));
+  PetscCall(DynamicsSetRest(&constraints, &model->loads, time, u, &model->dynamics));
   PetscFunctionReturn(0);
 }
 
 /* Estimates the error of a time step to u by SchemeEstimate(). smooth: true if contact neither closes nor opens in
    this time step */
-PetscErrorCode InertiaEstimate(Simulation sim, PetscReal time, PetscBool smooth, Vec u, PetscReal *error)
+PetscErrorCode InertiaEstimate(Model model, State state, PetscReal time, PetscBool smooth, Vec u, PetscReal *error)
 {
   PetscFunctionBegin;
-  PetscCall(SchemeEstimate(&sim->scene->dynamics, InertiaStep(sim->scene, sim->path, time),
-    InertiaPreviousStep(sim->scene, sim->path), smooth, sim->path->u, u, &sim->dynamics, error));
+  PetscCall(SchemeEstimate(&model->scene->dynamics, InertiaStep(model->scene, state->path, time),
+    InertiaPreviousStep(model->scene, state->path), smooth, state->path->u, u, &model->dynamics, error));
   PetscFunctionReturn(0);
 }

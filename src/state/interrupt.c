@@ -49,41 +49,42 @@ PetscErrorCode InterruptCaught(void *ctx, PetscBool *stop)
 }
 
 /* Collective. *stop: true on all ranks as soon as any rank has received a signal. */
-PetscErrorCode InterruptTest(Simulation sim, PetscBool *stop)
+PetscErrorCode InterruptTest(Model model, State state, PetscBool *stop)
 {
   int any = (int)caught;
 
   PetscFunctionBegin;
-  if (!sim->control->interrupted) {
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, sim->comm));
-    sim->control->interrupted = any;
+  if (!state->control->interrupted) {
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, model->comm));
+    state->control->interrupted = any;
   }
-  *stop = sim->control->interrupted ? PETSC_TRUE : PETSC_FALSE;
+  *stop = state->control->interrupted ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
 PetscErrorCode InterruptMonitor(Tao tao, void *ctx)
 {
+  Simulation         sim = (Simulation)ctx;
   PetscBool          stop;
   TaoConvergedReason reason;
 
   PetscFunctionBegin;
   PetscCall(TaoGetConvergedReason(tao, &reason));
   if (reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
-  PetscCall(InterruptTest((Simulation)ctx, &stop));
+  PetscCall(InterruptTest(sim->model, sim->state, &stop));
   if (stop) PetscCall(TaoSetConvergedReason(tao, TAO_DIVERGED_USER));
   PetscFunctionReturn(0);
 }
 
-PetscErrorCode InterruptReport(Simulation sim, StepReport *report)
+PetscErrorCode InterruptReport(State state, StepReport *report)
 {
   char reason[64];
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(reason, sizeof(reason), "stopped by signal %s",
-    sim->control->interrupted == SIGINT    ? "SIGINT"
-    : sim->control->interrupted == SIGTERM ? "SIGTERM"
-                                           : "SIGUSR1"));
+    state->control->interrupted == SIGINT    ? "SIGINT"
+    : state->control->interrupted == SIGTERM ? "SIGTERM"
+                                             : "SIGUSR1"));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }

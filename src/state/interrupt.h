@@ -4,9 +4,9 @@
 
 #include "src/state/stateimpl.h"
 
-PETSC_INTERN PetscErrorCode InterruptTest(Simulation, PetscBool *);
+PETSC_INTERN PetscErrorCode InterruptTest(Model, State, PetscBool *);
 PETSC_INTERN PetscErrorCode InterruptCaught(void *ctx, PetscBool *stop);
 PETSC_INTERN PetscErrorCode InterruptMonitor(Tao, void *);
-PETSC_INTERN PetscErrorCode InterruptReport(Simulation, StepReport *);
+PETSC_INTERN PetscErrorCode InterruptReport(State, StepReport *);
 
 #endif

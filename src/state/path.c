@@ -8,24 +8,24 @@
    thus small. It is 0 instead of negative if metal has yielded: the bodies then unload elastically, so the path back
    differs from the path on which they yielded.
 */
-static PetscErrorCode PathRatio(Simulation sim, PetscReal time, PetscReal *ratio)
+static PetscErrorCode PathRatio(Model model, State state, PetscReal time, PetscReal *ratio)
 {
-  const LoadPath *path    = sim->path;
+  const LoadPath *path    = state->path;
   PetscReal       product = 0.0, square = 0.0;
   PetscBool       yielded = PETSC_FALSE;
 
   PetscFunctionBegin;
-  for (PetscInt r = 0; r < sim->scene->nramps; ++r) {
+  for (PetscInt r = 0; r < model->scene->nramps; ++r) {
     PetscReal before, now, next;
 
-    PetscCall(SceneGetFactor(sim->scene, r, path->previous_time, &before));
-    PetscCall(SceneGetFactor(sim->scene, r, path->time, &now));
-    PetscCall(SceneGetFactor(sim->scene, r, time, &next));
+    PetscCall(SceneGetFactor(model->scene, r, path->previous_time, &before));
+    PetscCall(SceneGetFactor(model->scene, r, path->time, &now));
+    PetscCall(SceneGetFactor(model->scene, r, time, &next));
     product += (next - now) * (now - before);
     square += (now - before) * (now - before);
   }
   *ratio = square > 0.0 ? product / square : 0.0;
-  if (*ratio < 0.0) PetscCall(ElasticityHasYielded(sim->elasticity, &yielded));
+  if (*ratio < 0.0) PetscCall(ElasticityHasYielded(model->elasticity, &yielded));
   if (yielded) *ratio = 0.0;
   PetscFunctionReturn(0);
 }
@@ -34,21 +34,22 @@ static PetscErrorCode PathRatio(Simulation sim, PetscReal time, PetscReal *ratio
    Extrapolates the path to `time`. u: extrapolated displacement, with the prescribed displacements of this time. A
    dynamic analysis extrapolates with velocities and accelerations.
 */
-PetscErrorCode PathContinue(Simulation sim, PetscReal time, Vec u)
+PetscErrorCode PathContinue(Model model, State state, PetscReal time, Vec u)
 {
   PetscReal ratio = 0.0;
 
   PetscFunctionBegin;
-  if (SimulationIsDynamic(sim)) {
-    PetscCall(SchemePredict(&sim->dynamics, (time - sim->path->time) * SceneTimeStep(sim->scene), sim->path->u, u));
+  if (ModelIsDynamic(model)) {
+    PetscCall(
+      SchemePredict(&model->dynamics, (time - state->path->time) * SceneTimeStep(model->scene), state->path->u, u));
   } else {
-    PetscCall(PathRatio(sim, time, &ratio));
-    PetscCall(VecCopy(sim->path->u, u));
-    PetscCall(VecAXPY(u, ratio, sim->path->u));
-    PetscCall(VecAXPY(u, -ratio, sim->path->previous_u));
+    PetscCall(PathRatio(model, state, time, &ratio));
+    PetscCall(VecCopy(state->path->u, u));
+    PetscCall(VecAXPY(u, ratio, state->path->u));
+    PetscCall(VecAXPY(u, -ratio, state->path->previous_u));
   }
-  PetscCall(PrescribedApply(&sim->prescribed, time, u));
-  PetscCall(TiesFollow(&sim->ties, u));
+  PetscCall(PrescribedApply(&model->prescribed, time, u));
+  PetscCall(TiesFollow(&model->ties, u));
   PetscFunctionReturn(0);
 }
 
@@ -56,22 +57,22 @@ PetscErrorCode PathContinue(Simulation sim, PetscReal time, Vec u)
    Finds whether the state at `time` continues the path: prescribed displacements are those of the extrapolated path, up
    to a fraction of the increment
 */
-PetscErrorCode PathIsSmooth(Simulation sim, PetscReal time, PetscBool *smooth)
+PetscErrorCode PathIsSmooth(Model model, State state, PetscReal time, PetscBool *smooth)
 {
   const PetscReal fraction = 0.3;
   PetscReal       ratio    = 0.0, increment, off;
   Vec             step, u;
 
   PetscFunctionBegin;
-  PetscCall(PathRatio(sim, time, &ratio));
-  PetscCall(VecDuplicate(sim->path->u, &step));
-  PetscCall(VecDuplicate(sim->path->u, &u));
-  PetscCall(VecWAXPY(step, -1.0, sim->path->previous_u, sim->path->u));
+  PetscCall(PathRatio(model, state, time, &ratio));
+  PetscCall(VecDuplicate(state->path->u, &step));
+  PetscCall(VecDuplicate(state->path->u, &u));
+  PetscCall(VecWAXPY(step, -1.0, state->path->previous_u, state->path->u));
   PetscCall(VecScale(step, ratio));
   PetscCall(VecNorm(step, NORM_INFINITY, &increment));
-  PetscCall(VecAXPY(step, 1.0, sim->path->u));
+  PetscCall(VecAXPY(step, 1.0, state->path->u));
   PetscCall(VecCopy(step, u));
-  PetscCall(PrescribedApply(&sim->prescribed, time, u));
+  PetscCall(PrescribedApply(&model->prescribed, time, u));
   PetscCall(VecAXPY(u, -1.0, step));
   PetscCall(VecNorm(u, NORM_INFINITY, &off));
   *smooth = (PetscBool)(increment > 0.0 && off <= fraction * increment);
@@ -84,15 +85,15 @@ PetscErrorCode PathIsSmooth(Simulation sim, PetscReal time, PetscBool *smooth)
    Computes the factor for the stored pressures at the start of a load step. *scale: ratio of the ramp factors at `time`
    and at the last state if there is only one ramp, because pressures are then about proportional to it; otherwise 1.
 */
-PetscErrorCode PathPressureScale(Simulation sim, PetscReal time, PetscReal *scale)
+PetscErrorCode PathPressureScale(Model model, State state, PetscReal time, PetscReal *scale)
 {
   PetscReal now, next;
 
   PetscFunctionBegin;
   *scale = 1.0;
-  if (sim->scene->nramps > 1 || SimulationIsDynamic(sim)) PetscFunctionReturn(0);
-  PetscCall(SceneGetFactor(sim->scene, 0, sim->path->time, &now));
-  PetscCall(SceneGetFactor(sim->scene, 0, time, &next));
+  if (model->scene->nramps > 1 || ModelIsDynamic(model)) PetscFunctionReturn(0);
+  PetscCall(SceneGetFactor(model->scene, 0, state->path->time, &now));
+  PetscCall(SceneGetFactor(model->scene, 0, time, &next));
   if (now != 0.0 && next / now > 0.0) *scale = next / now;
   PetscFunctionReturn(0);
 }

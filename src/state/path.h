@@ -22,9 +22,9 @@ struct _n_LoadPath {
 };
 
 /* path.c */
-PETSC_INTERN PetscErrorCode PathContinue(Simulation, PetscReal time, Vec u);
-PETSC_INTERN PetscErrorCode PathIsSmooth(Simulation, PetscReal time, PetscBool *smooth);
-PETSC_INTERN PetscErrorCode PathPressureScale(Simulation, PetscReal time, PetscReal *scale);
+PETSC_INTERN PetscErrorCode PathContinue(Model, State, PetscReal time, Vec u);
+PETSC_INTERN PetscErrorCode PathIsSmooth(Model, State, PetscReal time, PetscBool *smooth);
+PETSC_INTERN PetscErrorCode PathPressureScale(Model, State, PetscReal time, PetscReal *scale);
 PETSC_INTERN PetscErrorCode PathAdvance(LoadPath *, PetscReal time, Vec *u);
 
 #endif

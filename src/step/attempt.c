@@ -10,14 +10,14 @@
    times the rounding error of the coordinates [length]. The fraction is small in time steps, because energy and angular
    momentum depend on the rotations (turn.c).
 */
-static PetscErrorCode AttemptGetAllowed(Simulation sim, Vec u, PetscReal *allowed)
+static PetscErrorCode AttemptGetAllowed(Model model, State state, Vec u, PetscReal *allowed)
 {
-  const PetscReal part = SimulationIsDynamic(sim) ? 1e-14 : PetscMax(1e-3 * sim->control->tolerances.optimizer, 1e-12);
+  const PetscReal part = ModelIsDynamic(model) ? 1e-14 : PetscMax(1e-3 * state->control->tolerances.optimizer, 1e-12);
   PetscReal       size, extent;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  PetscCall(VecNorm(sim->places.x, NORM_INFINITY, &extent));
+  PetscCall(VecNorm(model->places.x, NORM_INFINITY, &extent));
   *allowed = PetscMax(part * size, 32.0 * PETSC_MACHINE_EPSILON * extent);
   PetscFunctionReturn(0);
 }
@@ -48,7 +48,7 @@ static PetscErrorCode AttemptBodies(StepProblem *p, PetscBool foreseen, Vec u, S
   for (PetscInt k = 0; !k || again; ++k) {
     if (k || foreseen) PetscCall(StepProblemTurn(p, u));
     PetscCall(StepProblemSolve(p, (PetscBool)(foreseen || k), u, report, sol));
-    PetscCall(AttemptGetAllowed(p->sim, u, &allowed));
+    PetscCall(AttemptGetAllowed(p->model, p->state, u, &allowed));
     again = (PetscBool)(report->converged && AttemptTurnsOn(allowed, last, report->straightened));
     last  = report->straightened;
     if (k < most || !again) continue;
@@ -59,19 +59,19 @@ static PetscErrorCode AttemptBodies(StepProblem *p, PetscBool foreseen, Vec u, S
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AttemptKeepSurface(Simulation sim, const ContactSolution *sol)
+static PetscErrorCode AttemptKeepSurface(State state, const ContactSolution *sol)
 {
-  const PetscInt     n = sim->solved->linearization->nlocal;
+  const PetscInt     n = state->solved->linearization->nlocal;
   const PetscScalar *z, *g;
 
   PetscFunctionBegin;
-  PetscCall(PetscFree2(sim->solved->pressure, sim->solved->gap));
-  PetscCall(PetscMalloc2(n, &sim->solved->pressure, n, &sim->solved->gap));
+  PetscCall(PetscFree2(state->solved->pressure, state->solved->gap));
+  PetscCall(PetscMalloc2(n, &state->solved->pressure, n, &state->solved->gap));
   PetscCall(VecGetArrayRead(sol->pressure, &z));
   PetscCall(VecGetArrayRead(sol->gap, &g));
   for (PetscInt i = 0; i < n; ++i) {
-    sim->solved->pressure[i] = PetscRealPart(z[i]);
-    sim->solved->gap[i]      = PetscRealPart(g[i]);
+    state->solved->pressure[i] = PetscRealPart(z[i]);
+    state->solved->gap[i]      = PetscRealPart(g[i]);
   }
   PetscCall(VecRestoreArrayRead(sol->gap, &g));
   PetscCall(VecRestoreArrayRead(sol->pressure, &z));
@@ -85,17 +85,16 @@ static PetscErrorCode AttemptKeepSurface(Simulation sim, const ContactSolution *
 */
 static PetscErrorCode AttemptCountUnsupported(const StepProblem *p, const StepReport *report)
 {
-  Simulation sim = p->sim;
-  PetscBool  still;
+  PetscBool still;
 
   PetscFunctionBegin;
   if (report->converged || (!p->unsupported && !p->moves_on)) {
-    sim->control->unsupported = 0;
+    p->state->control->unsupported = 0;
     PetscFunctionReturn(0);
   }
-  PetscCall(VecEqual(p->base, sim->path->u, &still));
-  sim->control->unsupported += still && p->unsupported ? 2 : 1;
-  if (!sim->control->cause) PetscCall(PetscStrallocpy(report->reason, &sim->control->cause));
+  PetscCall(VecEqual(p->base, p->state->path->u, &still));
+  p->state->control->unsupported += still && p->unsupported ? 2 : 1;
+  if (!p->state->control->cause) PetscCall(PetscStrallocpy(report->reason, &p->state->control->cause));
   PetscFunctionReturn(0);
 }
 
@@ -104,10 +103,10 @@ static PetscErrorCode AttemptCountUnsupported(const StepProblem *p, const StepRe
    time step. If contact closes or opens, or if half of the vertices in contact change, the error estimate for motions
    that are not smooth is used. The shortest time steps are always accepted.
 */
-static PetscErrorCode AttemptJudgeTimeStep(Simulation sim, PetscReal time, Vec u, StepReport *report)
+static PetscErrorCode AttemptJudgeTimeStep(Model model, State state, PetscReal time, Vec u, StepReport *report)
 {
-  TimeStepControl *c      = &sim->control->time_step;
-  const PetscReal  length = time - sim->path->time, tolerance = sim->scene->dynamics.tolerance;
+  TimeStepControl *c      = &state->control->time_step;
+  const PetscReal  length = time - state->path->time, tolerance = model->scene->dynamics.tolerance;
   PetscInt         closed = 0;
   PetscBool        smooth;
   char             reason[96];
@@ -115,9 +114,9 @@ static PetscErrorCode AttemptJudgeTimeStep(Simulation sim, PetscReal time, Vec u
   PetscFunctionBegin;
   c->too_long = PETSC_FALSE;
   if (!(tolerance > 0.0) || !report->converged) PetscFunctionReturn(0);
-  if (sim->contact) PetscCall(ContactHistoryCountClosed(sim->history, sim->comm, &closed));
+  if (model->contact) PetscCall(ContactHistoryCountClosed(state->history, model->comm, &closed));
   smooth = (PetscBool)(2 * PetscAbsInt(closed - c->closed) <= PetscMax(closed, c->closed));
-  PetscCall(InertiaEstimate(sim, time, smooth, u, &c->error));
+  PetscCall(InertiaEstimate(model, state, time, smooth, u, &c->error));
   c->too_long = (PetscBool)(c->error > tolerance && length > STEP_SHORTEST);
   if (c->too_long) {
     PetscCall(PetscSNPrintf(reason, sizeof(reason), "the error %.3g of the time step is above the tolerance %g",
@@ -135,16 +134,18 @@ static PetscErrorCode AttemptJudgeTimeStep(Simulation sim, PetscReal time, Vec u
 static PetscErrorCode AttemptCheckStart(Simulation sim, const StepReport *report)
 {
   PetscFunctionBegin;
-  if (!sim->contact || sim->path->time > 0.0 || report->cuts || sim->control->forecast.failed) PetscFunctionReturn(0);
-  if (!sim->solved->upcoming)
-    PetscCall(ContactLinearize(sim->contact, sim->path->u, CONTACT_FORCES, &sim->solved->upcoming));
-  PetscCall(ContactCheckDepth(sim->contact));
-  PetscCall(StartWarn(sim, sim->solved->upcoming));
+  if (!sim->model->contact || sim->state->path->time > 0.0 || report->cuts || sim->state->control->forecast.failed)
+    PetscFunctionReturn(0);
+  if (!sim->state->solved->upcoming)
+    PetscCall(
+      ContactLinearize(sim->model->contact, sim->state->path->u, CONTACT_FORCES, &sim->state->solved->upcoming));
+  PetscCall(ContactCheckDepth(sim->model->contact));
+  PetscCall(StartWarn(sim, sim->state->solved->upcoming));
   PetscFunctionReturn(0);
 }
 
 /*
-   Measures the new state and makes it the last one of sim->path, which takes u. *at_u: the linearization at u, which
+   Measures the new state and makes it the last one of state->path, which takes u. *at_u: the linearization at u, which
    the next load step takes
 */
 static PetscErrorCode AttemptAccept(StepProblem *p, Vec *u, ContactSolution *sol, ContactLinearization *at_u,
@@ -155,35 +156,36 @@ static PetscErrorCode AttemptAccept(StepProblem *p, Vec *u, ContactSolution *sol
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
-  PetscCall(InertiaGetForce(sim, *u, &inertia));
-  PetscCall(ElasticityCommit(sim->elasticity, *u));
-  PetscCall(InertiaAdvance(sim, p->time, *u));
+  PetscCall(InertiaGetForce(p->model, *u, &inertia));
+  PetscCall(ElasticityCommit(p->model->elasticity, *u));
+  PetscCall(InertiaAdvance(p->model, p->state, p->time, *u));
   PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscCall(MeasureState(sim, p->time, p->load, inertia, *u, sol, report));
   PetscCall(VecDestroy(&inertia));
-  PetscCall(SchemeRelease(sim->path->contact, &sim->dynamics)); /* MeasureState() has set these contact forces */
-  if (sim->contact) PetscCall(AttemptKeepSurface(sim, sol));
-  if (sim->contact) PetscCall(FrictionSettle(sim, p->time, *u, sol));
-  PetscCall(PathAdvance(sim->path, p->time, u));
-  PetscCall(ContactLinearizationDestroy(&sim->solved->upcoming));
+  PetscCall(
+    SchemeRelease(p->state->path->contact, &p->model->dynamics)); /* MeasureState() has set these contact forces */
+  if (p->model->contact) PetscCall(AttemptKeepSurface(p->state, sol));
+  if (p->model->contact) PetscCall(FrictionSettle(p->model, p->state, p->time, *u, sol));
+  PetscCall(PathAdvance(p->state->path, p->time, u));
+  PetscCall(ContactLinearizationDestroy(&p->state->solved->upcoming));
   /* if only the gap was computed, the next load step must linearize again */
   if (*at_u && (*at_u)->gaps_only) PetscCall(ContactLinearizationDestroy(at_u));
-  sim->solved->upcoming = *at_u;
-  if (*at_u) PetscCall(InterferenceAdd(sim, p->time, -1.0, sim->solved->upcoming));
+  p->state->solved->upcoming = *at_u;
+  if (*at_u) PetscCall(InterferenceAdd(p->model, p->state, p->time, -1.0, p->state->solved->upcoming));
   *at_u = NULL;
   PetscFunctionReturn(0);
 }
 
 /*
-   Attempts to advance the state to `time`. After success sim->path, sim->solved->linearization, pressures and gaps are
-   those of the new state. After a failure they are unchanged.
+   Attempts to advance the state to `time`. After success state->path, state->solved->linearization, pressures and gaps
+   are those of the new state. After a failure they are unchanged.
 */
 PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *report)
 {
-  const PetscInt       first = sim->scene->displacement_bounds;
+  const PetscInt       first = sim->model->scene->displacement_bounds;
   StepProblem          p;
   ContactSolution      sol  = {.gap = NULL};
-  ContactLinearization last = sim->solved->linearization, at_u = NULL;
+  ContactLinearization last = sim->state->solved->linearization, at_u = NULL;
   PetscBool            foreseen;
   Vec                  u;
 
@@ -192,25 +194,25 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
   PetscCall(StepProblemCreate(sim, time, &p));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
-  PetscCall(VecDuplicate(sim->path->u, &u));
-  if (first && time > (PetscReal)(first - 1) && sim->path->largest_increment > 0.0)
-    PetscCall(StepProblemSetBounds(&p, sim->path->largest_increment));
+  PetscCall(VecDuplicate(sim->state->path->u, &u));
+  if (first && time > (PetscReal)(first - 1) && sim->state->path->largest_increment > 0.0)
+    PetscCall(StepProblemSetBounds(&p, sim->state->path->largest_increment));
   PetscCall(ForecastGet(&p, u, &foreseen));
-  if (sim->contact) {
+  if (sim->model->contact) {
     PetscCall(ContactUpdatesSolve(&p, foreseen, u, report, &sol, &at_u));
     PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
     PetscCall(LostContactSettle(&p, last, u, &sol, &at_u, report));
-    PetscCall(MissedFindPassed(sim, time, u, report));
+    PetscCall(MissedFindPassed(sim->model, sim->state, time, u, report));
     PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   } else PetscCall(AttemptBodies(&p, foreseen, u, report, &sol));
   PetscCall(AttemptCountUnsupported(&p, report));
-  PetscCall(AttemptJudgeTimeStep(sim, time, u, report));
+  PetscCall(AttemptJudgeTimeStep(sim->model, sim->state, time, u, report));
   if (report->converged) {
     PetscCall(AttemptAccept(&p, &u, &sol, &at_u, report));
     PetscCall(ContactLinearizationDestroy(&last));
-  } else if (sim->contact) {
-    PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
-    sim->solved->linearization = last;
+  } else if (sim->model->contact) {
+    PetscCall(ContactLinearizationDestroy(&sim->state->solved->linearization));
+    sim->state->solved->linearization = last;
   }
   PetscCall(ContactLinearizationDestroy(&at_u));
   PetscCall(VecDestroy(&u));

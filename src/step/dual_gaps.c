@@ -11,27 +11,27 @@
 #include "src/state/path.h"
 
 /* Sets the functions. What the optimizer has kept of the other problem, such as directions, is destroyed */
-static PetscErrorCode DualGapsSet(Simulation sim, PetscBool dual, PetscBool *changed)
+static PetscErrorCode DualGapsSet(Model model, State state, PetscBool dual, PetscBool *changed)
 {
   PetscFunctionBegin;
-  PetscCall(ContactSetDual(sim->contact, dual ? CONTACT_DUAL_AUTO : CONTACT_DUAL_NONE, changed));
+  PetscCall(ContactSetDual(model->contact, dual ? CONTACT_DUAL_AUTO : CONTACT_DUAL_NONE, changed));
   if (!*changed) PetscFunctionReturn(0);
-  PetscCall(ContactLinearizationDestroy(&sim->solved->upcoming));
-  PetscCall(PetscContainerDestroy(&sim->solved->subspace));
+  PetscCall(ContactLinearizationDestroy(&state->solved->upcoming));
+  PetscCall(PetscContainerDestroy(&state->solved->subspace));
   PetscFunctionReturn(0);
 }
 
 /* Goes back to the usual functions after an attempt with dual ones failed too, whose first reason is then reported */
-static PetscErrorCode DualGapsUndo(Simulation sim, StepReport *report)
+static PetscErrorCode DualGapsUndo(Model model, State state, StepReport *report)
 {
-  StepFailure *failure = &sim->control->failure;
+  StepFailure *failure = &state->control->failure;
   PetscBool    changed;
 
   PetscFunctionBegin;
-  PetscCall(DualGapsSet(sim, PETSC_FALSE, &changed));
-  sim->control->unsupported = failure->unsupported;
-  report->gap_unconverged   = failure->gap_unconverged;
-  if (!sim->control->interrupted) PetscCall(ReportReason(report, PETSC_FALSE, failure->reason));
+  PetscCall(DualGapsSet(model, state, PETSC_FALSE, &changed));
+  state->control->unsupported = failure->unsupported;
+  report->gap_unconverged     = failure->gap_unconverged;
+  if (!state->control->interrupted) PetscCall(ReportReason(report, PETSC_FALSE, failure->reason));
   PetscCall(PetscFree(failure->reason));
   PetscFunctionReturn(0);
 }
@@ -41,27 +41,27 @@ static PetscErrorCode DualGapsUndo(Simulation sim, StepReport *report)
    is done once in a load step, if there is friction or if a body moves on; but not if it is proved that no contact
    forces hold the loads.
 */
-PetscErrorCode DualGapsTry(Simulation sim, StepReport *report, PetscBool *again)
+PetscErrorCode DualGapsTry(Model model, State state, StepReport *report, PetscBool *again)
 {
-  StepControl *control = sim->control;
+  StepControl *control = state->control;
   StepFailure *failure = &control->failure;
 
   PetscFunctionBegin;
   *again = PETSC_FALSE;
   if (failure->reason) {
-    PetscCall(DualGapsUndo(sim, report));
+    PetscCall(DualGapsUndo(model, state, report));
     PetscFunctionReturn(0);
   }
-  if (!sim->contact || control->interrupted || control->dual_tried == report->step) PetscFunctionReturn(0);
-  if (control->unsupported ? control->unsupported > 1 : !sim->history->frictional) PetscFunctionReturn(0);
-  PetscCall(DualGapsSet(sim, PETSC_TRUE, again));
+  if (!model->contact || control->interrupted || control->dual_tried == report->step) PetscFunctionReturn(0);
+  if (control->unsupported ? control->unsupported > 1 : !state->history->frictional) PetscFunctionReturn(0);
+  PetscCall(DualGapsSet(model, state, PETSC_TRUE, again));
   if (!*again) PetscFunctionReturn(0);
   control->dual_tried      = report->step;
   failure->unsupported     = control->unsupported;
   failure->gap_unconverged = report->gap_unconverged;
   PetscCall(PetscStrallocpy(report->reason, &failure->reason));
   if (control->monitor)
-    PetscCall(PetscPrintf(sim->comm, "Load step %" PetscInt_FMT " attempted again with gap: dual: %s\n", report->step,
+    PetscCall(PetscPrintf(model->comm, "Load step %" PetscInt_FMT " attempted again with gap: dual: %s\n", report->step,
       report->reason));
   PetscFunctionReturn(0);
 }
@@ -69,12 +69,12 @@ PetscErrorCode DualGapsTry(Simulation sim, StepReport *report, PetscBool *again)
 /* Warns if the attempt that succeeded is the first one with dual functions */
 PetscErrorCode DualGapsAccept(Simulation sim, const StepReport *report)
 {
-  StepFailure *failure = &sim->control->failure;
+  StepFailure *failure = &sim->state->control->failure;
 
   PetscFunctionBegin;
   if (!failure->reason) PetscFunctionReturn(0);
   PetscCall(PetscFree(failure->reason));
-  PetscCall(ReportWarn(sim->comm, &sim->report, NULL,
+  PetscCall(ReportWarn(sim->model->comm, &sim->report, NULL,
     "load step %" PetscInt_FMT ": contact pairs have gap: dual from now on, because no equilibrium was found with "
     "gap: mortar, whose pressures cannot act at the edge of a coarse face",
     report->step));

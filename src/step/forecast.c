@@ -22,7 +22,7 @@
 PetscErrorCode SimulationSetForecast(Simulation sim, StepForecast *forecast)
 {
   PetscFunctionBegin;
-  sim->control->forecast.found = forecast;
+  sim->state->control->forecast.found = forecast;
   PetscFunctionReturn(0);
 }
 
@@ -41,7 +41,7 @@ PetscErrorCode StepForecastDestroy(StepForecast *forecast)
    Interpolates the fields of another mesh to the nodes of the present mesh. *here remains empty if nodes of the present
    mesh are too far outside of the other mesh.
 */
-static PetscErrorCode ForecastTransfer(Simulation sim, const StepForecast *found, StepForecast *here)
+static PetscErrorCode ForecastTransfer(Model model, State state, const StepForecast *found, StepForecast *here)
 {
   const PetscInt     n = found->nsteps * found->nfields;
   PetscInt           nlocal, missing;
@@ -50,12 +50,12 @@ static PetscErrorCode ForecastTransfer(Simulation sim, const StepForecast *found
 
   PetscFunctionBegin;
   if (!n) PetscFunctionReturn(0);
-  PetscCall(VecGetLocalSize(sim->places.x, &nlocal));
+  PetscCall(VecGetLocalSize(model->places.x, &nlocal));
   PetscCall(PetscMalloc1(n * nlocal, &values));
-  PetscCall(VecGetArrayRead(sim->places.x, &x));
-  PetscCall(MeshEvaluate(found->dm, n, found->fields, nlocal / 3, (const PetscReal(*)[3])x, sim->places.body, values,
+  PetscCall(VecGetArrayRead(model->places.x, &x));
+  PetscCall(MeshEvaluate(found->dm, n, found->fields, nlocal / 3, (const PetscReal(*)[3])x, model->places.body, values,
     &missing));
-  PetscCall(VecRestoreArrayRead(sim->places.x, &x));
+  PetscCall(VecRestoreArrayRead(model->places.x, &x));
   if (!missing) {
     here->nsteps  = found->nsteps;
     here->nfields = found->nfields;
@@ -64,7 +64,7 @@ static PetscErrorCode ForecastTransfer(Simulation sim, const StepForecast *found
   for (PetscInt f = 0; f < n && !missing; ++f) {
     PetscScalar *a;
 
-    PetscCall(VecDuplicate(sim->path->u, &here->fields[f]));
+    PetscCall(VecDuplicate(state->path->u, &here->fields[f]));
     PetscCall(VecGetArrayWrite(here->fields[f], &a));
     for (PetscInt i = 0; i < nlocal; ++i) a[i] = values[3 * (n * (i / 3) + f) + i % 3];
     PetscCall(VecRestoreArrayWrite(here->fields[f], &a));
@@ -77,18 +77,19 @@ static PetscErrorCode ForecastTransfer(Simulation sim, const StepForecast *found
    Interpolates the caller's forecast to the present mesh and empties it, so that it then collects the states on the
    present mesh. Call this function when mesh and contact exist.
 */
-PetscErrorCode ForecastSetUp(Simulation sim)
+PetscErrorCode ForecastSetUp(Model model, State state)
 {
-  StepForecast *found = sim->control->forecast.found;
+  StepForecast *found = state->control->forecast.found;
 
   PetscFunctionBegin;
   if (!found) PetscFunctionReturn(0);
-  if (sim->control->warm && !sim->scene->displacement_bounds && (!sim->contact || sim->scene->contact_updates > 1))
-    PetscCall(ForecastTransfer(sim, found, &sim->control->forecast.here));
+  if (state->control->warm && !model->scene->displacement_bounds &&
+      (!model->contact || model->scene->contact_updates > 1))
+    PetscCall(ForecastTransfer(model, state, found, &state->control->forecast.here));
   PetscCall(StepForecastDestroy(found));
-  found->nfields = 1 + (sim->contact ? sim->scene->npairs : 0);
-  found->dm      = sim->dm;
-  PetscCall(PetscObjectReference((PetscObject)sim->dm));
+  found->nfields = 1 + (model->contact ? model->scene->npairs : 0);
+  found->dm      = model->dm;
+  PetscCall(PetscObjectReference((PetscObject)model->dm));
   PetscFunctionReturn(0);
 }
 
@@ -117,9 +118,9 @@ static PetscErrorCode ForecastCopyPressures(ContactHistory *m, PetscInt pair, Ve
 }
 
 /* Appends the state at the end of a converged load step to the caller's forecast. */
-PetscErrorCode ForecastRecord(Simulation sim)
+PetscErrorCode ForecastRecord(State state)
 {
-  StepForecast *found = sim->control->forecast.found;
+  StepForecast *found = state->control->forecast.found;
   Vec          *fields;
 
   PetscFunctionBegin;
@@ -127,11 +128,11 @@ PetscErrorCode ForecastRecord(Simulation sim)
   PetscCall(PetscRealloc((size_t)((found->nsteps + 1) * found->nfields) * sizeof(*fields), &found->fields));
   fields = &found->fields[found->nsteps++ * found->nfields];
   for (PetscInt f = 0; f < found->nfields; ++f) {
-    PetscCall(VecDuplicate(sim->path->u, &fields[f]));
+    PetscCall(VecDuplicate(state->path->u, &fields[f]));
     PetscCall(VecZeroEntries(fields[f]));
-    if (f) PetscCall(ForecastCopyPressures(sim->history, f - 1, fields[f], PETSC_FALSE));
+    if (f) PetscCall(ForecastCopyPressures(state->history, f - 1, fields[f], PETSC_FALSE));
   }
-  PetscCall(VecCopy(sim->path->u, fields[0]));
+  PetscCall(VecCopy(state->path->u, fields[0]));
   PetscFunctionReturn(0);
 }
 
@@ -141,9 +142,8 @@ PetscErrorCode ForecastRecord(Simulation sim)
 */
 PetscErrorCode ForecastGet(const StepProblem *p, Vec u, PetscBool *foreseen)
 {
-  Simulation      sim    = p->sim;
-  StepForecast   *here   = &sim->control->forecast.here;
-  const PetscInt  step   = (PetscInt)p->time - sim->control->first_step;
+  StepForecast   *here   = &p->state->control->forecast.here;
+  const PetscInt  step   = (PetscInt)p->time - p->state->control->first_step;
   const PetscBool has    = (PetscBool)(p->time == PetscFloorReal(p->time) && step >= 1 && step <= here->nsteps);
   PetscReal       energy = 0.0;
   Vec            *fields = has ? &here->fields[(step - 1) * here->nfields] : NULL;
@@ -152,12 +152,12 @@ PetscErrorCode ForecastGet(const StepProblem *p, Vec u, PetscBool *foreseen)
   *foreseen = PETSC_FALSE;
   if (!has) PetscFunctionReturn(0);
   PetscCall(VecCopy(fields[0], u));
-  PetscCall(PrescribedApply(&sim->prescribed, p->time, u));
-  PetscCall(TiesFollow(&sim->ties, u));
-  if (!sim->quadratic) PetscCall(ElasticityEnergy(sim->elasticity, u, &energy));
-  *foreseen = sim->control->forecast.used = EnergyIsFinite(energy);
+  PetscCall(PrescribedApply(&p->model->prescribed, p->time, u));
+  PetscCall(TiesFollow(&p->model->ties, u));
+  if (!p->model->quadratic) PetscCall(ElasticityEnergy(p->model->elasticity, u, &energy));
+  *foreseen = p->state->control->forecast.used = EnergyIsFinite(energy);
   for (PetscInt f = 1; *foreseen && f < here->nfields; ++f)
-    PetscCall(ForecastCopyPressures(sim->history, f - 1, fields[f], PETSC_TRUE));
+    PetscCall(ForecastCopyPressures(p->state->history, f - 1, fields[f], PETSC_TRUE));
   PetscFunctionReturn(0);
 }
 
@@ -165,14 +165,15 @@ PetscErrorCode ForecastGet(const StepProblem *p, Vec u, PetscBool *foreseen)
    Examines an attempt that has ended. If the attempt started from a forecast and failed, the forecast is not used in
    the rest of the run, and *again is true.
 */
-PetscErrorCode ForecastAssess(Simulation sim, PetscBool converged, PetscBool *again)
+PetscErrorCode ForecastAssess(Model model, State state, PetscBool converged, PetscBool *again)
 {
   PetscFunctionBegin;
-  *again                      = (PetscBool)(sim->control->forecast.used && !converged);
-  sim->control->forecast.used = PETSC_FALSE;
+  *again                        = (PetscBool)(state->control->forecast.used && !converged);
+  state->control->forecast.used = PETSC_FALSE;
   if (!*again) PetscFunctionReturn(0);
-  sim->control->forecast.failed = PETSC_TRUE;
-  PetscCall(StepForecastDestroy(&sim->control->forecast.here));
-  if (sim->contact) PetscCall(PetscArrayzero(sim->history->pressure, sim->history->npairs * sim->history->nowned));
+  state->control->forecast.failed = PETSC_TRUE;
+  PetscCall(StepForecastDestroy(&state->control->forecast.here));
+  if (model->contact)
+    PetscCall(PetscArrayzero(state->history->pressure, state->history->npairs * state->history->nowned));
   PetscFunctionReturn(0);
 }

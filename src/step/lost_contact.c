@@ -42,10 +42,10 @@ static PetscErrorCode LostContactAddWork(Mat A, const FreeMotions *m, Vec force,
 
 /* Finds the free motions on which no contact force does work. unheld[k]: position of motion k among them; -1 if one
    does */
-static PetscErrorCode LostContactFind(Simulation sim, const FreeMotions *m, Vec u, const ContactSolution *sol,
+static PetscErrorCode LostContactFind(Model model, State state, const FreeMotions *m, Vec u, const ContactSolution *sol,
   PetscInt unheld[], PetscInt *n)
 {
-  ContactLinearization lin = sim->solved->linearization;
+  ContactLinearization lin = state->solved->linearization;
   PetscReal           *work, size;
 
   PetscFunctionBegin;
@@ -53,16 +53,16 @@ static PetscErrorCode LostContactFind(Simulation sim, const FreeMotions *m, Vec 
   PetscCall(PetscCalloc1(m->n, &work));
   PetscCall(LostContactAddWork(lin->J, m, sol->pressure, lin->mass, work));
   if (sol->shear) PetscCall(LostContactAddWork(lin->slip, m, sol->shear, NULL, work));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, work, (PetscMPIInt)m->n, MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, work, (PetscMPIInt)m->n, MPIU_REAL, MPIU_SUM, model->comm));
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  for (PetscInt k = 0; k < m->n; ++k) unheld[k] = work[k] <= no_force * sim->stiffness * size ? (*n)++ : -1;
+  for (PetscInt k = 0; k < m->n; ++k) unheld[k] = work[k] <= no_force * model->stiffness * size ? (*n)++ : -1;
   PetscCall(PetscFree(work));
   PetscFunctionReturn(0);
 }
 
 /* Computes the displacement w in n unheld motions that brings u nearest to the last state in the mean */
-static PetscErrorCode LostContactFit(Simulation sim, const FreeMotions *m, const PetscInt unheld[], PetscInt n, Vec u,
-  Vec w)
+static PetscErrorCode LostContactFit(Model model, State state, const FreeMotions *m, const PetscInt unheld[],
+  PetscInt n, Vec u, Vec w)
 {
   const PetscBLASInt one = 1;
   const PetscScalar *mass, *before, *now;
@@ -73,8 +73,8 @@ static PetscErrorCode LostContactFit(Simulation sim, const FreeMotions *m, const
   PetscFunctionBegin;
   PetscCall(PetscCalloc4(n * n, &G, n, &b, m->n, &motion, n, &pivots));
   PetscCall(VecGetOwnershipRange(u, &first, &end));
-  PetscCall(VecGetArrayRead(sim->mass, &mass));
-  PetscCall(VecGetArrayRead(sim->path->u, &before));
+  PetscCall(VecGetArrayRead(model->mass, &mass));
+  PetscCall(VecGetArrayRead(state->path->u, &before));
   PetscCall(VecGetArrayRead(u, &now));
   for (PetscInt i = first; i < end; ++i) {
     const PetscReal    a = PetscRealPart(mass[i - first]), way = PetscRealPart(before[i - first] - now[i - first]);
@@ -94,10 +94,10 @@ static PetscErrorCode LostContactFit(Simulation sim, const FreeMotions *m, const
     PetscCall(MatRestoreRow(m->Z, i, &ncolumns, &columns, &values));
   }
   PetscCall(VecRestoreArrayRead(u, &now));
-  PetscCall(VecRestoreArrayRead(sim->path->u, &before));
-  PetscCall(VecRestoreArrayRead(sim->mass, &mass));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, G, (PetscMPIInt)(n * n), MPIU_REAL, MPIU_SUM, sim->comm));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, b, (PetscMPIInt)n, MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCall(VecRestoreArrayRead(state->path->u, &before));
+  PetscCall(VecRestoreArrayRead(model->mass, &mass));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, G, (PetscMPIInt)(n * n), MPIU_REAL, MPIU_SUM, model->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, b, (PetscMPIInt)n, MPIU_REAL, MPIU_SUM, model->comm));
   PetscCall(PetscBLASIntCast(n, &size));
   PetscCallBLAS("LAPACKgesv", LAPACKgesv_(&size, &one, G, &size, pivots, b, &size, &info));
   for (PetscInt k = 0; k < m->n && !info; ++k) motion[k] = unheld[k] >= 0 ? b[unheld[k]] : 0.0;
@@ -110,7 +110,7 @@ static PetscErrorCode LostContactFit(Simulation sim, const FreeMotions *m, const
    Adds to u as much of w as contact allows: no gap becomes negative. At finite strain a large rotation w would strain
    the bodies; u then remains.
 */
-static PetscErrorCode LostContactMove(Simulation sim, Vec w, Vec u, ContactSolution *sol)
+static PetscErrorCode LostContactMove(Model model, State state, Vec w, Vec u, ContactSolution *sol)
 {
   const PetscScalar *g, *a;
   PetscReal          part = 1.0, before, after, size;
@@ -120,7 +120,7 @@ static PetscErrorCode LostContactMove(Simulation sim, Vec w, Vec u, ContactSolut
   PetscFunctionBegin;
   PetscCall(VecDuplicate(sol->gap, &rates));
   PetscCall(VecDuplicate(u, &moved));
-  PetscCall(MatMult(sim->solved->linearization->J, w, rates));
+  PetscCall(MatMult(state->solved->linearization->J, w, rates));
   PetscCall(VecGetLocalSize(rates, &n));
   PetscCall(VecGetArrayRead(rates, &a));
   PetscCall(VecGetArrayRead(sol->gap, &g));
@@ -130,12 +130,12 @@ static PetscErrorCode LostContactMove(Simulation sim, Vec w, Vec u, ContactSolut
   }
   PetscCall(VecRestoreArrayRead(sol->gap, &g));
   PetscCall(VecRestoreArrayRead(rates, &a));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &part, 1, MPIU_REAL, MPIU_MIN, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &part, 1, MPIU_REAL, MPIU_MIN, model->comm));
   PetscCall(VecWAXPY(moved, part, w, u));
-  PetscCall(ElasticityEnergy(sim->elasticity, u, &before));
-  PetscCall(ElasticityEnergy(sim->elasticity, moved, &after));
+  PetscCall(ElasticityEnergy(model->elasticity, u, &before));
+  PetscCall(ElasticityEnergy(model->elasticity, moved, &after));
   PetscCall(VecNorm(w, NORM_INFINITY, &size));
-  if (after <= before + no_force * sim->stiffness * PetscSqr(part * size)) {
+  if (after <= before + no_force * model->stiffness * PetscSqr(part * size)) {
     PetscCall(VecCopy(moved, u));
     PetscCall(VecAXPY(sol->gap, part, rates));
   }
@@ -145,20 +145,20 @@ static PetscErrorCode LostContactMove(Simulation sim, Vec w, Vec u, ContactSolut
 }
 
 /* Finds the bodies on which contact forces acted at the last state */
-static PetscErrorCode LostContactFindTouched(Simulation sim, ContactLinearization last, PetscBool touched[])
+static PetscErrorCode LostContactFindTouched(Model model, State state, ContactLinearization last, PetscBool touched[])
 {
-  const Scene scene = sim->scene;
+  const Scene scene = model->scene;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) touched[b] = PETSC_FALSE;
   for (PetscInt r = 0; last && r < last->nlocal; ++r) {
     const SceneContactPair *pair = &scene->pairs[last->pair[r]];
 
-    if (!(sim->solved->pressure[r] > 0.0) || pair->self) continue;
+    if (!(state->solved->pressure[r] > 0.0) || pair->self) continue;
     touched[SceneFaceBody(scene, pair->mortar) - scene->bodies]    = PETSC_TRUE;
     touched[SceneFaceBody(scene, pair->nonmortar) - scene->bodies] = PETSC_TRUE;
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, touched, (PetscMPIInt)scene->nbodies, MPI_PETSCBOOL, MPI_LOR, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, touched, (PetscMPIInt)scene->nbodies, MPI_PETSCBOOL, MPI_LOR, model->comm));
   PetscFunctionReturn(0);
 }
 
@@ -166,9 +166,10 @@ static PetscErrorCode LostContactFindTouched(Simulation sim, ContactLinearizatio
    Warns, once in a run, of a body that has lost contact: contact forces acted on it before, or its arbitrary motion w
    is larger than the motions of all other bodies
 */
-static PetscErrorCode LostContactWarn(Simulation sim, ContactLinearization last, Vec w, Vec u, PetscInt step)
+static PetscErrorCode LostContactWarn(Model model, State state, RunReport *report, ContactLinearization last, Vec w,
+  Vec u, PetscInt step)
 {
-  const Scene scene = sim->scene;
+  const Scene scene = model->scene;
   PetscReal  *moved, *lost, others;
   PetscBool  *touched;
   Vec         increment;
@@ -176,18 +177,18 @@ static PetscErrorCode LostContactWarn(Simulation sim, ContactLinearization last,
   PetscFunctionBegin;
   PetscCall(PetscMalloc3(scene->nbodies, &moved, scene->nbodies, &lost, scene->nbodies, &touched));
   PetscCall(VecDuplicate(u, &increment));
-  PetscCall(VecWAXPY(increment, -1.0, sim->path->u, u));
-  PetscCall(VertexPlacesLargest(&sim->places, increment, scene->nbodies, moved));
-  PetscCall(VertexPlacesLargest(&sim->places, w, scene->nbodies, lost));
+  PetscCall(VecWAXPY(increment, -1.0, state->path->u, u));
+  PetscCall(VertexPlacesLargest(&model->places, increment, scene->nbodies, moved));
+  PetscCall(VertexPlacesLargest(&model->places, w, scene->nbodies, lost));
   PetscCall(VecDestroy(&increment));
-  PetscCall(LostContactFindTouched(sim, last, touched));
-  for (PetscInt b = 0; b < scene->nbodies && !sim->control->lost_contact; ++b) {
+  PetscCall(LostContactFindTouched(model, state, last, touched));
+  for (PetscInt b = 0; b < scene->nbodies && !state->control->lost_contact; ++b) {
     others = 0.0;
     for (PetscInt c = 0; c < scene->nbodies; ++c)
       if (c != b) others = PetscMax(others, moved[c]);
     if (!(lost[b] > 0.0) || (!touched[b] && lost[b] <= others)) continue;
-    sim->control->lost_contact = PETSC_TRUE;
-    PetscCall(ReportWarn(sim->comm, &sim->report, scene->bodies[b].place,
+    state->control->lost_contact = PETSC_TRUE;
+    PetscCall(ReportWarn(model->comm, report, scene->bodies[b].place,
       "body \"%s\" slips away in load step %" PetscInt_FMT
       ": it has lost contact, and nothing else holds it. Its position is arbitrary, and the nearest one to that before "
       "is chosen: hold it by displacements or springs, or use smaller load steps",
@@ -201,9 +202,9 @@ static PetscErrorCode LostContactWarn(Simulation sim, ContactLinearization last,
    Rejects the solution u if a body with the arbitrary motion w is farther away from its last position than the bodies
    are large, and than all other bodies have moved. The next position of such a body would be as arbitrary.
 */
-static PetscErrorCode LostContactReject(Simulation sim, Vec w, Vec u, StepReport *report)
+static PetscErrorCode LostContactReject(Model model, State state, Vec w, Vec u, StepReport *report)
 {
-  const Scene scene = sim->scene;
+  const Scene scene = model->scene;
   PetscReal  *moved, *lost, extent, others = 0.0;
   char        reason[256];
   Vec         increment;
@@ -211,11 +212,11 @@ static PetscErrorCode LostContactReject(Simulation sim, Vec w, Vec u, StepReport
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(scene->nbodies, &moved, scene->nbodies, &lost));
   PetscCall(VecDuplicate(u, &increment));
-  PetscCall(VecWAXPY(increment, -1.0, sim->path->u, u));
-  PetscCall(VertexPlacesLargest(&sim->places, increment, scene->nbodies, moved));
-  PetscCall(VertexPlacesLargest(&sim->places, w, scene->nbodies, lost));
+  PetscCall(VecWAXPY(increment, -1.0, state->path->u, u));
+  PetscCall(VertexPlacesLargest(&model->places, increment, scene->nbodies, moved));
+  PetscCall(VertexPlacesLargest(&model->places, w, scene->nbodies, lost));
   PetscCall(VecDestroy(&increment));
-  PetscCall(VecNorm(sim->places.x, NORM_INFINITY, &extent));
+  PetscCall(VecNorm(model->places.x, NORM_INFINITY, &extent));
   for (PetscInt b = 0; b < scene->nbodies; ++b)
     if (!(lost[b] > 0.0)) others = PetscMax(others, moved[b]);
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
@@ -243,18 +244,18 @@ PetscErrorCode LostContactSettle(const StepProblem *p, ContactLinearization last
   Vec         w;
 
   PetscFunctionBegin;
-  if (!report->converged || SimulationIsDynamic(sim)) PetscFunctionReturn(0);
-  PetscCall(FreeMotionsCreate(sim, &m));
+  if (!report->converged || ModelIsDynamic(p->model)) PetscFunctionReturn(0);
+  PetscCall(FreeMotionsCreate(p->model, p->state, &m));
   PetscCall(PetscMalloc1(m.n, &unheld));
-  if (m.n) PetscCall(LostContactFind(sim, &m, u, sol, unheld, &n));
+  if (m.n) PetscCall(LostContactFind(p->model, p->state, &m, u, sol, unheld, &n));
   if (m.n && n) {
     PetscCall(VecDuplicate(u, &w));
-    PetscCall(LostContactFit(sim, &m, unheld, n, u, w));
-    PetscCall(LostContactWarn(sim, last, w, u, report->step));
-    PetscCall(LostContactMove(sim, w, u, sol));
-    PetscCall(LostContactReject(sim, w, u, report));
+    PetscCall(LostContactFit(p->model, p->state, &m, unheld, n, u, w));
+    PetscCall(LostContactWarn(sim->model, sim->state, &sim->report, last, w, u, report->step));
+    PetscCall(LostContactMove(p->model, p->state, w, u, sol));
+    PetscCall(LostContactReject(p->model, p->state, w, u, report));
     PetscCall(ContactLinearizationDestroy(at_u));
-    PetscCall(ContactUpdateLinearize(sim, p->time, u, PETSC_FALSE, at_u));
+    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, PETSC_FALSE, at_u));
     PetscCall(VecDestroy(&w));
   }
   PetscCall(PetscFree(unheld));

@@ -12,7 +12,7 @@
 /* Fills the part of the report that is known before the load step is solved. */
 static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepReport *report)
 {
-  Scene scene = sim->scene;
+  Scene scene = sim->model->scene;
 
   PetscFunctionBegin;
   PetscCall(ResultsFree(sim->results)); /* they are those of the load step before */
@@ -25,14 +25,14 @@ static PetscErrorCode SimulationBeginReport(Simulation sim, PetscInt step, StepR
   PetscCall(PetscMalloc1(scene->nramps, &report->ramps));
   for (PetscInt r = 0; r < scene->nramps; ++r)
     report->ramps[r] = (RampReport){scene->ramps[r].name, scene->ramps[r].factor[step]};
-  sim->report.nsteps    = step + 1 - sim->control->first_step;
-  sim->path->unbalanced = sim->path->turnover = 0.0;
-  sim->path->pressed                          = sim->path->presses;
-  sim->control->unsupported                   = 0;
-  PetscCall(PetscFree(sim->control->cause));
-  sim->control->time_step = (TimeStepControl){.shortest = 1.0};
-  if (sim->contact && scene->dynamics.tolerance > 0.0)
-    PetscCall(ContactHistoryCountClosed(sim->history, sim->comm, &sim->control->time_step.closed));
+  sim->report.nsteps           = step + 1 - sim->state->control->first_step;
+  sim->state->path->unbalanced = sim->state->path->turnover = 0.0;
+  sim->state->path->pressed                                 = sim->state->path->presses;
+  sim->state->control->unsupported                          = 0;
+  PetscCall(PetscFree(sim->state->control->cause));
+  sim->state->control->time_step = (TimeStepControl){.shortest = 1.0};
+  if (sim->model->contact && scene->dynamics.tolerance > 0.0)
+    PetscCall(ContactHistoryCountClosed(sim->state->history, sim->model->comm, &sim->state->control->time_step.closed));
   PetscFunctionReturn(0);
 }
 
@@ -41,19 +41,19 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscCall(PetscFree(sim->results->stress));
-  PetscCall(ElasticityCellStress(sim->elasticity, sim->path->u, &sim->results->stress));
-  PetscCall(ContactPointsMeasure(sim, report));
-  if (sim->contact) PetscCall(PenetrationMeasure(sim, report));
-  if (sim->contact && report->converged) PetscCall(PenetrationTest(sim, report));
+  PetscCall(ElasticityCellStress(sim->model->elasticity, sim->state->path->u, &sim->results->stress));
+  PetscCall(ContactPointsMeasure(sim->model, sim->state, report));
+  if (sim->model->contact) PetscCall(PenetrationMeasure(sim->model, sim->state, report));
+  if (sim->model->contact && report->converged) PetscCall(PenetrationTest(sim, report));
   if (report->converged) PetscCall(StrainTest(sim, report));
   PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscCall(ResultsMeasure(sim, report));
   PetscCall(RigidPlacesMeasure(sim, report));
-  PetscCall(ProbesMeasure(sim, report));
+  PetscCall(ProbesMeasure(sim->model, sim->state, sim->results, report));
   *state = (StepState){
     .report            = report,
-    .displacement      = sim->path->u,
-    .velocity          = sim->dynamics.velocity,
+    .displacement      = sim->state->path->u,
+    .velocity          = sim->model->dynamics.velocity,
     .stress            = sim->results->stress,
     .nodal             = sim->results->nodal,
     .plastic           = sim->results->plastic,
@@ -61,70 +61,71 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
     .nquadrature       = sim->results->npoints,
     .quadrature        = sim->results->places,
     .quadrature_stress = sim->results->point_stress,
-    .npoints           = sim->solved->npoints,
-    .points            = sim->solved->points,
+    .npoints           = sim->state->solved->npoints,
+    .points            = sim->state->solved->points,
   };
   PetscFunctionReturn(0);
 }
 
 /* Checks that `step` is the next load step: the time of the last state is its start, or a time within it after a
    failed attempt. */
-static PetscErrorCode SimulationCheckStep(Simulation sim, PetscInt step)
+static PetscErrorCode SimulationCheckStep(Model model, State state, RunReport *report, PetscInt step)
 {
-  const PetscInt next = (PetscInt)PetscFloorReal(sim->path->time);
+  const PetscInt next = (PetscInt)PetscFloorReal(state->path->time);
 
   PetscFunctionBegin;
-  PetscCheck(sim->report.steps, sim->comm, PETSC_ERR_ORDER, "call SimulationSetUp() before SimulationStep()");
-  PetscCheck(step >= 0 && step < sim->scene->nsteps, sim->comm, PETSC_ERR_ARG_OUTOFRANGE,
-    "load step %" PetscInt_FMT " is not one of 0 to %" PetscInt_FMT, step, sim->scene->nsteps - 1);
-  PetscCheck(step == next, sim->comm, PETSC_ERR_ORDER,
+  PetscCheck(report->steps, model->comm, PETSC_ERR_ORDER, "call SimulationSetUp() before SimulationStep()");
+  PetscCheck(step >= 0 && step < model->scene->nsteps, model->comm, PETSC_ERR_ARG_OUTOFRANGE,
+    "load step %" PetscInt_FMT " is not one of 0 to %" PetscInt_FMT, step, model->scene->nsteps - 1);
+  PetscCheck(step == next, model->comm, PETSC_ERR_ORDER,
     "load step %" PetscInt_FMT " is not the next one, which is %" PetscInt_FMT, step, next);
   PetscFunctionReturn(0);
 }
 
 /* Halves the time increment after a failed attempt. *again: false if no further cut is allowed. */
-static PetscErrorCode SimulationCut(Simulation sim, StepReport *report, PetscReal *increment, PetscBool *again)
+static PetscErrorCode SimulationCut(Model model, State state, StepReport *report, PetscReal *increment,
+  PetscBool *again)
 {
   /* if the problem is linear, smaller increments cannot help */
-  const PetscBool linear = (PetscBool)(sim->quadratic && !sim->contact);
+  const PetscBool linear = (PetscBool)(model->quadratic && !model->contact);
 
   PetscFunctionBegin;
-  *again = (PetscBool)(!linear && !sim->control->interrupted && report->cuts < sim->control->maxcuts &&
-                       sim->control->unsupported < 2);
+  *again = (PetscBool)(!linear && !state->control->interrupted && report->cuts < state->control->maxcuts &&
+                       state->control->unsupported < 2);
   if (!*again) PetscFunctionReturn(0);
   ++report->cuts;
   *increment *= 0.5;
-  if (sim->control->monitor)
-    PetscCall(PetscPrintf(sim->comm, "Load step %" PetscInt_FMT " cut to time %g: %s\n", report->step,
-      (double)(sim->path->time + *increment), report->reason));
+  if (state->control->monitor)
+    PetscCall(PetscPrintf(model->comm, "Load step %" PetscInt_FMT " cut to time %g: %s\n", report->step,
+      (double)(state->path->time + *increment), report->reason));
   PetscFunctionReturn(0);
 }
 
 /* Shortens a controlled time step whose error was too large. A step of half the length has a quarter of the error. */
-static PetscErrorCode SimulationShorten(Simulation sim, const StepReport *report, PetscReal *increment)
+static PetscErrorCode SimulationShorten(Model model, State state, const StepReport *report, PetscReal *increment)
 {
-  TimeStepControl *c = &sim->control->time_step;
+  TimeStepControl *c = &state->control->time_step;
   PetscReal        left;
 
   PetscFunctionBegin;
   ++c->rejected;
-  for (left = c->error; left > sim->scene->dynamics.tolerance && *increment > STEP_SHORTEST; left *= 0.25)
+  for (left = c->error; left > model->scene->dynamics.tolerance && *increment > STEP_SHORTEST; left *= 0.25)
     *increment *= 0.5;
-  if (sim->control->monitor)
-    PetscCall(PetscPrintf(sim->comm, "Load step %" PetscInt_FMT " repeated from time %g with time steps of %g: %s\n",
-      report->step, (double)(sim->path->time * SceneTimeStep(sim->scene)),
-      (double)(*increment * SceneTimeStep(sim->scene)), report->reason));
+  if (state->control->monitor)
+    PetscCall(PetscPrintf(model->comm, "Load step %" PetscInt_FMT " repeated from time %g with time steps of %g: %s\n",
+      report->step, (double)(state->path->time * SceneTimeStep(model->scene)),
+      (double)(*increment * SceneTimeStep(model->scene)), report->reason));
   PetscFunctionReturn(0);
 }
 
 /* Returns the time increment after a successful attempt: twice the last one. The increment is not doubled if a
    controlled time step has too large an error, or if longer steps would not end at the ends of load steps. */
-static PetscReal SimulationLengthen(Simulation sim, PetscReal increment)
+static PetscReal SimulationLengthen(Model model, State state, PetscReal increment)
 {
-  const PetscReal tolerance = sim->scene->dynamics.tolerance, safe = 0.125;
-  const PetscReal longer = 2.0 * increment, steps = sim->path->time / longer;
+  const PetscReal tolerance = model->scene->dynamics.tolerance, safe = 0.125;
+  const PetscReal longer = 2.0 * increment, steps = state->path->time / longer;
 
-  if (tolerance > 0.0 && (sim->control->time_step.error > safe * tolerance || longer > 1.0 ||
+  if (tolerance > 0.0 && (state->control->time_step.error > safe * tolerance || longer > 1.0 ||
                            PetscAbsReal(steps - PetscFloorReal(steps + 0.5)) > PETSC_SQRT_MACHINE_EPSILON))
     return increment;
   return longer;
@@ -137,27 +138,27 @@ static PetscReal SimulationLengthen(Simulation sim, PetscReal increment)
 static PetscErrorCode SimulationAdvance(Simulation sim, PetscReal end, StepReport *report, PetscReal *increment,
   PetscBool *again)
 {
-  const PetscReal left = end - sim->path->time;
+  const PetscReal left = end - sim->state->path->time;
   PetscBool       anew, repeated;
 
   PetscFunctionBegin;
   if (*increment > left * (1.0 - PETSC_SQRT_MACHINE_EPSILON)) *increment = left;
-  PetscCall(SimulationAttempt(sim, *increment == left ? end : sim->path->time + *increment, report));
+  PetscCall(SimulationAttempt(sim, *increment == left ? end : sim->state->path->time + *increment, report));
   if (report->converged) {
     ++report->substeps;
     PetscCall(DualGapsAccept(sim, report));
-    if (sim->control->observer.reach) PetscCall(sim->control->observer.reach(sim));
-    *increment = SimulationLengthen(sim, *increment);
+    if (sim->state->control->observer.reach) PetscCall(sim->state->control->observer.reach(sim));
+    *increment = SimulationLengthen(sim->model, sim->state, *increment);
   }
-  if (sim->control->time_step.too_long) PetscCall(SimulationShorten(sim, report, increment));
+  if (sim->state->control->time_step.too_long) PetscCall(SimulationShorten(sim->model, sim->state, report, increment));
   else {
-    PetscCall(ForecastAssess(sim, report->converged, &anew));
+    PetscCall(ForecastAssess(sim->model, sim->state, report->converged, &anew));
     if (!report->converged && !anew) {
-      PetscCall(DualGapsTry(sim, report, &repeated));
-      if (!repeated) PetscCall(SimulationCut(sim, report, increment, again));
+      PetscCall(DualGapsTry(sim->model, sim->state, report, &repeated));
+      if (!repeated) PetscCall(SimulationCut(sim->model, sim->state, report, increment, again));
     }
   }
-  sim->control->increment = *increment;
+  sim->state->control->increment = *increment;
   PetscFunctionReturn(0);
 }
 
@@ -166,14 +167,14 @@ static PetscErrorCode SimulationReportStep(Simulation sim, StepReport *report)
 {
   PetscFunctionBegin;
   /* the reason of the first of the failed attempts is reported, not that of a later one with a smaller increment */
-  if (!report->converged && sim->control->cause && !sim->control->interrupted)
-    PetscCall(ReportReason(report, PETSC_FALSE, sim->control->cause));
+  if (!report->converged && sim->state->control->cause && !sim->state->control->interrupted)
+    PetscCall(ReportReason(report, PETSC_FALSE, sim->state->control->cause));
   if (!report->converged || report->gap_unconverged) sim->report.reason = report->reason;
   if (report->converged) PetscFunctionReturn(0);
   sim->report.converged = PETSC_FALSE;
-  sim->report.exit_code = sim->control->interrupted ? RUN_INTERRUPTED
-                          : report->gap_unconverged ? RUN_GAP_UNCONVERGED
-                                                    : RUN_FAILED;
+  sim->report.exit_code = sim->state->control->interrupted ? RUN_INTERRUPTED
+                          : report->gap_unconverged        ? RUN_GAP_UNCONVERGED
+                                                           : RUN_FAILED;
   PetscFunctionReturn(0);
 }
 
@@ -185,25 +186,26 @@ static PetscErrorCode SimulationReportStep(Simulation sim, StepReport *report)
 */
 static PetscErrorCode SimulationWarnOfGain(Simulation sim, const StepReport *report)
 {
-  const PetscReal allowed = PetscMax(1e-2, 2.0 * sim->path->told), taken = report->contact_work - report->dissipated;
-  PetscReal       energy;
-  PetscBool       intended = PETSC_FALSE;
+  const PetscReal allowed = PetscMax(1e-2, 2.0 * sim->state->path->told),
+                  taken   = report->contact_work - report->dissipated;
+  PetscReal energy;
+  PetscBool intended = PETSC_FALSE;
 
   PetscFunctionBegin;
-  for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
-    const SceneContactPair *pair = &sim->scene->pairs[p];
+  for (PetscInt p = 0; p < sim->model->scene->npairs; ++p) {
+    const SceneContactPair *pair = &sim->model->scene->pairs[p];
 
-    intended = (PetscBool)(intended || pair->interference > 0.0 || SceneContactPairIsRigid(sim->scene, pair));
+    intended = (PetscBool)(intended || pair->interference > 0.0 || SceneContactPairIsRigid(sim->model->scene, pair));
   }
   if (!report->converged || !report->nmotions || intended) PetscFunctionReturn(0);
-  energy =
-    PetscMax(sim->dynamics.kinetic, PetscMax(PetscAbsReal(report->work), PetscAbsReal(report->motions->total_energy)));
+  energy = PetscMax(sim->model->dynamics.kinetic,
+    PetscMax(PetscAbsReal(report->work), PetscAbsReal(report->motions->total_energy)));
   if (!(PetscAbsReal(taken) > allowed * energy)) PetscFunctionReturn(0);
-  sim->path->told = PetscAbsReal(taken) / energy;
-  PetscCall(ReportWarn(sim->comm, &sim->report, NULL,
+  sim->state->path->told = PetscAbsReal(taken) / energy;
+  PetscCall(ReportWarn(sim->model->comm, &sim->report, NULL,
     "load step %" PetscInt_FMT ": the normal forces of contact have %s %.2g %% of the energy (%g of %g), which is an "
     "error of the time steps: use shorter time steps or smaller cells at the contact",
-    report->step, taken > 0.0 ? "taken" : "given", 100.0 * (double)sim->path->told, (double)PetscAbsReal(taken),
+    report->step, taken > 0.0 ? "taken" : "given", 100.0 * (double)sim->state->path->told, (double)PetscAbsReal(taken),
     (double)energy));
   PetscFunctionReturn(0);
 }
@@ -254,29 +256,30 @@ static PetscErrorCode SimulationWarn(Simulation sim, StepReport *report)
 @*/
 PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
 {
-  const PetscReal end       = (PetscReal)(step + 1);
-  PetscReal       increment = sim->control->increment > 0.0 ? sim->control->increment : end - sim->path->time;
-  PetscBool       again     = PETSC_TRUE, stop;
-  StepReport     *report;
-  PetscLogDouble  t0, t1;
+  const PetscReal end = (PetscReal)(step + 1);
+  PetscReal       increment =
+    sim->state->control->increment > 0.0 ? sim->state->control->increment : end - sim->state->path->time;
+  PetscBool      again = PETSC_TRUE, stop;
+  StepReport    *report;
+  PetscLogDouble t0, t1;
 
   PetscFunctionBegin;
-  PetscCall(SimulationCheckStep(sim, step));
-  report = &sim->report.steps[step - sim->control->first_step];
+  PetscCall(SimulationCheckStep(sim->model, sim->state, &sim->report, step));
+  report = &sim->report.steps[step - sim->state->control->first_step];
   PetscCall(PetscTime(&t0));
   PetscCall(SimulationBeginReport(sim, step, report));
-  if (sim->control->observer.begin) PetscCall(sim->control->observer.begin(sim));
-  while (again && sim->path->time < end) {
-    PetscCall(InterruptTest(sim, &stop));
+  if (sim->state->control->observer.begin) PetscCall(sim->state->control->observer.begin(sim));
+  while (again && sim->state->path->time < end) {
+    PetscCall(InterruptTest(sim->model, sim->state, &stop));
     if (stop) {
-      PetscCall(InterruptReport(sim, report));
+      PetscCall(InterruptReport(sim->state, report));
       break;
     }
     PetscCall(SimulationAdvance(sim, end, report, &increment, &again));
   }
-  if (sim->path->time >= end) {
-    if (sim->scene->dynamics.tolerance == 0.0) sim->control->increment = 0.0;
-    PetscCall(ForecastRecord(sim));
+  if (sim->state->path->time >= end) {
+    if (sim->model->scene->dynamics.tolerance == 0.0) sim->state->control->increment = 0.0;
+    PetscCall(ForecastRecord(sim->state));
     PetscCall(WorkWarn(sim, report));
     PetscCall(SimulationWarnOfGain(sim, report));
   }
@@ -284,6 +287,6 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   PetscCall(SimulationGetState(sim, report, state));
   PetscCall(PetscTime(&t1));
   report->step_time = t1 - t0;
-  if (report->converged && step + 1 == sim->scene->nsteps) PetscCall(SimulationWarn(sim, report));
+  if (report->converged && step + 1 == sim->model->scene->nsteps) PetscCall(SimulationWarn(sim, report));
   PetscFunctionReturn(0);
 }

@@ -8,10 +8,10 @@
 #include "src/step/contact_update/contact_updateimpl.h"
 
 /* forecast.c: starts from states on another mesh */
-PETSC_INTERN PetscErrorCode ForecastSetUp(Simulation);
-PETSC_INTERN PetscErrorCode ForecastRecord(Simulation);
+PETSC_INTERN PetscErrorCode ForecastSetUp(Model, State);
+PETSC_INTERN PetscErrorCode ForecastRecord(State);
 PETSC_INTERN PetscErrorCode ForecastGet(const StepProblem *, Vec u, PetscBool *foreseen);
-PETSC_INTERN PetscErrorCode ForecastAssess(Simulation, PetscBool converged, PetscBool *again);
+PETSC_INTERN PetscErrorCode ForecastAssess(Model, State, PetscBool converged, PetscBool *again);
 
 /* attempt.c: attempts to solve up to a given time. STEP_SHORTEST: length of the shortest controlled time steps, as a
    fraction of a load step */
@@ -19,7 +19,7 @@ PETSC_INTERN PetscErrorCode ForecastAssess(Simulation, PetscBool converged, Pets
 PETSC_INTERN PetscErrorCode SimulationAttempt(Simulation, PetscReal time, StepReport *);
 
 /* dual_gaps.c: repeats a failed attempt with dual shape functions */
-PETSC_INTERN PetscErrorCode DualGapsTry(Simulation, StepReport *, PetscBool *again);
+PETSC_INTERN PetscErrorCode DualGapsTry(Model, State, StepReport *, PetscBool *again);
 PETSC_INTERN PetscErrorCode DualGapsAccept(Simulation, const StepReport *);
 
 /* lost_contact.c: places bodies that have lost contact */

@@ -58,7 +58,7 @@ static PetscErrorCode ResponseDiagonal(StepProblem *p, Vec D)
   PetscCall(VecGetArray(D, &d));
   for (PetscInt i = 0; i < n; ++i) d[i] = PetscRealPart(d[i]) > 0.0 ? 1.0 / d[i] : 1.0;
   PetscCall(VecRestoreArray(D, &d));
-  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, D));
+  PetscCall(PrescribedSet(&p->model->prescribed, 0.0, D));
   PetscFunctionReturn(0);
 }
 
@@ -81,7 +81,7 @@ PetscErrorCode ContactUpdateAnticipate(StepProblem *p, ContactLinearization lin)
   PetscCall(VecDuplicate(p->base, &r.D));
   PetscCall(VecDuplicate(p->base, &r.force));
   PetscCall(VecDuplicate(p->base, &r.du));
-  PetscCall(ContactHistoryFindClosed(p->sim->history, lin, r.closed));
+  PetscCall(ContactHistoryFindClosed(p->state->history, lin, r.closed));
   PetscCall(ResponseDiagonal(p, r.D));
   PetscCall(VecPointwiseMult(g, r.closed, lin->g));
   PetscCall(MatrixFreeSolve(g, w, &r, ResponseMult, ANTICIPATE_TOLERANCE, ANTICIPATE_ITERATIONS, &found));

@@ -8,11 +8,11 @@
 #include "src/step/problem/problemimpl.h"
 
 /* linearization_error.c: error of a contact update */
-PETSC_INTERN PetscErrorCode ContactUpdateMeasureError(Simulation, Vec u, const ContactSolution *,
+PETSC_INTERN PetscErrorCode ContactUpdateMeasureError(Model, State, Vec u, const ContactSolution *,
   ContactLinearization at_u, StepReport *);
 
 /* stuck_vertices.c: names vertices at which contact updates fail */
-PETSC_INTERN PetscErrorCode ContactUpdateNamePlace(Simulation, const ContactSolution *, ContactLinearization at_u,
+PETSC_INTERN PetscErrorCode ContactUpdateNamePlace(Model, State, const ContactSolution *, ContactLinearization at_u,
   PetscBool slid, size_t length, char sentence[]);
 PETSC_INTERN PetscErrorCode ContactUpdateReportDriven(const StepProblem *, StepReport *);
 
@@ -24,8 +24,8 @@ PETSC_INTERN PetscErrorCode ContactUpdateNewton(StepProblem *, const ContactSolu
 PETSC_INTERN PetscErrorCode ContactUpdateAnticipate(StepProblem *, ContactLinearization);
 
 /* linearization.c: the displacements at which the gap is linearized */
-PETSC_INTERN PetscErrorCode ContactUpdateGetGaps(Simulation, PetscReal time, Vec u, ContactLinearization *);
-PETSC_INTERN PetscErrorCode ContactUpdateLinearize(Simulation, PetscReal time, Vec u, PetscBool anticipates,
+PETSC_INTERN PetscErrorCode ContactUpdateGetGaps(Model, State, PetscReal time, Vec u, ContactLinearization *);
+PETSC_INTERN PetscErrorCode ContactUpdateLinearize(Model, State, PetscReal time, Vec u, PetscBool anticipates,
   ContactLinearization *);
 PETSC_INTERN PetscErrorCode ContactUpdateBegin(StepProblem *, PetscBool foreseen, Vec u, const StepReport *,
   Vec *u_linearized);
@@ -43,7 +43,7 @@ PETSC_INTERN PetscErrorCode MissedFind(const StepProblem *, Vec u_linearized, Ve
   PetscBool *missed);
 PETSC_INTERN PetscErrorCode MissedFindLostRows(const StepProblem *, Vec u_linearized, Vec u, ContactLinearization at_u,
   StepReport *, PetscBool *slid);
-PETSC_INTERN PetscErrorCode MissedFindPassed(Simulation, PetscReal time, Vec u, StepReport *);
+PETSC_INTERN PetscErrorCode MissedFindPassed(Model, State, PetscReal time, Vec u, StepReport *);
 
 /* contact_updates.c: solves the problem of a load step with contact */
 PETSC_INTERN PetscErrorCode ContactUpdatesSolve(StepProblem *, PetscBool foreseen, Vec u, StepReport *,

@@ -37,7 +37,6 @@ static PetscErrorCode ContactUpdatesMeasureGap(StepProblem *p, Vec u, const Cont
   ContactLinearization at_u, StepReport *report, PetscBool *is_true)
 {
   const PetscReal few = 32.0 * PETSC_MACHINE_EPSILON; /* a few rounding errors, relative to the coordinates */
-  Simulation      sim = p->sim;
   PetscReal       size, extent, proximal;
   PetscInt        nrows;
 
@@ -45,17 +44,20 @@ static PetscErrorCode ContactUpdatesMeasureGap(StepProblem *p, Vec u, const Cont
   report->gap_true = NAN;
   PetscCall(VecGetSize(at_u->g, &nrows));
   if (nrows) PetscCall(VecMin(at_u->g, NULL, &report->gap_true));
-  PetscCall(ContactHistoryChange(sim->history, at_u, &report->gap_change));
-  PetscCall(ContactUpdateMeasureError(sim, u, sol, at_u, report));
+  PetscCall(ContactHistoryChange(p->state->history, at_u, &report->gap_change));
+  PetscCall(ContactUpdateMeasureError(p->model, p->state, u, sol, at_u, report));
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  PetscCall(VecNorm(sim->places.x, NORM_INFINITY, &extent));
-  *is_true = (PetscBool)(report->update_error <= PetscMax(sim->control->tolerances.gap_change * size, few * extent));
+  PetscCall(VecNorm(p->model->places.x, NORM_INFINITY, &extent));
+  *is_true =
+    (PetscBool)(report->update_error <= PetscMax(p->state->control->tolerances.gap_change * size, few * extent));
   report->gap_unconverged =
-    (PetscBool)((sim->scene->contact_updates > 1 ? report->update_error : report->gap_change) >
-                PetscMax(PetscMax(sim->control->tolerances.gap_change, sim->control->tolerances.gap_unconverged) * size,
+    (PetscBool)((p->model->scene->contact_updates > 1 ? report->update_error : report->gap_change) >
+                PetscMax(
+                  PetscMax(p->state->control->tolerances.gap_change, p->state->control->tolerances.gap_unconverged) *
+                    size,
                   few * extent));
   PetscCall(ProximalMeasure(p, u, &proximal));
-  if (proximal > PetscMax(sim->control->tolerances.optimizer, p->glides ? CONTACT_UPDATES_GLIDING : 1e-10))
+  if (proximal > PetscMax(p->state->control->tolerances.optimizer, p->glides ? CONTACT_UPDATES_GLIDING : 1e-10))
     *is_true = PETSC_FALSE;
   if (proximal > CONTACT_UPDATES_PROXIMAL) report->gap_unconverged = PETSC_TRUE;
   PetscFunctionReturn(0);
@@ -72,14 +74,14 @@ static PetscErrorCode ContactUpdatesSolveLinearized(StepProblem *p, PetscBool re
   PetscBool missed = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(ContactGetReach(p->sim->contact, &reach, &depth));
+  PetscCall(ContactGetReach(p->model->contact, &reach, &depth));
   PetscCall(StepProblemTurn(p, u_linearized));
   do {
     PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
-    PetscCall(StepProblemSetContact(p, p->sim->solved->linearization, u_linearized));
+    PetscCall(StepProblemSetContact(p, p->state->solved->linearization, u_linearized));
     PetscCall(ProximalLinearize(p, u_linearized));
     PetscCall(PetscLogEventEnd(CONTACT_Linearize, NULL, NULL, NULL, NULL));
-    if (resume && !p->by_newton) PetscCall(ContactUpdateAnticipate(p, p->sim->solved->linearization));
+    if (resume && !p->by_newton) PetscCall(ContactUpdateAnticipate(p, p->state->solved->linearization));
     PetscCall(StepProblemSolve(p, (PetscBool)(resume && !missed), u, report, sol));
     PetscCall(ContactUpdateReportDriven(p, report));
     PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
@@ -94,14 +96,14 @@ static PetscErrorCode ContactUpdatesSolveLinearized(StepProblem *p, PetscBool re
    contact_updates is 1, and as failed if more updates were allowed; the vertex where the gap changes most is then
    named. slid: true if contact nodes still slide over the edge of the opposite face.
 */
-static PetscErrorCode ContactUpdatesReportGapError(Simulation sim, const ContactSolution *sol,
+static PetscErrorCode ContactUpdatesReportGapError(Model model, State state, const ContactSolution *sol,
   ContactLinearization at_u, PetscBool slid, StepReport *report)
 {
   char            reason[768], place[512] = "";
-  const PetscBool single = (PetscBool)(sim->scene->contact_updates == 1);
+  const PetscBool single = (PetscBool)(model->scene->contact_updates == 1);
 
   PetscFunctionBegin;
-  if (!single) PetscCall(ContactUpdateNamePlace(sim, sol, at_u, slid, sizeof(place), place));
+  if (!single) PetscCall(ContactUpdateNamePlace(model, state, sol, at_u, slid, sizeof(place), place));
   if (single)
     PetscCall(PetscSNPrintf(reason, sizeof(reason),
       "converged with contact_updates: 1; contact gap error up to %g [length]", (double)report->gap_change));
@@ -116,21 +118,20 @@ static PetscErrorCode ContactUpdatesReportGapError(Simulation sim, const Contact
       " contact updates %s still changes by %g, more than %g of the largest displacement%s",
       report->contact_updates,
       report->update_error > report->gap_change ? "the slip or the rotation of the normals" : "the gap",
-      (double)report->update_error, (double)sim->control->tolerances.gap_unconverged, place));
+      (double)report->update_error, (double)state->control->tolerances.gap_unconverged, place));
   PetscCall(ReportReason(report, single, reason));
   PetscFunctionReturn(0);
 }
 
 /*
-   Does one contact update: solves with sim->solved->linearization, then computes the gap at the solution u (*at_u).
+   Does one contact update: solves with state->solved->linearization, then computes the gap at the solution u (*at_u).
    *end: true if no further update is needed, because the gap agrees or the solve failed. *slid: true if vertices under
    pressure have no row at u, so that their gap is not known.
 */
 static PetscErrorCode ContactUpdatesOnce(StepProblem *p, PetscBool resume, Vec u_linearized, Vec u, StepReport *report,
   ContactSolution *sol, ContactLinearization *at_u, PetscBool *end, PetscBool *slid)
 {
-  Simulation sim     = p->sim;
-  PetscBool  is_true = PETSC_FALSE;
+  PetscBool is_true = PETSC_FALSE;
 
   PetscFunctionBegin;
   *end  = PETSC_TRUE;
@@ -138,16 +139,16 @@ static PetscErrorCode ContactUpdatesOnce(StepProblem *p, PetscBool resume, Vec u
   PetscCall(ContactUpdatesSolveLinearized(p, resume, u_linearized, u, report, sol));
   if (!report->converged) PetscFunctionReturn(0);
   ++report->contact_updates;
-  if (report->contact_updates == 1 && (p->friction.T || sim->scene->contact_updates == 1))
-    PetscCall(
-      ContactUpdateLinearize(sim, p->time, u, PETSC_TRUE, at_u)); /* in this case the gap is linearized next at u */
-  else PetscCall(ContactUpdateGetGaps(sim, p->time, u, at_u));
+  if (report->contact_updates == 1 && (p->friction.T || p->model->scene->contact_updates == 1))
+    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, PETSC_TRUE,
+      at_u)); /* in this case the gap is linearized next at u */
+  else PetscCall(ContactUpdateGetGaps(p->model, p->state, p->time, u, at_u));
   PetscCall(MissedFindLostRows(p, u_linearized, u, *at_u, report, slid));
   if (!report->converged) PetscFunctionReturn(0);
   PetscCall(ContactUpdatesMeasureGap(p, u, sol, *at_u, report, &is_true));
   *end = (PetscBool)(is_true && !*slid);
-  if (sim->control->monitor && sim->scene->contact_updates > 1)
-    PetscCall(PetscPrintf(sim->comm,
+  if (p->state->control->monitor && p->model->scene->contact_updates > 1)
+    PetscCall(PetscPrintf(p->model->comm,
       "Contact update %" PetscInt_FMT ": error %.3g, penetration %.3g, gap changes by %.3g, normals turn by %.3g, slip "
       "changes by %.3g\n",
       report->contact_updates, (double)report->update_error, (double)PetscMax(0.0, -report->gap_true),
@@ -157,13 +158,12 @@ static PetscErrorCode ContactUpdatesOnce(StepProblem *p, PetscBool resume, Vec u
 
 /*
    Tests whether the undeformed bodies are the solution of a load step to zero load. vanishes: whether a solve has led
-   to u = 0 up to rounding. *rests: true if they are; sim->solved->linearization and *at_u are then linearizations at
+   to u = 0 up to rounding. *rests: true if they are; state->solved->linearization and *at_u are then linearizations at
    u = 0.
 */
 static PetscErrorCode ContactUpdatesUndeformed(StepProblem *p, PetscBool vanishes, Vec u, StepReport *report,
   ContactSolution *sol, ContactLinearization *at_u, PetscBool *rests)
 {
-  Simulation           sim = p->sim;
   ContactLinearization undeformed;
   PetscBool            due, is_true;
 
@@ -172,13 +172,13 @@ static PetscErrorCode ContactUpdatesUndeformed(StepProblem *p, PetscBool vanishe
   PetscCall(ZeroLoadStepIsDue(p, vanishes, &due));
   if (!due) PetscFunctionReturn(0);
   PetscCall(VecZeroEntries(u));
-  PetscCall(ContactUpdateLinearize(sim, p->time, u, PETSC_FALSE, &undeformed));
+  PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, PETSC_FALSE, &undeformed));
   PetscCall(ZeroLoadStepSolve(p, undeformed, u, report, sol, rests));
   if (*rests) {
-    PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
-    sim->solved->linearization = undeformed;
+    PetscCall(ContactLinearizationDestroy(&p->state->solved->linearization));
+    p->state->solved->linearization = undeformed;
     PetscCall(ContactLinearizationDestroy(at_u));
-    PetscCall(ContactUpdateLinearize(sim, p->time, u, PETSC_FALSE, at_u));
+    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, PETSC_FALSE, at_u));
     PetscCall(ContactUpdatesMeasureGap(p, u, sol, *at_u, report, &is_true));
     report->gap_change = report->normals_turn = report->slip_change = report->update_error = 0.0;
     report->gap_unconverged                                                                = PETSC_FALSE;
@@ -201,8 +201,8 @@ static PetscErrorCode ContactUpdatesVanish(const StepProblem *p, Vec u, PetscBoo
   *vanishes = *rested = PETSC_FALSE;
   if (p->friction.T) PetscCall(ZeroLoadStepIsDue(p, PETSC_TRUE, vanishes));
   if (!*vanishes) PetscFunctionReturn(0);
-  PetscCall(ElasticityEnergy(p->sim->elasticity, u, &energy));
-  PetscCall(ElasticityEnergy(p->sim->elasticity, p->sim->path->u, &before));
+  PetscCall(ElasticityEnergy(p->model->elasticity, u, &energy));
+  PetscCall(ElasticityEnergy(p->model->elasticity, p->state->path->u, &before));
   largest = before;
   for (PetscInt s = 0; s + 1 < p->sim->report.nsteps; ++s) largest = PetscMax(largest, steps[s].energy);
   *vanishes = (PetscBool)(energy <= vanishing * largest);
@@ -221,9 +221,9 @@ static PetscErrorCode ContactUpdatesReport(StepProblem *p, PetscBool slid, Conta
 
   PetscFunctionBegin;
   report->gap_unconverged =
-    (PetscBool)(report->converged && (report->gap_unconverged || (slid && p->sim->scene->contact_updates > 1)));
+    (PetscBool)(report->converged && (report->gap_unconverged || (slid && p->model->scene->contact_updates > 1)));
   if (!report->gap_unconverged) PetscFunctionReturn(0);
-  PetscCall(ContactUpdatesReportGapError(p->sim, sol, linearization, slid, report));
+  PetscCall(ContactUpdatesReportGapError(p->model, p->state, sol, linearization, slid, report));
   PetscCall(ProximalMeasure(p, u, &proximal));
   if (proximal <= CONTACT_UPDATES_PROXIMAL) PetscFunctionReturn(0);
   PetscCall(WeakSpringsReportMotion(p, p->centre, u, report));
@@ -233,17 +233,16 @@ static PetscErrorCode ContactUpdatesReport(StepProblem *p, PetscBool slid, Conta
 
 /*
    Updates the contact until the gap agrees, a solve fails or contact_updates is reached. On exit u is a solution of the
-   problem with sim->solved->linearization, and *at_u is the linearization at u. foreseen: true if u is a forecast on
+   problem with state->solved->linearization, and *at_u is the linearization at u. foreseen: true if u is a forecast on
    entry.
 */
 PetscErrorCode ContactUpdatesSolve(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report, ContactSolution *sol,
   ContactLinearization *at_u)
 {
-  Simulation sim     = p->sim;
-  Anderson   secants = {0};
-  PetscBool  end = PETSC_FALSE, slid = PETSC_FALSE, again = PETSC_FALSE, last = PETSC_FALSE;
-  PetscBool  vanishes, vanished = PETSC_FALSE, rested = PETSC_FALSE;
-  Vec        u_linearized;
+  Anderson  secants = {0};
+  PetscBool end = PETSC_FALSE, slid = PETSC_FALSE, again = PETSC_FALSE, last = PETSC_FALSE;
+  PetscBool vanishes, vanished = PETSC_FALSE, rested = PETSC_FALSE;
+  Vec       u_linearized;
 
   PetscFunctionBegin;
   report->contact_updates = 0;
@@ -266,7 +265,7 @@ PetscErrorCode ContactUpdatesSolve(StepProblem *p, PetscBool foreseen, Vec u, St
       PetscCall(ContactLinearizationDestroy(at_u));
       continue;
     }
-    if (end || report->contact_updates == sim->scene->contact_updates) break;
+    if (end || report->contact_updates == p->model->scene->contact_updates) break;
     if (report->gap_unconverged && secants.n >= CONTACT_UPDATES_PATIENCE && secants.least > 0.1 * secants.first) break;
     PetscCall(ContactUpdateNext(p, &secants, sol, u, u_linearized, report, at_u));
     if (!report->converged) break;
@@ -276,7 +275,8 @@ PetscErrorCode ContactUpdatesSolve(StepProblem *p, PetscBool foreseen, Vec u, St
      as the solution. With friction this is done only if the last state was undeformed or the increment is short:
      friction may hold bodies in a deformed state without load, and a long increment may miss that state.
   */
-  if (!report->converged && vanished && (rested || report->cuts >= CONTACT_UPDATES_SHORT) && !sim->control->interrupted)
+  if (!report->converged && vanished && (rested || report->cuts >= CONTACT_UPDATES_SHORT) &&
+      !p->state->control->interrupted)
     PetscCall(ContactUpdatesUndeformed(p, PETSC_TRUE, u, report, sol, at_u, &end));
   PetscCall(VecDestroy(&u_linearized));
   PetscCall(AndersonDestroy(&secants));

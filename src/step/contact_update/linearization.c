@@ -8,28 +8,28 @@
    Computes the gap at u for a load step that ends at `time`. The derivative of the gap is computed only if initial
    overlaps follow ramps, since InterferenceAdd() needs it.
 */
-PetscErrorCode ContactUpdateGetGaps(Simulation sim, PetscReal time, Vec u, ContactLinearization *lin)
+PetscErrorCode ContactUpdateGetGaps(Model model, State state, PetscReal time, Vec u, ContactLinearization *lin)
 {
   PetscBool ramps = PETSC_FALSE;
 
   PetscFunctionBegin;
-  for (PetscInt p = 0; p < sim->scene->npairs; ++p)
-    ramps = (PetscBool)(ramps || sim->scene->pairs[p].interference_ramp >= 0);
+  for (PetscInt p = 0; p < model->scene->npairs; ++p)
+    ramps = (PetscBool)(ramps || model->scene->pairs[p].interference_ramp >= 0);
   if (ramps) {
-    PetscCall(ContactLinearize(sim->contact, u, CONTACT_FORCES, lin));
-    PetscCall(InterferenceAdd(sim, time, 1.0, *lin));
-  } else PetscCall(ContactLinearize(sim->contact, u, CONTACT_GAPS, lin));
+    PetscCall(ContactLinearize(model->contact, u, CONTACT_FORCES, lin));
+    PetscCall(InterferenceAdd(model, state, time, 1.0, *lin));
+  } else PetscCall(ContactLinearize(model->contact, u, CONTACT_GAPS, lin));
   PetscFunctionReturn(0);
 }
 
 /* Linearizes the gap at u for a load step that ends at `time`. The ramps of initial overlaps are applied.
    anticipates: whether the derivative that ContactUpdateAnticipate() needs is computed too */
-PetscErrorCode ContactUpdateLinearize(Simulation sim, PetscReal time, Vec u, PetscBool anticipates,
+PetscErrorCode ContactUpdateLinearize(Model model, State state, PetscReal time, Vec u, PetscBool anticipates,
   ContactLinearization *lin)
 {
   PetscFunctionBegin;
-  PetscCall(ContactLinearize(sim->contact, u, anticipates ? CONTACT_DERIVATIVE : CONTACT_FORCES, lin));
-  PetscCall(InterferenceAdd(sim, time, 1.0, *lin));
+  PetscCall(ContactLinearize(model->contact, u, anticipates ? CONTACT_DERIVATIVE : CONTACT_FORCES, lin));
+  PetscCall(InterferenceAdd(model, state, time, 1.0, *lin));
   PetscFunctionReturn(0);
 }
 
@@ -39,13 +39,13 @@ PetscErrorCode ContactUpdateLinearize(Simulation sim, PetscReal time, Vec u, Pet
 */
 static PetscErrorCode ContactUpdateMakeRigid(StepProblem *p, Vec u)
 {
-  const Constraints constraints = SimulationConstraints(p->sim);
+  const Constraints constraints = ModelConstraints(p->model);
   PetscReal         change;
 
   PetscFunctionBegin;
-  if (!p->sim->rigid.turns) PetscFunctionReturn(0);
+  if (!p->model->rigid.turns) PetscFunctionReturn(0);
   PetscCall(StepProblemTurn(p, u));
-  PetscCall(TiesFollow(&p->sim->ties, u));
+  PetscCall(TiesFollow(&p->model->ties, u));
   PetscCall(TiesStraighten(&constraints, u, &change));
   PetscFunctionReturn(0);
 }
@@ -57,21 +57,20 @@ static PetscErrorCode ContactUpdateMakeRigid(StepProblem *p, Vec u)
 */
 static PetscErrorCode ContactUpdateMayContinue(const StepProblem *p, PetscBool *rubs, PetscBool *may)
 {
-  Simulation sim    = p->sim;
-  PetscBool  sticks = PETSC_FALSE;
+  PetscBool sticks = PETSC_FALSE;
 
   PetscFunctionBegin;
   *rubs = PETSC_FALSE;
   *may  = PETSC_TRUE;
-  for (PetscInt k = 0; k < sim->scene->npairs; ++k) {
+  for (PetscInt k = 0; k < p->model->scene->npairs; ++k) {
     PetscReal mu = 0.0;
 
-    PetscCall(FrictionGetCoefficient(sim->scene, p->time, k, &mu));
+    PetscCall(FrictionGetCoefficient(p->model->scene, p->time, k, &mu));
     if (mu > 0.0) *rubs = PETSC_TRUE;
     if (mu >= PETSC_INFINITY) sticks = PETSC_TRUE;
   }
-  if (*rubs) PetscCall(PathIsSmooth(sim, p->time, may));
-  if (sticks || (*rubs && sim->rigid.turns)) *may = PETSC_FALSE;
+  if (*rubs) PetscCall(PathIsSmooth(p->model, p->state, p->time, may));
+  if (sticks || (*rubs && p->model->rigid.turns)) *may = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -82,46 +81,45 @@ static PetscErrorCode ContactUpdateMayContinue(const StepProblem *p, PetscBool *
 */
 static PetscErrorCode ContactUpdateContinue(const StepProblem *p, Vec u, PetscBool *continued)
 {
-  Simulation   sim    = p->sim;
-  const Bodies bodies = SimulationBodies(sim);
+  const Bodies bodies = ModelBodies(p->model);
   PetscBool    rubs, rolls;
 
   PetscFunctionBegin;
   PetscCall(ContactUpdateMayContinue(p, &rubs, continued));
   if (!*continued) PetscFunctionReturn(0);
-  PetscCall(PathContinue(sim, p->time, u));
+  PetscCall(PathContinue(p->model, p->state, p->time, u));
   if (!rubs) PetscFunctionReturn(0);
-  PetscCall(ArcsGetExcess(&bodies, sim->path->u, u, NULL, &rolls));
-  if (rolls) PetscCall(VecCopy(sim->path->u, u));
+  PetscCall(ArcsGetExcess(&bodies, p->state->path->u, u, NULL, &rolls));
+  if (rolls) PetscCall(VecCopy(p->state->path->u, u));
   *continued = (PetscBool)!rolls;
   PetscFunctionReturn(0);
 }
 
 /*
-   Sets sim->solved->linearization, and creates *u_linearized, the displacement of this linearization. It is u if u is a
-   forecast; an extrapolation of the path if the gap may be linearized again; otherwise the last state. The last state
+   Sets state->solved->linearization, and creates *u_linearized, the displacement of this linearization. It is u if u is
+   a forecast; an extrapolation of the path if the gap may be linearized again; otherwise the last state. The last state
    is always used in the first load step and after a cut.
 */
 PetscErrorCode ContactUpdateBegin(StepProblem *p, PetscBool foreseen, Vec u, const StepReport *report,
   Vec *u_linearized)
 {
-  Simulation sim       = p->sim;
-  PetscBool  continues = (PetscBool)(sim->path->time > 0.0 && sim->scene->contact_updates > 1 && !report->cuts);
+  PetscBool continues =
+    (PetscBool)(p->state->path->time > 0.0 && p->model->scene->contact_updates > 1 && !report->cuts);
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, u_linearized));
-  PetscCall(VecCopy(foreseen ? u : sim->path->u, *u_linearized));
+  PetscCall(VecCopy(foreseen ? u : p->state->path->u, *u_linearized));
   if (continues && !foreseen) PetscCall(ContactUpdateContinue(p, *u_linearized, &continues));
   if (foreseen || continues) {
     PetscCall(ContactUpdateMakeRigid(p, *u_linearized));
-    PetscCall(ContactLinearizationDestroy(&sim->solved->upcoming));
+    PetscCall(ContactLinearizationDestroy(&p->state->solved->upcoming));
   }
-  if (!sim->solved->upcoming)
-    PetscCall(ContactLinearize(sim->contact, *u_linearized, foreseen ? CONTACT_DERIVATIVE : CONTACT_FORCES,
-      &sim->solved->upcoming));
-  sim->solved->linearization = sim->solved->upcoming;
-  sim->solved->upcoming      = NULL;
-  PetscCall(InterferenceAdd(sim, p->time, 1.0, sim->solved->linearization));
+  if (!p->state->solved->upcoming)
+    PetscCall(ContactLinearize(p->model->contact, *u_linearized, foreseen ? CONTACT_DERIVATIVE : CONTACT_FORCES,
+      &p->state->solved->upcoming));
+  p->state->solved->linearization = p->state->solved->upcoming;
+  p->state->solved->upcoming      = NULL;
+  PetscCall(InterferenceAdd(p->model, p->state, p->time, 1.0, p->state->solved->linearization));
   PetscFunctionReturn(0);
 }
 
@@ -133,7 +131,7 @@ static PetscErrorCode ContactUpdateWarnDamped(Simulation sim, const StepReport *
   PetscFunctionBegin;
   for (PetscInt s = 0; s < sim->report.nsteps; ++s) before += sim->report.steps[s].gap_damped;
   if (!before && report->gap_unconverged)
-    PetscCall(ReportWarn(sim->comm, &sim->report, NULL,
+    PetscCall(ReportWarn(sim->model->comm, &sim->report, NULL,
       "load step %" PetscInt_FMT ": contact iterations do not converge; they are damped from now on. Use smaller load "
       "steps, or swap mortar and nonmortar",
       report->step));
@@ -165,13 +163,13 @@ PetscErrorCode ContactUpdateNext(StepProblem *p, Anderson *secants, const Contac
   if (p->by_newton) PetscCall(VecCopy(next, u_linearized));
   PetscCall(VecDestroy(&next));
   PetscCall(VecEqual(u, u_linearized, &at_solution));
-  PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
+  PetscCall(ContactLinearizationDestroy(&p->state->solved->linearization));
   if (!at_solution || (*at_u)->gaps_only) {
     PetscCall(ContactLinearizationDestroy(at_u));
     PetscCall(ContactUpdateMakeRigid(p, u_linearized));
-    PetscCall(ContactUpdateLinearize(sim, p->time, u_linearized, (PetscBool)!p->by_newton, at_u));
+    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u_linearized, (PetscBool)!p->by_newton, at_u));
   }
-  sim->solved->linearization = *at_u;
-  *at_u                      = NULL;
+  p->state->solved->linearization = *at_u;
+  *at_u                           = NULL;
   PetscFunctionReturn(0);
 }

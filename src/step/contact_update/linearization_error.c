@@ -32,11 +32,11 @@ static const PetscReal tied = 1e4;
    p_r m_r |n'_r - n_r| / sum_r p_r m_r, with pressure p, slack mass m, and normals n of the last update and n' of at_u.
    row[r]: row of at_u that corresponds to row r of the last update; negative: none.
 */
-static PetscErrorCode ContactUpdateErrorMeasureTurn(Simulation sim, const ContactSolution *sol,
+static PetscErrorCode ContactUpdateErrorMeasureTurn(Model model, State state, const ContactSolution *sol,
   ContactLinearization at_u, const PetscInt row[], PetscReal *turn)
 {
-  ContactLinearization solved = sim->solved->linearization;
-  const PetscInt       npairs = sim->scene->npairs;
+  ContactLinearization solved = state->solved->linearization;
+  const PetscInt       npairs = model->scene->npairs;
   const PetscScalar   *mass, *z;
   PetscReal           *sums;
 
@@ -56,7 +56,7 @@ static PetscErrorCode ContactUpdateErrorMeasureTurn(Simulation sim, const Contac
   }
   PetscCall(VecRestoreArrayRead(sol->pressure, &z));
   PetscCall(VecRestoreArrayRead(solved->mass, &mass));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(2 * npairs), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(2 * npairs), MPIU_REAL, MPIU_SUM, model->comm));
   for (PetscInt p = 0; p < npairs; ++p) {
     if (sums[2 * p + 1] > 0.0) *turn = PetscMax(*turn, sums[2 * p] / sums[2 * p + 1]);
   }
@@ -69,11 +69,11 @@ static PetscErrorCode ContactUpdateErrorMeasureTurn(Simulation sim, const Contac
    and the slip of the solution [length]. Both slips are measured from the last equilibrium state. row[]: see
    ContactUpdateErrorMeasureTurn().
 */
-static PetscErrorCode ContactUpdateErrorMeasureSlip(Simulation sim, Vec u, const ContactSolution *sol,
+static PetscErrorCode ContactUpdateErrorMeasureSlip(Model model, State state, Vec u, const ContactSolution *sol,
   ContactLinearization at_u, const PetscInt row[], PetscReal *change)
 {
-  ContactLinearization solved = sim->solved->linearization;
-  const Bodies         bodies = SimulationBodies(sim);
+  ContactLinearization solved = state->solved->linearization;
+  const Bodies         bodies = ModelBodies(model);
   const PetscScalar   *s, *a;
   PetscReal            worst = 0.0;
   PetscBool            turned;
@@ -83,9 +83,9 @@ static PetscErrorCode ContactUpdateErrorMeasureSlip(Simulation sim, Vec u, const
   *change = 0.0;
   if (!sol->slip) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(u, &increment));
-  PetscCall(ArcsGetExcess(&bodies, sim->path->u, u, increment, &turned));
+  PetscCall(ArcsGetExcess(&bodies, state->path->u, u, increment, &turned));
   if (!turned) PetscCall(VecZeroEntries(increment));
-  PetscCall(VecAXPBYPCZ(increment, 1.0, -1.0, 1.0, u, sim->path->u));
+  PetscCall(VecAXPBYPCZ(increment, 1.0, -1.0, 1.0, u, state->path->u));
   PetscCall(MatCreateVecs(at_u->slip, NULL, &slip));
   PetscCall(MatMult(at_u->slip, increment, slip));
   PetscCall(VecGetArrayRead(slip, &s));
@@ -105,7 +105,7 @@ static PetscErrorCode ContactUpdateErrorMeasureSlip(Simulation sim, Vec u, const
   PetscCall(VecRestoreArrayRead(slip, &s));
   PetscCall(VecDestroy(&slip));
   PetscCall(VecDestroy(&increment));
-  PetscCallMPI(MPI_Allreduce(&worst, change, 1, MPIU_REAL, MPIU_MAX, sim->comm));
+  PetscCallMPI(MPI_Allreduce(&worst, change, 1, MPIU_REAL, MPIU_MAX, model->comm));
   PetscFunctionReturn(0);
 }
 
@@ -113,7 +113,7 @@ static PetscErrorCode ContactUpdateErrorMeasureSlip(Simulation sim, Vec u, const
    Sets `rotation` to the displacement of a unit rotation of each rigid surface at u, about the axis of this number
    through its centre; 0 at the nodes of other bodies.
 */
-static PetscErrorCode ContactUpdateErrorSetRotation(Simulation sim, Vec u, const BodyPose poses[], PetscInt axis,
+static PetscErrorCode ContactUpdateErrorSetRotation(Model model, Vec u, const BodyPose poses[], PetscInt axis,
   Vec rotation)
 {
   const PetscInt     d = (axis + 1) % 3, e = (axis + 2) % 3;
@@ -124,19 +124,19 @@ static PetscErrorCode ContactUpdateErrorSetRotation(Simulation sim, Vec u, const
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(rotation));
   PetscCall(VecGetLocalSize(u, &n));
-  PetscCall(VecGetArrayRead(sim->places.x, &x));
+  PetscCall(VecGetArrayRead(model->places.x, &x));
   PetscCall(VecGetArrayRead(u, &a));
   PetscCall(VecGetArray(rotation, &t));
   for (PetscInt i = 0; i < n; i += 3) {
-    const PetscInt body = sim->places.body[i / 3];
+    const PetscInt body = model->places.body[i / 3];
 
-    if (!SceneBodyIsSurface(&sim->scene->bodies[body])) continue;
+    if (!SceneBodyIsSurface(&model->scene->bodies[body])) continue;
     t[i + d] = -(x[i + e] + a[i + e] - poses[body].to[e]);
     t[i + e] = x[i + d] + a[i + d] - poses[body].to[d];
   }
   PetscCall(VecRestoreArray(rotation, &t));
   PetscCall(VecRestoreArrayRead(u, &a));
-  PetscCall(VecRestoreArrayRead(sim->places.x, &x));
+  PetscCall(VecRestoreArrayRead(model->places.x, &x));
   PetscFunctionReturn(0);
 }
 
@@ -145,10 +145,10 @@ static PetscErrorCode ContactUpdateErrorSetRotation(Simulation sim, Vec u, const
    the rigid surface with the linearization at_u exceed those of the solve [force length]; sums[pair][3]: normal forces
    [force]; sums[pair][4]: slack masses, which are areas [length^2]. The last two are added only for axis 0.
 */
-static PetscErrorCode ContactUpdateErrorSumMoments(Simulation sim, const ContactSolution *sol,
-  ContactLinearization at_u, const PetscInt row[], Vec rotation, PetscInt axis, PetscReal sums[][5])
+static PetscErrorCode ContactUpdateErrorSumMoments(State state, const ContactSolution *sol, ContactLinearization at_u,
+  const PetscInt row[], Vec rotation, PetscInt axis, PetscReal sums[][5])
 {
-  ContactLinearization solved = sim->solved->linearization;
+  ContactLinearization solved = state->solved->linearization;
   const PetscScalar   *mass, *z, *a, *b;
   Vec                  before, after;
 
@@ -182,11 +182,11 @@ static PetscErrorCode ContactUpdateErrorSumMoments(Simulation sim, const Contact
    Measures the error of the lever arms of the normal forces on rigid surfaces. *arm: largest error of a pair, or 0 if
    all errors are small compared with the size of the contact area [length].
 */
-static PetscErrorCode ContactUpdateErrorMeasureArms(Simulation sim, Vec u, const ContactSolution *sol,
+static PetscErrorCode ContactUpdateErrorMeasureArms(Model model, State state, Vec u, const ContactSolution *sol,
   ContactLinearization at_u, const PetscInt row[], PetscReal *arm)
 {
-  const Bodies bodies = SimulationBodies(sim);
-  Scene        scene  = sim->scene;
+  const Bodies bodies = ModelBodies(model);
+  Scene        scene  = model->scene;
   PetscBool    any    = PETSC_FALSE;
   BodyPose    *poses;
   Vec          rotation;
@@ -202,10 +202,10 @@ static PetscErrorCode ContactUpdateErrorMeasureArms(Simulation sim, Vec u, const
   PetscCall(PosesFind(&bodies, NULL, u, poses));
   PetscCall(VecDuplicate(u, &rotation));
   for (PetscInt axis = 0; axis < 3; ++axis) {
-    PetscCall(ContactUpdateErrorSetRotation(sim, u, poses, axis, rotation));
-    PetscCall(ContactUpdateErrorSumMoments(sim, sol, at_u, row, rotation, axis, sums));
+    PetscCall(ContactUpdateErrorSetRotation(model, u, poses, axis, rotation));
+    PetscCall(ContactUpdateErrorSumMoments(state, sol, at_u, row, rotation, axis, sums));
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(5 * scene->npairs), MPIU_REAL, MPIU_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(5 * scene->npairs), MPIU_REAL, MPIU_SUM, model->comm));
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const PetscReal wrong = sums[p][3] > 0.0 ? VectorNorm(sums[p]) / sums[p][3] : 0.0;
 
@@ -219,25 +219,25 @@ static PetscErrorCode ContactUpdateErrorMeasureArms(Simulation sim, Vec u, const
 
 /*
    Measures the error of a contact update. at_u: linearization at the state u, which was computed with
-   sim->solved->linearization; report->gap_change must be set. Sets report->normals_turn, report->slip_change and
+   state->solved->linearization; report->gap_change must be set. Sets report->normals_turn, report->slip_change and
    report->update_error, the largest of five errors: those of gap, slip, normals, lever arms and free rotations, each as
    an equivalent change of the gap [length].
 */
-PetscErrorCode ContactUpdateMeasureError(Simulation sim, Vec u, const ContactSolution *sol, ContactLinearization at_u,
-  StepReport *report)
+PetscErrorCode ContactUpdateMeasureError(Model model, State state, Vec u, const ContactSolution *sol,
+  ContactLinearization at_u, StepReport *report)
 {
-  const PetscReal weight   = sim->solved->linearization->slip ? askew_friction : askew;
+  const PetscReal weight   = state->solved->linearization->slip ? askew_friction : askew;
   const PetscReal rounding = 32.0 * PETSC_MACHINE_EPSILON;
   PetscReal       size, arm, extent;
   PetscInt       *row;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  PetscCall(VecNorm(sim->places.x, NORM_INFINITY, &extent));
-  PetscCall(ContactHistoryFollowRows(sim->history, sim->solved->linearization, at_u, &row));
-  PetscCall(ContactUpdateErrorMeasureTurn(sim, sol, at_u, row, &report->normals_turn));
-  PetscCall(ContactUpdateErrorMeasureSlip(sim, u, sol, at_u, row, &report->slip_change));
-  PetscCall(ContactUpdateErrorMeasureArms(sim, u, sol, at_u, row, &arm));
+  PetscCall(VecNorm(model->places.x, NORM_INFINITY, &extent));
+  PetscCall(ContactHistoryFollowRows(state->history, state->solved->linearization, at_u, &row));
+  PetscCall(ContactUpdateErrorMeasureTurn(model, state, sol, at_u, row, &report->normals_turn));
+  PetscCall(ContactUpdateErrorMeasureSlip(model, state, u, sol, at_u, row, &report->slip_change));
+  PetscCall(ContactUpdateErrorMeasureArms(model, state, u, sol, at_u, row, &arm));
   PetscCall(PetscFree(row));
   report->update_error =
     PetscMax(PetscMax(report->gap_change, report->slip_change), weight * report->normals_turn * size);

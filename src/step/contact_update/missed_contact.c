@@ -39,11 +39,10 @@ static PetscErrorCode MissedDeepestGap(Vec gap, PetscReal *deepest)
    if the solution moved by more than half of that distance. The search is then repeated with a larger distance *reach.
    own: linearized gap of the present rows at u. *missed: true if a row of the wider search is penetrated at u more
    deeply than any present row (present rows may be penetrated, for example with the penalty method); the wider
-   linearization then replaces sim->solved->linearization.
+   linearization then replaces state->solved->linearization.
 */
 PetscErrorCode MissedFind(const StepProblem *p, Vec u_linearized, Vec u, Vec own, PetscReal *reach, PetscBool *missed)
 {
-  Simulation           sim  = p->sim;
   ContactLinearization wide = NULL;
   PetscReal            moved, least = 0.0, allowed;
   Vec                  du, gap;
@@ -53,9 +52,9 @@ PetscErrorCode MissedFind(const StepProblem *p, Vec u_linearized, Vec u, Vec own
   PetscCall(MissedMotion(u_linearized, u, &du, &moved));
   if (2.0 * moved > *reach) { /* each of the two faces may have moved by `moved` */
     *reach = 2.0 * PetscMax(moved, *reach);
-    PetscCall(ContactSetReach(sim->contact, *reach, 0.0));
-    PetscCall(ContactUpdateLinearize(sim, p->time, u_linearized, PETSC_TRUE, &wide));
-    PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
+    PetscCall(ContactSetReach(p->model->contact, *reach, 0.0));
+    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u_linearized, PETSC_TRUE, &wide));
+    PetscCall(ContactSetReach(p->model->contact, 0.0, 0.0));
     PetscCall(VecDuplicate(wide->g, &gap));
     PetscCall(MatMultAdd(wide->J, du, wide->g, gap));
     PetscCall(MissedDeepestGap(gap, &least));
@@ -65,12 +64,12 @@ PetscErrorCode MissedFind(const StepProblem *p, Vec u_linearized, Vec u, Vec own
   }
   PetscCall(VecDestroy(&du));
   if (*missed) {
-    if (sim->control->monitor)
-      PetscCall(PetscPrintf(sim->comm,
+    if (p->state->control->monitor)
+      PetscCall(PetscPrintf(p->model->comm,
         "Faces beyond the contact search distance penetrated by %g: searched again up to a distance of %g\n",
         -(double)least, (double)*reach));
-    PetscCall(ContactLinearizationDestroy(&sim->solved->linearization));
-    sim->solved->linearization = wide;
+    PetscCall(ContactLinearizationDestroy(&p->state->solved->linearization));
+    p->state->solved->linearization = wide;
   } else PetscCall(ContactLinearizationDestroy(&wide));
   PetscFunctionReturn(0);
 }
@@ -83,7 +82,6 @@ PetscErrorCode MissedFind(const StepProblem *p, Vec u_linearized, Vec u, Vec own
 PetscErrorCode MissedFindLostRows(const StepProblem *p, Vec u_linearized, Vec u, ContactLinearization at_u,
   StepReport *report, PetscBool *slid)
 {
-  Simulation           sim = p->sim;
   ContactLinearization deep;
   PetscBool           *lost;
   PetscReal            distance, depth, moved, least = 0.0;
@@ -92,16 +90,16 @@ PetscErrorCode MissedFindLostRows(const StepProblem *p, Vec u_linearized, Vec u,
   char                 sentence[128];
 
   PetscFunctionBegin;
-  PetscCall(ContactHistoryFindLostRows(sim->history, at_u, &lost, &nlost));
+  PetscCall(ContactHistoryFindLostRows(p->state->history, at_u, &lost, &nlost));
   *slid = (PetscBool)(nlost > 0);
   if (nlost) {
     PetscCall(MissedMotion(u_linearized, u, &du, &moved));
     PetscCall(VecDestroy(&du));
-    PetscCall(ContactGetReach(sim->contact, &distance, &depth));
-    PetscCall(ContactSetReach(sim->contact, 0.0, depth + 2.0 * moved));
-    PetscCall(ContactUpdateLinearize(sim, p->time, u, PETSC_FALSE, &deep));
-    PetscCall(ContactSetReach(sim->contact, 0.0, 0.0));
-    PetscCall(ContactHistoryLeastGap(sim->history, lost, deep, &least));
+    PetscCall(ContactGetReach(p->model->contact, &distance, &depth));
+    PetscCall(ContactSetReach(p->model->contact, 0.0, depth + 2.0 * moved));
+    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, PETSC_FALSE, &deep));
+    PetscCall(ContactSetReach(p->model->contact, 0.0, 0.0));
+    PetscCall(ContactHistoryLeastGap(p->state->history, lost, deep, &least));
     PetscCall(ContactLinearizationDestroy(&deep));
     PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
       "contact faces penetrate by %g, deeper than the contact search reaches; use smaller load steps", -(double)least));
@@ -112,16 +110,16 @@ PetscErrorCode MissedFindLostRows(const StepProblem *p, Vec u_linearized, Vec u,
 }
 
 /* Finds whether any faces of a pair are within the search distance of each other at u. */
-static PetscErrorCode MissedFindMet(Simulation sim, PetscReal time, PetscInt pair, Vec u, PetscBool *met)
+static PetscErrorCode MissedFindMet(Model model, State state, PetscReal time, PetscInt pair, Vec u, PetscBool *met)
 {
   ContactLinearization lin;
 
   PetscFunctionBegin;
   *met = PETSC_FALSE;
-  PetscCall(ContactUpdateLinearize(sim, time, u, PETSC_FALSE, &lin));
+  PetscCall(ContactUpdateLinearize(model, state, time, u, PETSC_FALSE, &lin));
   for (PetscInt r = 0; r < lin->nlocal; ++r) *met = (PetscBool)(*met || lin->pair[r] == pair);
   PetscCall(ContactLinearizationDestroy(&lin));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, met, 1, MPI_PETSCBOOL, MPI_LOR, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, met, 1, MPI_PETSCBOOL, MPI_LOR, model->comm));
   PetscFunctionReturn(0);
 }
 
@@ -129,15 +127,15 @@ static PetscErrorCode MissedFindMet(Simulation sim, PetscReal time, PetscInt pai
    Reports a face that turned by more than 90 degrees and has lost contact. Such a face may have passed through the
    opposite face on a curved path.
 */
-static PetscErrorCode MissedFindTurned(Simulation sim, PetscReal time, PetscInt p, Vec u, StepReport *report)
+static PetscErrorCode MissedFindTurned(Model model, State state, PetscReal time, PetscInt p, Vec u, StepReport *report)
 {
-  const SceneContactPair *pair = &sim->scene->pairs[p];
+  const SceneContactPair *pair = &model->scene->pairs[p];
   PetscBool               before, now;
   char                    sentence[256];
 
   PetscFunctionBegin;
-  PetscCall(MissedFindMet(sim, time, p, sim->path->u, &before));
-  PetscCall(MissedFindMet(sim, time, p, u, &now));
+  PetscCall(MissedFindMet(model, state, time, p, state->path->u, &before));
+  PetscCall(MissedFindMet(model, state, time, p, u, &now));
   if (!before || now) PetscFunctionReturn(0);
   PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
     "contact pair \"%s\": %s or %s turns by more than 90 degrees within the load step, and has no contact after it; "
@@ -151,7 +149,7 @@ static PetscErrorCode MissedFindTurned(Simulation sim, PetscReal time, PetscInt 
    Reports faces that passed through each other since the last state and therefore have no contact at u. This is
    possible only if they moved by at least the depth of the contact search.
 */
-PetscErrorCode MissedFindPassed(Simulation sim, PetscReal time, Vec u, StepReport *report)
+PetscErrorCode MissedFindPassed(Model model, State state, PetscReal time, Vec u, StepReport *report)
 {
   PetscBool turned;
   PetscReal moved, reach, depth;
@@ -160,13 +158,13 @@ PetscErrorCode MissedFindPassed(Simulation sim, PetscReal time, Vec u, StepRepor
 
   PetscFunctionBegin;
   if (!report->converged) PetscFunctionReturn(0);
-  PetscCall(MissedMotion(sim->path->u, u, &du, &moved));
+  PetscCall(MissedMotion(state->path->u, u, &du, &moved));
   PetscCall(VecDestroy(&du));
-  for (PetscInt p = 0; p < sim->scene->npairs && report->converged; ++p) {
-    const SceneContactPair *pair = &sim->scene->pairs[p];
+  for (PetscInt p = 0; p < model->scene->npairs && report->converged; ++p) {
+    const SceneContactPair *pair = &model->scene->pairs[p];
 
-    PetscCall(ContactGetPassage(sim->contact, p, moved, sim->path->u, u, &depth, &reach, &turned));
-    if (turned && depth <= reach) PetscCall(MissedFindTurned(sim, time, p, u, report));
+    PetscCall(ContactGetPassage(model->contact, p, moved, state->path->u, u, &depth, &reach, &turned));
+    if (turned && depth <= reach) PetscCall(MissedFindTurned(model, state, time, p, u, report));
     if (depth <= reach) continue;
     if (pair->self)
       PetscCall(PetscSNPrintf(sentence, sizeof(sentence),

@@ -35,12 +35,12 @@ typedef struct {
   StepProblem         *p;
   ContactLinearization at_u;
   Vec                  u, mask;          /* mask: 0 in prescribed rows, 1 in other rows */
-  Vec                  lambda;           /* forces of the rows of sim->solved->linearization, 0 in rows that are not
+  Vec                  lambda;           /* forces of the rows of state->solved->linearization, 0 in rows that are not
                                             followed [force] */
   Vec                  followed;         /* 1 in rows under pressure that exist at u; 0 in the other rows, whose
                                             differentials remain those of the linearization at x */
   Vec                  force, gap;       /* force: J(u)^T lambda [force]; gap: g(u) on the rows of
-                                            sim->solved->linearization [length] */
+                                            state->solved->linearization [length] */
   PetscReal            rtol;             /* relative tolerance of GMRES */
   PetscInt             most;             /* largest number of applications of the preconditioner of K in a product */
   PetscReal            size, scale;      /* size: step of the finite differences [length]; scale: divisor that gives
@@ -58,7 +58,7 @@ typedef struct {
 /* Linearizes the gap at v. It counts to the phase of contact, and the rest of Newton's method to that of the solve */
 static PetscErrorCode NewtonLinearize(GapNewton *s, Vec v, PetscBool gaps_only, ContactLinearization *lin)
 {
-  Contact contact = s->p->sim->contact;
+  Contact contact = s->p->model->contact;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
@@ -68,13 +68,13 @@ static PetscErrorCode NewtonLinearize(GapNewton *s, Vec v, PetscBool gaps_only, 
 }
 
 /*
-   Computes forces and gap of a linearization for the rows of sim->solved->linearization. at: the linearization; lambda:
-   forces of the rows [force]; f: C^T J^T lambda with J of `at` [force]; c: gap of the rows in `at`, 0 in rows without
-   pressure or without a row in `at` [length]; *n: number of rows under pressure that `at` contains, on all ranks.
+   Computes forces and gap of a linearization for the rows of state->solved->linearization. at: the linearization;
+   lambda: forces of the rows [force]; f: C^T J^T lambda with J of `at` [force]; c: gap of the rows in `at`, 0 in rows
+   without pressure or without a row in `at` [length]; *n: number of rows under pressure that `at` contains, on all
+   ranks.
 */
 static PetscErrorCode NewtonEvaluate(GapNewton *s, ContactLinearization at, Vec lambda, Vec f, Vec c, PetscInt *n)
 {
-  Simulation         sim = s->p->sim;
   const PetscScalar *l, *g;
   PetscScalar       *mine, *gap;
   PetscInt          *row;
@@ -82,7 +82,7 @@ static PetscErrorCode NewtonEvaluate(GapNewton *s, ContactLinearization at, Vec 
 
   PetscFunctionBegin;
   *n = 0;
-  PetscCall(ContactHistoryFollowRows(sim->history, sim->solved->linearization, at, &row));
+  PetscCall(ContactHistoryFollowRows(s->p->state->history, s->p->state->solved->linearization, at, &row));
   PetscCall(VecDuplicate(at->g, &forces));
   PetscCall(VecZeroEntries(forces));
   PetscCall(VecZeroEntries(c));
@@ -90,7 +90,7 @@ static PetscErrorCode NewtonEvaluate(GapNewton *s, ContactLinearization at, Vec 
   PetscCall(VecGetArrayRead(at->g, &g));
   PetscCall(VecGetArray(forces, &mine));
   PetscCall(VecGetArray(c, &gap));
-  for (PetscInt r = 0; r < sim->solved->linearization->nlocal; ++r) {
+  for (PetscInt r = 0; r < s->p->state->solved->linearization->nlocal; ++r) {
     if (row[r] < 0) continue;
     mine[row[r]] = l[r];
     gap[r]       = g[row[r]];
@@ -102,32 +102,31 @@ static PetscErrorCode NewtonEvaluate(GapNewton *s, ContactLinearization at, Vec 
   PetscCall(VecRestoreArrayRead(lambda, &l));
   PetscCall(PetscFree(row));
   PetscCall(MatMultTranspose(at->J, forces, f));
-  PetscCall(TiesGather(&sim->ties, f));
+  PetscCall(TiesGather(&s->p->model->ties, f));
   PetscCall(VecPointwiseMult(f, f, s->mask));
   PetscCall(VecDestroy(&forces));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, n, 1, MPIU_INT, MPI_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, n, 1, MPIU_INT, MPI_SUM, s->p->model->comm));
   PetscFunctionReturn(0);
 }
 
 /* Sets s->followed and s->nrows, and sets s->lambda to 0 in the other rows */
 static PetscErrorCode NewtonFollow(GapNewton *s)
 {
-  Simulation   sim = s->p->sim;
   PetscScalar *followed;
   PetscInt    *row;
 
   PetscFunctionBegin;
   s->nrows = 0;
-  PetscCall(ContactHistoryFollowRows(sim->history, sim->solved->linearization, s->at_u, &row));
+  PetscCall(ContactHistoryFollowRows(s->p->state->history, s->p->state->solved->linearization, s->at_u, &row));
   PetscCall(VecGetArrayWrite(s->followed, &followed));
-  for (PetscInt r = 0; r < sim->solved->linearization->nlocal; ++r) {
+  for (PetscInt r = 0; r < s->p->state->solved->linearization->nlocal; ++r) {
     followed[r] = row[r] < 0 ? 0.0 : 1.0;
     s->nrows += row[r] >= 0;
   }
   PetscCall(VecRestoreArrayWrite(s->followed, &followed));
   PetscCall(PetscFree(row));
   PetscCall(VecPointwiseMult(s->lambda, s->lambda, s->followed));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &s->nrows, 1, MPIU_INT, MPI_SUM, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &s->nrows, 1, MPIU_INT, MPI_SUM, s->p->model->comm));
   PetscFunctionReturn(0);
 }
 
@@ -179,11 +178,11 @@ static PetscErrorCode NewtonDifference(GapNewton *s)
   PetscCall(VecDuplicate(s->lambda, &lambda));
   PetscCall(VecDuplicate(s->c, &model));
   PetscCall(VecCopy(s->d, v));
-  if (p->sim->ties.C) PetscCall(MatMult(p->sim->ties.C, s->d, v));
+  if (p->model->ties.C) PetscCall(MatMult(p->model->ties.C, s->d, v));
   PetscCall(VecAYPX(v, step, s->u));
   PetscCall(VecWAXPY(lambda, step, s->lambdas, s->lambda));
   PetscCall(NewtonLinearize(s, v, s->gaps_only, &lin));
-  PetscCall(InterferenceAdd(p->sim, p->time, 1.0, lin));
+  PetscCall(InterferenceAdd(p->model, p->state, p->time, 1.0, lin));
   PetscCall(NewtonEvaluate(s, lin, lambda, s->f, s->c, &n));
   PetscCall(ContactLinearizationDestroy(&lin));
   s->smooth = (PetscBool)(s->smooth && n == s->nrows);
@@ -211,7 +210,8 @@ static PetscErrorCode NewtonPrecondition(GapNewton *s, PetscInt most, PetscReal 
   PetscInt n;
 
   PetscFunctionBegin;
-  PetscCall(TaoIPFilterSolveActive(s->p->sim->solved->subspace, s->f, s->c, most, rtol, s->d, s->lambdas, &n, solved));
+  PetscCall(
+    TaoIPFilterSolveActive(s->p->state->solved->subspace, s->f, s->c, most, rtol, s->d, s->lambdas, &n, solved));
   s->napplications += n;
   PetscFunctionReturn(0);
 }
@@ -299,11 +299,11 @@ static PetscErrorCode NewtonCreate(StepProblem *p, const ContactSolution *sol, V
   PetscCall(VecDuplicate(sol->pressure, &s->lambdas));
   PetscCall(VecDuplicate(sol->pressure, &s->c));
   PetscCall(VecSet(s->mask, 1.0));
-  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, s->mask));
-  PetscCall(VecPointwiseMult(s->lambda, sol->pressure, p->sim->solved->linearization->mass));
+  PetscCall(PrescribedSet(&p->model->prescribed, 0.0, s->mask));
+  PetscCall(VecPointwiseMult(s->lambda, sol->pressure, p->state->solved->linearization->mass));
   PetscCall(VecScale(s->lambda, 1.0 / StepProblemShare(p)));
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  PetscCall(VecNorm(p->sim->places.x, NORM_INFINITY, &extent));
+  PetscCall(VecNorm(p->model->places.x, NORM_INFINITY, &extent));
   s->size = PetscMax(1e-6 * size, PETSC_SQRT_MACHINE_EPSILON * extent);
   PetscFunctionReturn(0);
 }
@@ -329,7 +329,7 @@ static PetscErrorCode NewtonDestroy(GapNewton *s)
 */
 static PetscErrorCode NewtonSetAccuracy(GapNewton *s, const StepReport *report)
 {
-  const PetscReal safe = 0.3, allowed = s->p->sim->control->tolerances.gap_change;
+  const PetscReal safe = 0.3, allowed = s->p->state->control->tolerances.gap_change;
   PetscReal       size;
 
   PetscFunctionBegin;
@@ -354,7 +354,7 @@ static PetscErrorCode NewtonSetAccuracy(GapNewton *s, const StepReport *report)
 */
 static PetscErrorCode NewtonStep(GapNewton *s, Vec z, Vec x, Vec next, PetscBool *found)
 {
-  const Mat C = s->p->sim->ties.C;
+  const Mat C = s->p->model->ties.C;
   PetscReal length, last;
 
   PetscFunctionBegin;
@@ -379,7 +379,7 @@ static PetscBool NewtonIsNear(StepProblem *p, const StepReport *report)
   const PetscReal progress = 1.0, fast = 0.5;
 
   if (!(report->update_error > 0.0)) return PETSC_FALSE;
-  if (p->sim->control->tolerances.gap_change < PETSC_SQRT_MACHINE_EPSILON) return PETSC_FALSE;
+  if (p->state->control->tolerances.gap_change < PETSC_SQRT_MACHINE_EPSILON) return PETSC_FALSE;
   if (report->contact_updates == 1) p->rough = PETSC_FALSE;
   else if (report->update_error >= progress * p->gap_change) p->rough = PETSC_TRUE;
   else if (report->update_error < fast * p->gap_change) p->rough = PETSC_FALSE;
@@ -390,15 +390,15 @@ static PetscBool NewtonIsNear(StepProblem *p, const StepReport *report)
    Finds whether the gap of any pair has kinks. This is the case for gaps of nodes over flat facets, where a node
    crosses an edge.
 */
-static PetscErrorCode NewtonFindKinks(Simulation sim, PetscBool *kinks)
+static PetscErrorCode NewtonFindKinks(Model model, PetscBool *kinks)
 {
   PetscFunctionBegin;
   *kinks = PETSC_FALSE;
-  for (PetscInt k = 0; k < sim->scene->npairs; ++k) {
+  for (PetscInt k = 0; k < model->scene->npairs; ++k) {
     PetscBool curved;
 
-    PetscCall(ContactIsCurved(sim->contact, k, &curved));
-    *kinks = (PetscBool)(*kinks || (sim->scene->pairs[k].gap == GAP_NODE && !curved));
+    PetscCall(ContactIsCurved(model->contact, k, &curved));
+    *kinks = (PetscBool)(*kinks || (model->scene->pairs[k].gap == GAP_NODE && !curved));
   }
   PetscFunctionReturn(0);
 }
@@ -419,14 +419,14 @@ PetscErrorCode ContactUpdateNewton(StepProblem *p, const ContactSolution *sol, C
 
   PetscFunctionBegin;
   *found = PETSC_FALSE;
-  PetscCall(NewtonFindKinks(p->sim, &kinks));
-  if (kinks || p->friction.T || !p->sim->solved->subspace || !NewtonIsNear(p, report)) PetscFunctionReturn(0);
+  PetscCall(NewtonFindKinks(p->model, &kinks));
+  if (kinks || p->friction.T || !p->state->solved->subspace || !NewtonIsNear(p, report)) PetscFunctionReturn(0);
   PetscCall(PetscLogEventBegin(SIM_Solve, NULL, NULL, NULL, NULL));
   PetscCall(NewtonCreate(p, sol, u, &s));
   PetscCall(NewtonSetAccuracy(&s, report));
   PetscCall(VecGetLocalSize(u, &n));
   PetscCall(VecGetLocalSize(s.lambda, &m));
-  PetscCall(VecCreateMPI(p->sim->comm, n + m, PETSC_DETERMINE, &b));
+  PetscCall(VecCreateMPI(p->model->comm, n + m, PETSC_DETERMINE, &b));
   PetscCall(VecDuplicate(b, &z));
   PetscCall(NewtonBegin(&s, b, found));
   if (*found) PetscCall(MatrixFreeSolve(b, z, &s, NewtonMult, s.rtol, NEWTON_ITERATIONS, found));

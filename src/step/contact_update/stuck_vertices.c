@@ -24,16 +24,16 @@ static void PlaceTake(ContactLinearization lin, PetscInt row, PetscReal error, G
    gap at at_u differs most from the linearized gap of the solution. If slid is true, it is the vertex with the largest
    force [force] of those that have slid off the opposite face.
 */
-static PetscErrorCode PlaceFind(Simulation sim, const ContactSolution *sol, ContactLinearization at_u, PetscBool slid,
+static PetscErrorCode PlaceFind(State state, const ContactSolution *sol, ContactLinearization at_u, PetscBool slid,
   GapPlace *place)
 {
-  ContactLinearization solved = sim->solved->linearization;
+  ContactLinearization solved = state->solved->linearization;
   const PetscScalar   *g, *gap, *z, *mass;
   PetscInt            *row;
 
   PetscFunctionBegin;
   place->error = -1.0;
-  PetscCall(ContactHistoryFollowRows(sim->history, solved, at_u, &row));
+  PetscCall(ContactHistoryFollowRows(state->history, solved, at_u, &row));
   PetscCall(VecGetArrayRead(at_u->g, &g));
   PetscCall(VecGetArrayRead(sol->gap, &gap));
   PetscCall(VecGetArrayRead(sol->pressure, &z));
@@ -55,7 +55,7 @@ static PetscErrorCode PlaceFind(Simulation sim, const ContactSolution *sol, Cont
 
 /* Collective. Sets the node number and the coordinates of the vertex on its rank; then all ranks get the PlaceFind()
    result with the largest error */
-static PetscErrorCode PlaceShare(Simulation sim, GapPlace *place)
+static PetscErrorCode PlaceShare(Model model, GapPlace *place)
 {
   struct {
     double error;
@@ -67,20 +67,20 @@ static PetscErrorCode PlaceShare(Simulation sim, GapPlace *place)
   PetscMPIInt        rank;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_rank(sim->comm, &rank));
+  PetscCallMPI(MPI_Comm_rank(model->comm, &rank));
   if (place->error >= 0.0) {
-    PetscCall(DMGetGlobalSection(sim->dm, &global));
+    PetscCall(DMGetGlobalSection(model->dm, &global));
     PetscCall(PetscSectionGetOffset(global, place->vertex, &offset));
-    PetscCall(VecGetOwnershipRange(sim->places.x, &start, NULL));
-    PetscCall(VecGetArrayRead(sim->places.x, &x));
+    PetscCall(VecGetOwnershipRange(model->places.x, &start, NULL));
+    PetscCall(VecGetArrayRead(model->places.x, &x));
     for (PetscInt c = 0; c < 3; ++c) place->x[c] = PetscRealPart(x[offset - start + c]);
-    PetscCall(VecRestoreArrayRead(sim->places.x, &x));
+    PetscCall(VecRestoreArrayRead(model->places.x, &x));
     place->node = offset / 3;
   }
   worst.error = (double)place->error;
   worst.rank  = rank;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, sim->comm));
-  PetscCallMPI(MPI_Bcast(place, (PetscMPIInt)sizeof(*place), MPI_BYTE, worst.rank, sim->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &worst, 1, MPI_DOUBLE_INT, MPI_MAXLOC, model->comm));
+  PetscCallMPI(MPI_Bcast(place, (PetscMPIInt)sizeof(*place), MPI_BYTE, worst.rank, model->comm));
   PetscFunctionReturn(0);
 }
 
@@ -88,7 +88,7 @@ static PetscErrorCode PlaceShare(Simulation sim, GapPlace *place)
    Collective. Names pair, face and vertex at which the gap at at_u differs most from that of the solution, or which has
    slid off the opposite face. sentence: "; contact pair ...", empty if there is no such vertex.
 */
-PetscErrorCode ContactUpdateNamePlace(Simulation sim, const ContactSolution *sol, ContactLinearization at_u,
+PetscErrorCode ContactUpdateNamePlace(Model model, State state, const ContactSolution *sol, ContactLinearization at_u,
   PetscBool slid, size_t length, char sentence[])
 {
   const SceneContactPair *pair;
@@ -97,11 +97,11 @@ PetscErrorCode ContactUpdateNamePlace(Simulation sim, const ContactSolution *sol
 
   PetscFunctionBegin;
   sentence[0] = '\0';
-  PetscCall(PlaceFind(sim, sol, at_u, slid, &place));
-  PetscCall(PlaceShare(sim, &place));
+  PetscCall(PlaceFind(state, sol, at_u, slid, &place));
+  PetscCall(PlaceShare(model, &place));
   if (place.error < 0.0) PetscFunctionReturn(0);
-  pair = &sim->scene->pairs[place.pair];
-  PetscCall(ContactIsAtEdge(sim->contact, place.pair, place.node, &edge));
+  pair = &model->scene->pairs[place.pair];
+  PetscCall(ContactIsAtEdge(model->contact, place.pair, place.node, &edge));
   PetscCall(PetscSNPrintf(sentence, length, "; contact pair \"%s\", %s vertex (%g, %g, %g) %s face %s: %s", pair->name,
     slid ? "for example" : "the most at", (double)place.x[0], (double)place.x[1], (double)place.x[2],
     edge ? "on the edge of" : "inside", pair->nonmortar,
@@ -116,7 +116,7 @@ PetscErrorCode ContactUpdateNamePlace(Simulation sim, const ContactSolution *sol
 static PetscErrorCode PlaceFindDriven(const StepProblem *p, PetscReal allowed, GapPlace *place)
 {
   const PetscReal      rounding = 1e-12; /* of entries that are rounding errors, relative to the largest one */
-  ContactLinearization lin      = p->sim->solved->linearization;
+  ContactLinearization lin      = p->state->solved->linearization;
   PetscReal            largest;
   const PetscScalar   *g, *entry;
   Vec                  entries;
@@ -154,9 +154,9 @@ PetscErrorCode ContactUpdateReportDriven(const StepProblem *p, StepReport *repor
   if (report->converged || !p->J) PetscFunctionReturn(0);
   PetscCall(VecNorm(p->base, NORM_INFINITY, &size));
   PetscCall(PlaceFindDriven(p, part * size, &place));
-  PetscCall(PlaceShare(p->sim, &place));
+  PetscCall(PlaceShare(p->model, &place));
   if (place.error < 0.0) PetscFunctionReturn(0);
-  pair = &p->sim->scene->pairs[place.pair];
+  pair = &p->model->scene->pairs[place.pair];
   PetscCall(PetscSNPrintf(reason, sizeof(reason),
     "contact pair \"%s\": prescribed displacements press the vertex (%g, %g, %g) of face %s by %g into the other body, "
     "and no component of it is free to avoid that: prescribe the displacements of a face that does not touch %s, or "

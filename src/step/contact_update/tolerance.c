@@ -25,16 +25,15 @@
 PetscErrorCode ContactUpdateSetTolerance(StepProblem *p, PetscBool foreseen, PetscBool again, PetscBool end, Vec u,
   const StepReport *report)
 {
-  Simulation      sim   = p->sim;
-  const PetscBool slip  = (PetscBool) !!sim->solved->linearization->slip;
+  const PetscBool slip  = (PetscBool) !!p->state->solved->linearization->slip;
   const PetscReal first = slip ? 1e-2 : 1e-3, fraction = slip ? 0.3 : 0.1, slow = slip ? 0.5 : 0.1, strict = 0.1,
-                  fair = 0.5, before = p->tolerance, allowed = sim->control->tolerances.gap_change;
+                  fair = 0.5, before = p->tolerance, allowed = p->state->control->tolerances.gap_change;
   PetscReal size;
 
   PetscFunctionBegin;
   p->tolerance = 0.0;
-  if (end || sim->springs.weak || allowed < PETSC_SQRT_MACHINE_EPSILON ||
-      report->contact_updates + 1 >= sim->scene->contact_updates)
+  if (end || p->model->springs.weak || allowed < PETSC_SQRT_MACHINE_EPSILON ||
+      report->contact_updates + 1 >= p->model->scene->contact_updates)
     PetscFunctionReturn(0);
   p->tolerance = foreseen ? 0.0 : first;
   if (!report->contact_updates && !again) PetscFunctionReturn(0);

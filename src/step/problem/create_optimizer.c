@@ -34,7 +34,7 @@ static PetscErrorCode OptimizerSetTolerance(StepProblem *p, PetscBool ours, Tao 
   PetscCall(
     PetscOptionsGetEList(NULL, NULL, "-tao_ipfilter_subspace", uses, PETSC_STATIC_ARRAY_LENGTH(uses), &use, &given));
   interior       = (PetscBool)(!ours || (given && !use && !p->friction.T));
-  p->ended_early = (PetscBool)(p->tolerance > p->sim->control->tolerances.optimizer && !p->centre && !interior);
+  p->ended_early = (PetscBool)(p->tolerance > p->state->control->tolerances.optimizer && !p->centre && !interior);
   if (p->ended_early) PetscCall(TaoSetTolerances(tao, p->tolerance, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscFunctionReturn(0);
 }
@@ -43,17 +43,17 @@ static PetscErrorCode OptimizerSetTolerance(StepProblem *p, PetscBool ours, Tao 
    Tells the optimizer how large the rounding errors of a gap are, which are those of coordinates. Elastic bodies of
    small strain may move by less.
 */
-static PetscErrorCode OptimizerSetRounding(Simulation sim, Tao tao)
+static PetscErrorCode OptimizerSetRounding(Model model, Tao tao)
 {
   const PetscReal relative = 4.0 * PETSC_MACHINE_EPSILON;
   PetscReal       place;
   PetscBool       elastic = PETSC_FALSE;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < sim->scene->nbodies; ++b)
-    elastic = (PetscBool)(elastic || sim->scene->bodies[b].material.type != MATERIAL_RIGID);
-  if (sim->quadratic && elastic) PetscFunctionReturn(0);
-  PetscCall(VecNorm(sim->places.x, NORM_INFINITY, &place));
+  for (PetscInt b = 0; b < model->scene->nbodies; ++b)
+    elastic = (PetscBool)(elastic || model->scene->bodies[b].material.type != MATERIAL_RIGID);
+  if (model->quadratic && elastic) PetscFunctionReturn(0);
+  PetscCall(VecNorm(model->places.x, NORM_INFINITY, &place));
   PetscCall(TaoIPFilterSetRounding(tao, relative * place));
   PetscFunctionReturn(0);
 }
@@ -66,7 +66,7 @@ PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   Vec        c;
 
   PetscFunctionBegin;
-  PetscCall(TaoCreate(sim->comm, tao));
+  PetscCall(TaoCreate(p->model->comm, tao));
   PetscCall(TaoSetType(*tao, TAOIPFILTER));
   if (p->quadratic) {
     PetscCall(TaoSetObjectiveAndGradient(*tao, NULL, QuadraticObjectiveAndGradient, p));
@@ -75,37 +75,38 @@ PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
     PetscCall(TaoSetObjective(*tao, EnergyObjective, p));
     PetscCall(TaoSetObjectiveAndGradient(*tao, NULL, EnergyObjectiveAndGradient, p));
     PetscCall(TaoSetHessian(*tao, p->K, p->K, EnergyHessian, p));
-    if (!SimulationIsDynamic(sim)) PetscCall(TaoMonitorSet(*tao, EnergyTestFlow, p, NULL));
+    if (!ModelIsDynamic(p->model)) PetscCall(TaoMonitorSet(*tao, EnergyTestFlow, p, NULL));
   }
   if (p->J) {
     PetscCall(VecDuplicate(p->g, &c));
     PetscCall(TaoSetInequalityConstraintsRoutine(*tao, c, StepProblemConstraint, p));
     PetscCall(TaoSetJacobianInequalityRoutine(*tao, p->J, p->J, StepProblemConstant, p));
     PetscCall(VecDestroy(&c));
-    PetscCall(TaoIPFilterSetSlackMass(*tao, sim->solved->linearization->mass));
+    PetscCall(TaoIPFilterSetSlackMass(*tao, p->state->solved->linearization->mass));
   }
-  PetscCall(TaoIPFilterSetPrimalMass(*tao, sim->mass));
-  PetscCall(TaoSetTolerances(*tao, sim->control->tolerances.optimizer, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(TaoIPFilterSetPrimalMass(*tao, p->model->mass));
+  PetscCall(TaoSetTolerances(*tao, p->state->control->tolerances.optimizer, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(TaoSetFromOptions(*tao));
   PetscCall(OptimizerKnowBothNames());
-  PetscCall(TaoGetTolerances(*tao, &sim->control->tolerances.optimizer, NULL, NULL));
+  PetscCall(TaoGetTolerances(*tao, &p->state->control->tolerances.optimizer, NULL, NULL));
   PetscCall(PetscObjectTypeCompare((PetscObject)*tao, TAOIPFILTER, ours));
   PetscCall(OptimizerSetTolerance(p, *ours, *tao));
-  if (*ours && p->followed && !p->quadratic && !SimulationIsDynamic(sim))
+  if (*ours && p->followed && !p->quadratic && !ModelIsDynamic(p->model))
     PetscCall(TaoMonitorSet(*tao, FollowersTestLimit, p, NULL));
   if (!*ours && !p->lower)
     PetscCall(StepProblemSetBounds(p, PETSC_INFINITY)); /* TAOPDIPM of PETSc 3.18 reads the bounds even if there are
                                                            none */
   if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));
   PetscCall(TaoGetKSP(*tao, &ksp));
-  PetscCall(StiffnessSetModes(sim, ksp, p->K));
-  PetscCall(StiffnessGiveMotions(sim, *tao));
-  if (*ours && sim->solved->subspace) PetscCall(TaoIPFilterSetSubspace(*tao, sim->solved->subspace));
-  PetscCheck(*ours || !p->friction.T, sim->comm, PETSC_ERR_SUP,
+  PetscCall(StiffnessSetModes(p->model, ksp, p->K));
+  PetscCall(StiffnessGiveMotions(p->model, p->state, *tao));
+  if (*ours && p->state->solved->subspace) PetscCall(TaoIPFilterSetSubspace(*tao, p->state->solved->subspace));
+  PetscCheck(*ours || !p->friction.T, p->model->comm, PETSC_ERR_SUP,
     "friction needs -tao_type ipfilter; other optimizers do not support it");
-  PetscCall(OptimizerSetRounding(sim, *tao));
+  PetscCall(OptimizerSetRounding(p->model, *tao));
   PetscCall(TaoMonitorSet(*tao, InterruptMonitor, sim, NULL));
   PetscCall(TaoIPFilterSetInterrupt(*tao, InterruptCaught, NULL));
-  if (sim->control->observer.optimizer) PetscCall(TaoMonitorSet(*tao, sim->control->observer.optimizer, sim, NULL));
+  if (p->state->control->observer.optimizer)
+    PetscCall(TaoMonitorSet(*tao, p->state->control->observer.optimizer, sim, NULL));
   PetscFunctionReturn(0);
 }

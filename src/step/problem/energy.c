@@ -41,10 +41,10 @@ static PetscErrorCode EnergyGetState(StepProblem *p, Vec iterate, Vec *u)
 {
   PetscFunctionBegin;
   *u = iterate;
-  if (!p->sim->ties.C) PetscFunctionReturn(0);
+  if (!p->model->ties.C) PetscFunctionReturn(0);
   *u = p->w;
   PetscCall(VecCopy(iterate, *u));
-  PetscCall(TiesFollow(&p->sim->ties, *u));
+  PetscCall(TiesFollow(&p->model->ties, *u));
   PetscFunctionReturn(0);
 }
 
@@ -55,11 +55,11 @@ static PetscErrorCode EnergyGet(StepProblem *p, Vec u, PetscReal *f)
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Energy, NULL, NULL, NULL, NULL));
-  PetscCall(ElasticityEnergy(p->sim->elasticity, u, f));
+  PetscCall(ElasticityEnergy(p->model->elasticity, u, f));
   PetscCall(PetscLogEventEnd(SIM_Energy, NULL, NULL, NULL, NULL));
   if (p->load) PetscCall(VecDot(p->load, u, &work));
   if (EnergyIsFinite(*f)) PetscCall(ProximalAdd(p, u, f, NULL));
-  if (EnergyIsFinite(*f)) PetscCall(SchemeAddForce(&p->sim->dynamics, u, f, NULL));
+  if (EnergyIsFinite(*f)) PetscCall(SchemeAddForce(&p->model->dynamics, u, f, NULL));
   if (EnergyIsFinite(*f)) PetscCall(FollowersSubtract(p, u, f, NULL));
   *f = EnergyIsFinite(*f) ? *f - PetscRealPart(work) : INFINITY;
   PetscFunctionReturn(0);
@@ -72,21 +72,21 @@ PetscErrorCode EnergyGetGradient(StepProblem *p, Vec u, Vec G)
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Energy, NULL, NULL, NULL, NULL));
-  PetscCall(ElasticityForce(p->sim->elasticity, u, G));
+  PetscCall(ElasticityForce(p->model->elasticity, u, G));
   PetscCall(PetscLogEventEnd(SIM_Energy, NULL, NULL, NULL, NULL));
   if (p->load) PetscCall(VecAXPY(G, -1.0, p->load));
   PetscCall(FollowersSubtract(p, u, &energy, G));
-  PetscCall(SchemeAddForce(&p->sim->dynamics, u, &energy, G));
-  PetscCall(TiesGather(&p->sim->ties, G));
+  PetscCall(SchemeAddForce(&p->model->dynamics, u, &energy, G));
+  PetscCall(TiesGather(&p->model->ties, G));
   PetscCall(ProximalAdd(p, u, &energy, G));
-  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, G));
+  PetscCall(PrescribedSet(&p->model->prescribed, 0.0, G));
   PetscFunctionReturn(0);
 }
 
 /* Assembles the tangent H at the displacement u */
 PetscErrorCode EnergyGetTangent(StepProblem *p, Vec u, Mat H)
 {
-  const Constraints constraints = SimulationConstraints(p->sim);
+  const Constraints constraints = ModelConstraints(p->model);
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Energy, NULL, NULL, NULL, NULL));
@@ -138,9 +138,9 @@ PetscErrorCode EnergyHessian(Tao tao, Vec iterate, Mat H, Mat Hpre, void *ctx)
   (void)Hpre;
   PetscCall(TaoGetSolutionStatus(tao, &its, NULL, &error, NULL, &length, NULL));
   PetscCall(EnergyGetState(p, iterate, &u));
-  ElasticitySetSecant(p->sim->elasticity, its && length < most && error > far ? secant : 0.0);
+  ElasticitySetSecant(p->model->elasticity, its && length < most && error > far ? secant : 0.0);
   PetscCall(EnergyGetTangent(p, u, H));
-  ElasticitySetSecant(p->sim->elasticity, 0.0);
+  ElasticitySetSecant(p->model->elasticity, 0.0);
   PetscFunctionReturn(0);
 }
 
@@ -167,13 +167,13 @@ PetscErrorCode EnergyTestFlow(Tao tao, void *ctx)
   if (reason != TAO_CONTINUE_ITERATING) PetscFunctionReturn(0);
   PetscCall(TaoGetSolution(tao, &iterate));
   PetscCall(EnergyGetState(p, iterate, &u));
-  PetscCall(ElasticityPlasticFlow(p->sim->elasticity, u, &stored, &work, &body));
+  PetscCall(ElasticityPlasticFlow(p->model->elasticity, u, &stored, &work, &body));
   if (!(work > multiple * stored)) PetscFunctionReturn(0);
-  PetscCall(VecEqual(p->base, p->sim->path->u, &still));
+  PetscCall(VecEqual(p->base, p->state->path->u, &still));
   PetscCall(EnergyObjective(tao, iterate, &f, p));
-  PetscCall(EnergyObjective(tao, p->sim->path->u, &rest, p));
+  PetscCall(EnergyObjective(tao, p->state->path->u, &rest, p));
   if (!still || !(f < rest) || ++p->nflows < patience) PetscFunctionReturn(0);
-  p->flowing = p->sim->scene->bodies[body].name;
+  p->flowing = p->model->scene->bodies[body].name;
   PetscCall(TaoSetConvergedReason(tao, TAO_DIVERGED_USER));
   PetscFunctionReturn(0);
 }

@@ -29,24 +29,23 @@ static PetscBool FollowersAny(Scene scene)
 */
 static PetscErrorCode FollowersGet(const StepProblem *p, Vec u, Vec *load, Mat slope)
 {
-  Simulation        sim         = p->sim;
-  const Constraints constraints = SimulationConstraints(sim);
+  const Constraints constraints = ModelConstraints(p->model);
 
   PetscFunctionBegin;
-  PetscCall(DeadLoadsGet(&sim->loads, p->time, load));
+  PetscCall(DeadLoadsGet(&p->model->loads, p->time, load));
   PetscCall(RigidTurnLoads(&constraints, 1.0, p->time, *load));
   if (!*load) {
     PetscCall(VecDuplicate(u, load));
     PetscCall(VecZeroEntries(*load));
   }
   if (slope) PetscCall(MatZeroEntries(slope));
-  for (PetscInt i = 0; i < sim->scene->npressures; ++i) {
-    const ScenePressure *pressure = &sim->scene->pressures[i];
+  for (PetscInt i = 0; i < p->model->scene->npressures; ++i) {
+    const ScenePressure *pressure = &p->model->scene->pressures[i];
     PetscReal            factor;
 
     if (!pressure->follows) continue;
-    PetscCall(SceneGetFactor(sim->scene, pressure->ramp, p->time, &factor));
-    PetscCall(ElasticityAddFollower(sim->elasticity, pressure->face, factor * pressure->value, u, *load, slope));
+    PetscCall(SceneGetFactor(p->model->scene, pressure->ramp, p->time, &factor));
+    PetscCall(ElasticityAddFollower(p->model->elasticity, pressure->face, factor * pressure->value, u, *load, slope));
   }
   if (!slope) PetscFunctionReturn(0);
   PetscCall(MatAssemblyBegin(slope, MAT_FINAL_ASSEMBLY));
@@ -59,18 +58,16 @@ static PetscErrorCode FollowersLinearize(StepProblem *p)
 {
   PetscFunctionBegin;
   PetscCall(VecDestroy(&p->load));
-  PetscCall(FollowersGet(p, p->followed, &p->load, p->sim->follows));
+  PetscCall(FollowersGet(p, p->followed, &p->load, p->model->follows));
   PetscFunctionReturn(0);
 }
 
 /* Replaces the dead loads of the problem by the loads linearized at p->base if any pressure follows its face. */
 PetscErrorCode FollowersBegin(StepProblem *p)
 {
-  Simulation sim = p->sim;
-
   PetscFunctionBegin;
-  if (!FollowersAny(sim->scene)) PetscFunctionReturn(0);
-  if (!sim->follows) PetscCall(ElasticityCreateTangent(sim->elasticity, &sim->follows));
+  if (!FollowersAny(p->model->scene)) PetscFunctionReturn(0);
+  if (!p->model->follows) PetscCall(ElasticityCreateTangent(p->model->elasticity, &p->model->follows));
   PetscCall(VecDuplicate(p->base, &p->followed));
   PetscCall(VecCopy(p->base, p->followed));
   PetscCall(FollowersLinearize(p));
@@ -101,7 +98,7 @@ PetscErrorCode FollowersForget(StepProblem *p)
 PetscErrorCode FollowersSubtract(const StepProblem *p, Vec u, PetscReal *energy, Vec force)
 {
   PetscFunctionBegin;
-  if (p->followed) PetscCall(CentredAdd(-1.0, p->sim->follows, NULL, p->followed, u, energy, force));
+  if (p->followed) PetscCall(CentredAdd(-1.0, p->model->follows, NULL, p->followed, u, energy, force));
   PetscFunctionReturn(0);
 }
 
@@ -142,7 +139,7 @@ PetscErrorCode FollowersReportLimit(const StepProblem *p, StepReport *report)
     "no equilibrium was found at time %g: the pressures that follow their faces seem to exceed a limit load, because "
     "the stiffness stays indefinite while the bodies move on; the last equilibrium is at time %g; prescribe "
     "displacements in place of the pressures to pass the limit",
-    (double)p->time, (double)p->sim->path->time));
+    (double)p->time, (double)p->state->path->time));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }
@@ -154,7 +151,7 @@ PetscErrorCode FollowersReportLimit(const StepProblem *p, StepReport *report)
 */
 PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepReport *report, PetscBool *again)
 {
-  const PetscReal tolerance = PetscMax(1e-3 * p->sim->control->tolerances.optimizer, 1e-12);
+  const PetscReal tolerance = PetscMax(1e-3 * p->state->control->tolerances.optimizer, 1e-12);
   PetscReal       off, size, energy = 0.0;
   PetscBool       damped;
   Vec             linear, load;
@@ -166,7 +163,7 @@ PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepRep
   PetscCall(VecCopy(load, linear));
   PetscCall(VecAXPY(linear, -1.0, p->load));
   PetscCall(FollowersSubtract(p, u, &energy, linear));
-  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, linear));
+  PetscCall(PrescribedSet(&p->model->prescribed, 0.0, linear));
   PetscCall(VecNorm(linear, NORM_2, &off));
   PetscCall(VecNorm(load, NORM_2, &size));
   PetscCall(VecDestroy(&linear));
@@ -194,11 +191,11 @@ PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepRep
 PetscErrorCode FollowersForesee(StepProblem *p)
 {
   PetscFunctionBegin;
-  if (!p->sim->dynamics.residual || p->sim->quadratic) PetscFunctionReturn(0);
+  if (!p->model->dynamics.residual || p->model->quadratic) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(p->base, &p->meant));
-  if (p->sim->contact) PetscCall(VecCopy(p->sim->path->u, p->meant));
-  else PetscCall(PathContinue(p->sim, p->time, p->meant));
-  PetscCall(InertiaSetExcess(p->sim, p->meant));
+  if (p->model->contact) PetscCall(VecCopy(p->state->path->u, p->meant));
+  else PetscCall(PathContinue(p->model, p->state, p->time, p->meant));
+  PetscCall(InertiaSetExcess(p->model, p->state, p->meant));
   PetscFunctionReturn(0);
 }
 
@@ -209,7 +206,6 @@ PetscErrorCode FollowersForesee(StepProblem *p)
 */
 PetscErrorCode FollowersAdvanceMean(StepProblem *p, Vec u, PetscInt nsolves, StepReport *report, PetscBool *again)
 {
-  Simulation      sim       = p->sim;
   const PetscReal tolerance = 1e-4; /* relative; the error of the energy is of second order in this change */
   const PetscInt  most      = 15;
   PetscReal       size, change;
@@ -218,11 +214,11 @@ PetscErrorCode FollowersAdvanceMean(StepProblem *p, Vec u, PetscInt nsolves, Ste
   PetscFunctionBegin;
   if (!p->meant || !report->converged) PetscFunctionReturn(0);
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
-  PetscCall(InertiaMeasureExcess(sim, u, MEASURE_ROUNDING * sim->stiffness * size, &change));
+  PetscCall(InertiaMeasureExcess(p->model, p->state, u, MEASURE_ROUNDING * p->model->stiffness * size, &change));
   if (change <= tolerance) PetscFunctionReturn(0);
   if (nsolves < most) {
     PetscCall(AndersonAdvance(&p->mean_secants, change, u, p->meant, &damped));
-    PetscCall(InertiaSetExcess(sim, p->meant));
+    PetscCall(InertiaSetExcess(p->model, p->state, p->meant));
     *again = (PetscBool)(*again || !p->ended_early);
   } else
     PetscCall(ReportReason(report, PETSC_FALSE,

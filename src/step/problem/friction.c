@@ -19,7 +19,7 @@
 static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearization lin)
 {
   const PetscReal    share = StepProblemShare(p);
-  Scene              scene = p->sim->scene;
+  Scene              scene = p->model->scene;
   const PetscScalar *mass;
   PetscScalar       *limit, *coefficient;
 
@@ -34,7 +34,7 @@ static PetscErrorCode FrictionSetCoefficients(StepProblem *p, ContactLinearizati
     PetscCall(FrictionGetCoefficient(scene, p->time, lin->pair[r], &mu));
     limit[r] = pair->shear_limit < PETSC_INFINITY ? pair->shear_limit * PetscRealPart(mass[r]) / share : PETSC_INFINITY;
     coefficient[r] = mu;
-    if (p->sim->history->released[ContactHistoryIndex(p->sim->history, lin, r)]) coefficient[r] = 0.0;
+    if (p->state->history->released[ContactHistoryIndex(p->state->history, lin, r)]) coefficient[r] = 0.0;
   }
   PetscCall(VecRestoreArrayWrite(p->friction.coefficient, &coefficient));
   PetscCall(VecRestoreArrayWrite(p->friction.limit, &limit));
@@ -62,7 +62,7 @@ static PetscErrorCode FrictionAddShift(const ContactHistory *m, ContactLineariza
 */
 PetscErrorCode FrictionSetUp(StepProblem *p, ContactLinearization lin, Vec u_linearized, Vec mask)
 {
-  const Bodies  bodies = SimulationBodies(p->sim);
+  const Bodies  bodies = ModelBodies(p->model);
   StepFriction *f      = &p->friction;
   PetscBool     turned;
   Vec           moved;
@@ -70,19 +70,19 @@ PetscErrorCode FrictionSetUp(StepProblem *p, ContactLinearization lin, Vec u_lin
   PetscFunctionBegin;
   PetscCall(FrictionDestroy(f));
   if (!lin->slip) PetscFunctionReturn(0);
-  if (p->sim->ties.C) PetscCall(MatMatMult(lin->slip, p->sim->ties.C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &f->T));
+  if (p->model->ties.C) PetscCall(MatMatMult(lin->slip, p->model->ties.C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &f->T));
   else PetscCall(MatDuplicate(lin->slip, MAT_COPY_VALUES, &f->T));
   PetscCall(MatDiagonalScale(f->T, NULL, mask));
   PetscCall(MatCreateVecs(f->T, NULL, &f->t));
   PetscCall(VecDuplicate(f->t, &moved));
-  PetscCall(VecWAXPY(p->w, -1.0, p->sim->path->u, p->base));
+  PetscCall(VecWAXPY(p->w, -1.0, p->state->path->u, p->base));
   PetscCall(MatMult(lin->slip, p->w, f->t));
   PetscCall(MatMult(f->T, p->base, moved));
   PetscCall(VecAXPY(f->t, -1.0, moved));
-  PetscCall(ArcsGetExcess(&bodies, p->sim->path->u, u_linearized, p->w, &turned));
+  PetscCall(ArcsGetExcess(&bodies, p->state->path->u, u_linearized, p->w, &turned));
   if (turned) PetscCall(MatMultAdd(lin->slip, p->w, f->t, f->t));
   PetscCall(VecDestroy(&moved));
-  PetscCall(FrictionAddShift(p->sim->history, lin, -1.0, f->t));
+  PetscCall(FrictionAddShift(p->state->history, lin, -1.0, f->t));
   PetscCall(VecDuplicate(f->t, &f->t_given));
   PetscCall(VecCopy(f->t, f->t_given));
   PetscCall(VecDuplicate(lin->g, &f->limit));
@@ -122,8 +122,8 @@ PetscErrorCode FrictionDestroy(StepFriction *f)
 /* Passes the friction laws to the optimizer, and the stored forces times `scale` as a start. */
 PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
 {
-  ContactLinearization  lin = p->sim->solved->linearization;
-  const ContactHistory *m   = p->sim->history;
+  ContactLinearization  lin = p->state->solved->linearization;
+  const ContactHistory *m   = p->state->history;
   PetscScalar          *f;
   Vec                   force;
 
@@ -150,7 +150,7 @@ PetscErrorCode FrictionGive(StepProblem *p, Tao tao, PetscReal scale)
 /* Makes all vertices stick where they are, at the beginning of a load step */
 PetscErrorCode FrictionRestart(StepProblem *p)
 {
-  ContactHistory *m = p->sim->history;
+  ContactHistory *m = p->state->history;
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(m->released, m->npairs * m->nowned));
@@ -164,8 +164,8 @@ PetscErrorCode FrictionRestart(StepProblem *p)
 */
 static PetscErrorCode FrictionKeepReleased(StepProblem *p)
 {
-  ContactLinearization lin = p->sim->solved->linearization;
-  ContactHistory      *m   = p->sim->history;
+  ContactLinearization lin = p->state->solved->linearization;
+  ContactHistory      *m   = p->state->history;
   const PetscScalar   *coefficient, *t, *given;
 
   PetscFunctionBegin;
@@ -183,7 +183,7 @@ static PetscErrorCode FrictionKeepReleased(StepProblem *p)
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
     PetscReal mu = 0.0;
 
-    PetscCall(FrictionGetCoefficient(p->sim->scene, p->time, lin->pair[r], &mu));
+    PetscCall(FrictionGetCoefficient(p->model->scene, p->time, lin->pair[r], &mu));
     if (mu > 0.0 && PetscRealPart(coefficient[r]) == 0.0) m->released[ContactHistoryIndex(m, lin, r)] = PETSC_TRUE;
   }
   PetscCall(VecRestoreArrayRead(p->friction.coefficient, &coefficient));
@@ -196,8 +196,8 @@ static PetscErrorCode FrictionKeepReleased(StepProblem *p)
 */
 PetscErrorCode FrictionReleaseOpen(StepProblem *p)
 {
-  ContactLinearization lin = p->sim->solved->linearization;
-  ContactHistory      *m   = p->sim->history;
+  ContactLinearization lin = p->state->solved->linearization;
+  ContactHistory      *m   = p->state->history;
 
   PetscFunctionBegin;
   if (!p->friction.T) PetscFunctionReturn(0);
@@ -205,7 +205,7 @@ PetscErrorCode FrictionReleaseOpen(StepProblem *p)
     const PetscInt i  = ContactHistoryIndex(m, lin, r);
     PetscReal      mu = 0.0;
 
-    PetscCall(FrictionGetCoefficient(p->sim->scene, p->time, lin->pair[r], &mu));
+    PetscCall(FrictionGetCoefficient(p->model->scene, p->time, lin->pair[r], &mu));
     if (mu >= PETSC_INFINITY && (m->open[i] || !(m->pressure[i] > 0.0))) m->released[i] = PETSC_TRUE;
   }
   PetscFunctionReturn(0);
@@ -214,8 +214,8 @@ PetscErrorCode FrictionReleaseOpen(StepProblem *p)
 /* Stores friction forces and slips of the solution u in sol, and the forces in the contact history. */
 PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol)
 {
-  ContactLinearization lin = p->sim->solved->linearization;
-  ContactHistory      *m   = p->sim->history;
+  ContactLinearization lin = p->state->solved->linearization;
+  ContactHistory      *m   = p->state->history;
   const PetscScalar   *f;
   Vec                  force;
 
@@ -242,7 +242,7 @@ PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol
 /* Stores slips at u, and that there are no friction forces */
 PetscErrorCode FrictionKeepNone(const StepProblem *p, Vec u, ContactSolution *sol)
 {
-  ContactHistory *m = p->sim->history;
+  ContactHistory *m = p->state->history;
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(m->shear, 3 * m->npairs * m->nowned));

@@ -7,7 +7,7 @@
 #include "src/state/path.h"
 
 /* Sets `mark` to 1 at the given displacement component of all nodes of the pair's mortar face, and to 0 elsewhere. */
-static PetscErrorCode InterferenceMark(Simulation sim, PetscInt pair, PetscInt component, Vec mark)
+static PetscErrorCode InterferenceMark(Model model, PetscInt pair, PetscInt component, Vec mark)
 {
   IS              is;
   const PetscInt *rows;
@@ -15,7 +15,7 @@ static PetscErrorCode InterferenceMark(Simulation sim, PetscInt pair, PetscInt c
 
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(mark));
-  PetscCall(MeshGetFaceDofs(sim->dm, sim->scene->pairs[pair].mortar, component, &is));
+  PetscCall(MeshGetFaceDofs(model->dm, model->scene->pairs[pair].mortar, component, &is));
   PetscCall(ISGetLocalSize(is, &n));
   PetscCall(ISGetIndices(is, &rows));
   for (PetscInt k = 0; k < n; ++k) PetscCall(VecSetValue(mark, rows[k], 1.0, INSERT_VALUES));
@@ -30,7 +30,8 @@ static PetscErrorCode InterferenceMark(Simulation sim, PetscInt pair, PetscInt c
    Increases the gap in the pair's rows as a rigid translation of the mortar face by `distance` along the normal of each
    row would.
 */
-static PetscErrorCode InterferenceStandOff(Simulation sim, PetscInt pair, PetscReal distance, ContactLinearization lin)
+static PetscErrorCode InterferenceStandOff(Model model, State state, PetscInt pair, PetscReal distance,
+  ContactLinearization lin)
 {
   PetscScalar       *g;
   const PetscScalar *v;
@@ -38,11 +39,11 @@ static PetscErrorCode InterferenceStandOff(Simulation sim, PetscInt pair, PetscR
   Vec                mark, moved;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(sim->path->u, &mark));
+  PetscCall(VecDuplicate(state->path->u, &mark));
   PetscCall(VecDuplicate(lin->g, &moved));
   PetscCall(PetscCalloc1(lin->nlocal, &size));
   for (PetscInt c = 0; c < 3; ++c) {
-    PetscCall(InterferenceMark(sim, pair, c, mark));
+    PetscCall(InterferenceMark(model, pair, c, mark));
     PetscCall(MatMult(lin->J, mark, moved));
     PetscCall(VecGetArrayRead(moved, &v));
     for (PetscInt r = 0; r < lin->nlocal; ++r) size[r] += PetscSqr(PetscRealPart(v[r]));
@@ -63,16 +64,17 @@ static PetscErrorCode InterferenceStandOff(Simulation sim, PetscInt pair, PetscR
    Adds to the gaps of lin `times` the part of the initial overlaps that their ramps have not yet applied at `time`.
    times: 1, or -1 to subtract this part again.
 */
-PetscErrorCode InterferenceAdd(Simulation sim, PetscReal time, PetscReal times, ContactLinearization lin)
+PetscErrorCode InterferenceAdd(Model model, State state, PetscReal time, PetscReal times, ContactLinearization lin)
 {
   PetscFunctionBegin;
-  for (PetscInt p = 0; p < sim->scene->npairs; ++p) {
-    const SceneContactPair *pair   = &sim->scene->pairs[p];
+  for (PetscInt p = 0; p < model->scene->npairs; ++p) {
+    const SceneContactPair *pair   = &model->scene->pairs[p];
     PetscReal               factor = 1.0;
 
     if (pair->interference_ramp >= 0 && pair->interference > 0.0 && pair->interference < PETSC_INFINITY)
-      PetscCall(SceneGetFactor(sim->scene, pair->interference_ramp, time, &factor));
-    if (factor != 1.0) PetscCall(InterferenceStandOff(sim, p, times * (1.0 - factor) * pair->interference, lin));
+      PetscCall(SceneGetFactor(model->scene, pair->interference_ramp, time, &factor));
+    if (factor != 1.0)
+      PetscCall(InterferenceStandOff(model, state, p, times * (1.0 - factor) * pair->interference, lin));
   }
   PetscFunctionReturn(0);
 }

@@ -5,22 +5,22 @@
 #include "src/state/path.h"
 
 /* Creates the solver of load steps without contact: CG preconditioned by AMG, or by a factorization */
-static PetscErrorCode LinearCreateKSP(Simulation sim, KSP *ksp)
+static PetscErrorCode LinearCreateKSP(Model model, State state, KSP *ksp)
 {
   PC pc;
 
   PetscFunctionBegin;
-  PetscCall(KSPCreate(sim->comm, ksp));
+  PetscCall(KSPCreate(model->comm, ksp));
   PetscCall(KSPSetOptionsPrefix(*ksp, "elasticity_"));
   PetscCall(KSPSetType(*ksp, KSPCG));
-  PetscCall(KSPSetTolerances(*ksp, sim->control->tolerances.linear, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(KSPSetTolerances(*ksp, state->control->tolerances.linear, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(KSPGetPC(*ksp, &pc));
   PetscCall(PCSetType(pc, PCAMGF));
   PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
   PetscCall(PCAMGFSetFactor(pc, PC_AMGF_FACTOR_AUTO));
   PetscCall(KSPSetFromOptions(*ksp));
-  PetscCall(StiffnessSetModes(sim, *ksp, sim->K));
-  PetscCall(KSPSetOperators(*ksp, sim->K, sim->K));
+  PetscCall(StiffnessSetModes(model, *ksp, model->K));
+  PetscCall(KSPSetOperators(*ksp, model->K, model->K));
   PetscFunctionReturn(0);
 }
 
@@ -31,15 +31,15 @@ static PetscErrorCode LinearGetKSP(Simulation sim, KSP *ksp)
   PC        pc;
 
   PetscFunctionBegin;
-  if (!sim->control->ksp) {
-    PetscCall(LinearCreateKSP(sim, &sim->control->ksp));
-    PetscCall(KSPGetTolerances(sim->control->ksp, &sim->control->tolerances.linear, NULL, NULL, NULL));
-    if (sim->control->observer.linear)
-      PetscCall(KSPMonitorSet(sim->control->ksp, sim->control->observer.linear, sim, NULL));
+  if (!sim->state->control->ksp) {
+    PetscCall(LinearCreateKSP(sim->model, sim->state, &sim->state->control->ksp));
+    PetscCall(KSPGetTolerances(sim->state->control->ksp, &sim->state->control->tolerances.linear, NULL, NULL, NULL));
+    if (sim->state->control->observer.linear)
+      PetscCall(KSPMonitorSet(sim->state->control->ksp, sim->state->control->observer.linear, sim, NULL));
   }
-  PetscCall(KSPGetPC(sim->control->ksp, &pc));
+  PetscCall(KSPGetPC(sim->state->control->ksp, &pc));
   PetscCall(PCAMGFReconsiderFactor(pc, &changed));
-  *ksp = sim->control->ksp;
+  *ksp = sim->state->control->ksp;
   PetscFunctionReturn(0);
 }
 
@@ -60,8 +60,8 @@ PetscErrorCode LinearSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *
   PetscCall(LinearGetKSP(p->sim, &ksp));
   PetscCall(ReportGetCounts(ksp, &before));
   PetscCall(PetscTime(&t0));
-  if (SimulationIsDynamic(p->sim) && !resume) {
-    PetscCall(PathContinue(p->sim, p->time, u));
+  if (ModelIsDynamic(p->model) && !resume) {
+    PetscCall(PathContinue(p->model, p->state, p->time, u));
     resume = PETSC_TRUE;
   }
   if (resume) PetscCall(VecWAXPY(p->w, -1.0, u, p->base));

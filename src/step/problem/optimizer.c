@@ -76,7 +76,7 @@ static PetscErrorCode OptimizerReport(StepProblem *p, Tao tao, PetscBool ours, c
   PetscCall(ReportReason(report, (PetscBool)(reason > 0), sentence ? sentence : TaoConvergedReasons[reason]));
   if (reason < 0 && p->flowing) PetscCall(ProximalReportFlow(p, report));
   else if (reason < 0 && p->beyond_limit) PetscCall(FollowersReportLimit(p, report));
-  else if (reason < 0 && !p->sim->control->interrupted) PetscCall(OptimizerDiagnose(p, report));
+  else if (reason < 0 && !p->state->control->interrupted) PetscCall(OptimizerDiagnose(p, report));
   PetscCall(TaoGetIterationNumber(tao, &n));
   report->ip_iterations += n;
   if (ours) PetscCall(OptimizerReportOurs(tao, before, report));
@@ -90,34 +90,34 @@ static PetscErrorCode OptimizerReport(StepProblem *p, Tao tao, PetscBool ours, c
 
 static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ours, Vec u, ContactSolution *sol)
 {
-  ContactLinearization lin   = p->sim->solved->linearization;
+  ContactLinearization lin   = p->state->solved->linearization;
   Vec                  slack = NULL, multipliers;
 
   PetscFunctionBegin;
   PetscCall(ContactSolutionCreate(lin->g, sol));
   PetscCall(StepProblemConstraint(tao, u, sol->gap, p));
   PetscCall(TaoGetDualVariables(tao, NULL, &multipliers));
-  PetscCheck(multipliers, p->sim->comm, PETSC_ERR_SUP,
+  PetscCheck(multipliers, p->model->comm, PETSC_ERR_SUP,
     "the optimizer of -tao_type gives no multipliers, so contact pressures are unknown");
   PetscCall(VecPointwiseDivide(sol->pressure, multipliers, lin->mass));
   PetscCall(VecScale(sol->pressure, StepProblemShare(p)));
   PetscCall(FrictionKeep(p, tao, u, sol));
   if (ours) PetscCall(TaoIPFilterGetSlack(tao, &slack));
-  PetscCall(ContactHistoryStore(p->sim->history, lin, sol, slack ? slack : sol->gap,
-    p->sim->stiffness)); /* `slack` is NULL if there are no rows, or for another optimizer than TAOIPFILTER */
+  PetscCall(ContactHistoryStore(p->state->history, lin, sol, slack ? slack : sol->gap,
+    p->model->stiffness)); /* `slack` is NULL if there are no rows, or for another optimizer than TAOIPFILTER */
   PetscFunctionReturn(0);
 }
 
 /* Stores the subspace of this solve, so that the next solve with the same stiffness can reuse it. */
-static PetscErrorCode OptimizerKeepSubspace(Simulation sim, Tao tao)
+static PetscErrorCode OptimizerKeepSubspace(State state, Tao tao)
 {
   PetscContainer space;
 
   PetscFunctionBegin;
   PetscCall(TaoIPFilterGetSubspace(tao, &space));
   PetscCall(PetscObjectReference((PetscObject)space));
-  PetscCall(PetscContainerDestroy(&sim->solved->subspace));
-  sim->solved->subspace = space;
+  PetscCall(PetscContainerDestroy(&state->solved->subspace));
+  state->solved->subspace = space;
   PetscFunctionReturn(0);
 }
 
@@ -141,7 +141,6 @@ static PetscErrorCode OptimizerGetCounts(Tao tao, PCAMGFCounts *counts)
 */
 PetscErrorCode OptimizerSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *report, ContactSolution *sol)
 {
-  Simulation     sim = p->sim;
   Tao            tao;
   PetscBool      ours, valid;
   PCAMGFCounts   before;
@@ -153,15 +152,15 @@ PetscErrorCode OptimizerSolve(StepProblem *p, PetscBool resume, Vec u, StepRepor
   if (valid) {
     PetscCall(TaoSetSolution(tao, u));
     PetscCall(OptimizerGetCounts(tao, &before));
-    PetscCall(DMClearGlobalVectors(sim->dm)); /* frees memory for the set-up of AMG */
-    PetscCall(DMClearLocalVectors(sim->dm));
+    PetscCall(DMClearGlobalVectors(p->model->dm)); /* frees memory for the set-up of AMG */
+    PetscCall(DMClearLocalVectors(p->model->dm));
     PetscCall(PetscTime(&t0));
     PetscCall(TaoSolve(tao));
     PetscCall(PetscTime(&t1));
     report->solve_time += t1 - t0;
     PetscCall(OptimizerReport(p, tao, ours, &before, u, report));
-    if (sim->control->interrupted) PetscCall(InterruptReport(sim, report));
-    if (ours) PetscCall(OptimizerKeepSubspace(sim, tao));
+    if (p->state->control->interrupted) PetscCall(InterruptReport(p->state, report));
+    if (ours) PetscCall(OptimizerKeepSubspace(p->state, tao));
     if (p->J && report->converged) PetscCall(OptimizerKeepContact(p, tao, ours, u, sol));
   } else PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));
   PetscCall(TaoDestroy(&tao));

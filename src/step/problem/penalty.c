@@ -136,7 +136,7 @@ static PetscErrorCode PenaltyConverged(SNES snes, PetscInt it, PetscReal xnorm, 
   if (it > 0 && it <= PENALTY_MAX_NEWTON)
     PetscCall(KSPGetIterationNumber(ksp, &penalty->iterations[penalty->niterations++]));
   PetscCall(SNESConvergedDefault(snes, it, xnorm, gnorm, fnorm, reason, NULL));
-  PetscCall(InterruptTest(penalty->p->sim, &stop));
+  PetscCall(InterruptTest(penalty->p->model, penalty->p->state, &stop));
   if (stop && !*reason)
     *reason = SNES_DIVERGED_FUNCTION_NANORINF; /* SNES has no reason for a signal; InterruptReport() reports the
                                                   signal */
@@ -151,8 +151,8 @@ static PetscErrorCode PenaltyCreate(StepProblem *p, Penalty *penalty)
   PetscCall(VecDuplicate(p->g, &penalty->c));
   PetscCall(VecDuplicate(p->g, &penalty->stiffness));
   PetscCall(VecDuplicate(p->g, &penalty->force));
-  PetscCall(PenaltyStiffness(p->J, p->K, p->sim->control->penalty, penalty->stiffness));
-  PetscCall(StiffnessGetWhole(p->sim, MATAIJ, &penalty->K));
+  PetscCall(PenaltyStiffness(p->J, p->K, p->state->control->penalty, penalty->stiffness));
+  PetscCall(StiffnessGetWhole(p->model, MATAIJ, &penalty->K));
   PetscCall(MatDuplicate(p->J, MAT_COPY_VALUES, &penalty->DJ));
   PetscCall(PenaltyProduct(penalty, p->base));
   PetscCall(MatDuplicate(penalty->K, MAT_COPY_VALUES, &penalty->A));
@@ -186,7 +186,7 @@ static PetscErrorCode PenaltyCreateSNES(Penalty *penalty, SNES *snes)
   PC             pc;
 
   PetscFunctionBegin;
-  PetscCall(SNESCreate(penalty->p->sim->comm, snes));
+  PetscCall(SNESCreate(penalty->p->model->comm, snes));
   PetscCall(SNESSetOptionsPrefix(*snes, "penalty_"));
   PetscCall(SNESSetFunction(*snes, NULL, PenaltyGradient, penalty));
   PetscCall(SNESSetJacobian(*snes, penalty->A, penalty->A, PenaltyHessian, penalty));
@@ -202,7 +202,7 @@ static PetscErrorCode PenaltyCreateSNES(Penalty *penalty, SNES *snes)
   PetscCall(PCSetType(pc, PCAMGF));
   PetscCall(PCAMGFSetFilterOptional(pc, PETSC_TRUE));
   PetscCall(SNESSetFromOptions(*snes));
-  PetscCall(StiffnessSetModes(penalty->p->sim, ksp, penalty->A));
+  PetscCall(StiffnessSetModes(penalty->p->model, ksp, penalty->A));
   PetscFunctionReturn(0);
 }
 
@@ -217,7 +217,7 @@ static PetscErrorCode PenaltyReport(Penalty *penalty, SNES snes, Vec u, StepRepo
   PetscFunctionBegin;
   PetscCall(SNESGetConvergedReason(snes, &reason));
   PetscCall(ReportReason(report, (PetscBool)(reason > 0), SNESConvergedReasons[reason]));
-  if (penalty->p->sim->control->interrupted) PetscCall(InterruptReport(penalty->p->sim, report));
+  if (penalty->p->state->control->interrupted) PetscCall(InterruptReport(penalty->p->state, report));
   PetscCall(ReportIterations(report, penalty->niterations, penalty->iterations));
   report->ip_iterations += penalty->niterations;
   report->systems += penalty->niterations;
@@ -236,13 +236,12 @@ static PetscErrorCode PenaltyReport(Penalty *penalty, SNES snes, Vec u, StepRepo
 /* Stores gaps and pressures at u, which follow from the contact forces of the penalty method. */
 static PetscErrorCode PenaltyKeepContact(Penalty *penalty, ContactSolution *sol)
 {
-  Simulation sim = penalty->p->sim;
-
   PetscFunctionBegin;
   PetscCall(ContactSolutionCreate(penalty->c, sol));
   PetscCall(VecCopy(penalty->c, sol->gap));
-  PetscCall(VecPointwiseDivide(sol->pressure, penalty->force, sim->solved->linearization->mass));
-  PetscCall(ContactHistoryStore(sim->history, sim->solved->linearization, sol, sol->gap, sim->stiffness));
+  PetscCall(VecPointwiseDivide(sol->pressure, penalty->force, penalty->p->state->solved->linearization->mass));
+  PetscCall(ContactHistoryStore(penalty->p->state->history, penalty->p->state->solved->linearization, sol, sol->gap,
+    penalty->p->model->stiffness));
   PetscFunctionReturn(0);
 }
 
@@ -254,7 +253,7 @@ PetscErrorCode PenaltySolve(StepProblem *p, PetscBool resume, Vec u, StepReport 
   PetscLogDouble t0, t1;
 
   PetscFunctionBegin;
-  if (!resume && p->sim->control->warm) PetscCall(PathContinue(p->sim, p->time, u));
+  if (!resume && p->state->control->warm) PetscCall(PathContinue(p->model, p->state, p->time, u));
   else if (!resume) PetscCall(VecCopy(p->base, u));
   PetscCall(PetscTime(&t0));
   PetscCall(PenaltyCreate(p, &penalty));

@@ -10,14 +10,13 @@
 */
 static PetscErrorCode StepProblemStartBase(StepProblem *p)
 {
-  Simulation sim   = p->sim;
-  PetscBool  small = PETSC_FALSE;
+  PetscBool small = PETSC_FALSE;
 
   PetscFunctionBegin;
-  if (sim->contact && sim->quadratic) PetscCall(InertiaIsSmall(sim, &small));
-  if (small) PetscCall(PathContinue(sim, p->time, p->base));
-  else PetscCall(VecCopy(sim->path->u, p->base));
-  PetscCall(PrescribedApply(&sim->prescribed, p->time, p->base));
+  if (p->model->contact && p->model->quadratic) PetscCall(InertiaIsSmall(p->model, &small));
+  if (small) PetscCall(PathContinue(p->model, p->state, p->time, p->base));
+  else PetscCall(VecCopy(p->state->path->u, p->base));
+  PetscCall(PrescribedApply(&p->model->prescribed, p->time, p->base));
   PetscFunctionReturn(0);
 }
 
@@ -27,41 +26,39 @@ static PetscErrorCode StepProblemStartBase(StepProblem *p)
 */
 static PetscErrorCode StepProblemSetBase(StepProblem *p, Vec u, PetscBool *anew)
 {
-  Simulation        sim         = p->sim;
-  const Constraints constraints = SimulationConstraints(sim);
+  const Constraints constraints = ModelConstraints(p->model);
 
   PetscFunctionBegin;
   PetscCall(StepProblemStartBase(p));
-  PetscCall(TiesTurn(&constraints, p->time, sim->path->u, u, anew));
-  PetscCall(TiesFollow(&sim->ties, p->base));
+  PetscCall(TiesTurn(&constraints, p->time, p->state->path->u, u, anew));
+  PetscCall(TiesFollow(&p->model->ties, p->base));
   PetscCall(VecDestroy(&p->load));
-  PetscCall(DeadLoadsGet(&sim->loads, p->time, &p->load));
+  PetscCall(DeadLoadsGet(&p->model->loads, p->time, &p->load));
   PetscCall(RigidTurnLoads(&constraints, 1.0, p->time, p->load));
-  PetscCall(TurnSetForce(&constraints, sim->path->u, u, p->load, &sim->dynamics));
+  PetscCall(TurnSetForce(&constraints, p->state->path->u, u, p->load, &p->model->dynamics));
   PetscFunctionReturn(0);
 }
 
 /* Computes energy and gradient of the quadratic model at p->base, and its tangent if `anew` is true. */
 static PetscErrorCode StepProblemSetQuadratic(StepProblem *p, PetscBool anew)
 {
-  Simulation        sim         = p->sim;
-  const Constraints constraints = SimulationConstraints(sim);
+  const Constraints constraints = ModelConstraints(p->model);
   PetscScalar       work        = 0.0;
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(SIM_Assembly, NULL, NULL, NULL, NULL));
-  if (anew) PetscCall(TiesTangent(&constraints, sim->path->u, sim->K));
-  PetscCall(ElasticityEnergy(sim->elasticity, p->base, &p->energy));
-  PetscCall(ElasticityForce(sim->elasticity, p->base, p->force));
+  if (anew) PetscCall(TiesTangent(&constraints, p->state->path->u, p->model->K));
+  PetscCall(ElasticityEnergy(p->model->elasticity, p->base, &p->energy));
+  PetscCall(ElasticityForce(p->model->elasticity, p->base, p->force));
   PetscCall(PetscLogEventEnd(SIM_Assembly, NULL, NULL, NULL, NULL));
   if (p->load) {
     PetscCall(VecDot(p->load, p->base, &work));
     PetscCall(VecAXPY(p->force, -1.0, p->load));
   }
   p->energy -= PetscRealPart(work);
-  PetscCall(SchemeAddForce(&sim->dynamics, p->base, &p->energy, p->force));
-  PetscCall(TiesGather(&sim->ties, p->force));
-  PetscCall(PrescribedSet(&sim->prescribed, 0.0, p->force));
+  PetscCall(SchemeAddForce(&p->model->dynamics, p->base, &p->energy, p->force));
+  PetscCall(TiesGather(&p->model->ties, p->force));
+  PetscCall(PrescribedSet(&p->model->prescribed, 0.0, p->force));
   PetscFunctionReturn(0);
 }
 
@@ -72,30 +69,32 @@ static PetscErrorCode StepProblemSetQuadratic(StepProblem *p, PetscBool anew)
 */
 PetscErrorCode StepProblemCreate(Simulation sim, PetscReal time, StepProblem *p)
 {
-  const Bodies bodies = SimulationBodies(sim);
+  const Bodies bodies = ModelBodies(sim->model);
   PetscBool    linear, anew, changed = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(PetscMemzero(p, sizeof(*p)));
   p->sim       = sim;
+  p->model     = sim->model;
+  p->state     = sim->state;
   p->time      = time;
-  p->quadratic = sim->quadratic;
-  PetscCall(PetscObjectReference((PetscObject)sim->K));
-  p->K = sim->K;
-  PetscCall(VecDuplicate(sim->path->u, &p->base));
-  PetscCall(VecDuplicate(sim->path->u, &p->w));
-  PetscCall(StepProblemSetBase(p, sim->path->u, &anew));
-  PetscCall(TemperaturesApply(&sim->temperatures, time));
-  PetscCall(BoltsBegin(&bodies, &sim->bolts, time, sim->path->u));
+  p->quadratic = sim->model->quadratic;
+  PetscCall(PetscObjectReference((PetscObject)sim->model->K));
+  p->K = sim->model->K;
+  PetscCall(VecDuplicate(sim->state->path->u, &p->base));
+  PetscCall(VecDuplicate(sim->state->path->u, &p->w));
+  PetscCall(StepProblemSetBase(p, sim->state->path->u, &anew));
+  PetscCall(TemperaturesApply(&sim->model->temperatures, time));
+  PetscCall(BoltsBegin(&bodies, &sim->model->bolts, time, sim->state->path->u));
   PetscCall(FollowersBegin(p));
   PetscCall(ProximalBegin(p));
-  if (SimulationIsDynamic(sim)) PetscCall(InertiaBegin(sim, time, &changed));
+  if (ModelIsDynamic(sim->model)) PetscCall(InertiaBegin(sim->model, sim->state, time, &changed));
   PetscCall(FollowersForesee(p));
-  if (!sim->quadratic) PetscFunctionReturn(0);
+  if (!sim->model->quadratic) PetscFunctionReturn(0);
 
-  PetscCall(VecDuplicate(sim->path->u, &p->force));
-  PetscCall(VecDuplicate(sim->path->u, &p->Kw));
-  PetscCall(ElasticityIsLinear(sim->elasticity, &linear));
+  PetscCall(VecDuplicate(sim->state->path->u, &p->force));
+  PetscCall(VecDuplicate(sim->state->path->u, &p->Kw));
+  PetscCall(ElasticityIsLinear(sim->model->elasticity, &linear));
   PetscCall(StepProblemSetQuadratic(p, (PetscBool)(anew || changed || !linear)));
   PetscFunctionReturn(0);
 }
@@ -106,10 +105,10 @@ PetscErrorCode StepProblemTurn(StepProblem *p, Vec u)
   PetscBool anew;
 
   PetscFunctionBegin;
-  if (!p->sim->rigid.turns) PetscFunctionReturn(0);
+  if (!p->model->rigid.turns) PetscFunctionReturn(0);
   PetscCall(StepProblemSetBase(p, u, &anew));
   PetscCall(FollowersTurn(p));
-  if (p->sim->quadratic) PetscCall(StepProblemSetQuadratic(p, (PetscBool)(anew || SimulationIsDynamic(p->sim))));
+  if (p->model->quadratic) PetscCall(StepProblemSetQuadratic(p, (PetscBool)(anew || ModelIsDynamic(p->model))));
   PetscCall(ProximalTurn(p, u));
   PetscFunctionReturn(0);
 }
@@ -120,15 +119,15 @@ PetscErrorCode StepProblemTurn(StepProblem *p, Vec u)
 */
 PetscErrorCode StepProblemAdvanceBolts(StepProblem *p, Vec u, StepReport *report, PetscBool *again)
 {
-  const Bodies    bodies    = SimulationBodies(p->sim);
-  const PetscReal tolerance = PetscMax(1e-1 * PetscMax(p->sim->control->tolerances.optimizer, p->tolerance), 1e-9);
+  const Bodies    bodies    = ModelBodies(p->model);
+  const PetscReal tolerance = PetscMax(1e-1 * PetscMax(p->state->control->tolerances.optimizer, p->tolerance), 1e-9);
   PetscBool       changes   = PETSC_FALSE;
   const char     *failed;
   char            sentence[192];
 
   PetscFunctionBegin;
   if (!report->converged || *again) PetscFunctionReturn(0);
-  PetscCall(BoltsAdvance(&bodies, &p->sim->bolts, tolerance, u, &changes, &failed));
+  PetscCall(BoltsAdvance(&bodies, &p->model->bolts, tolerance, u, &changes, &failed));
   if (failed) {
     PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
       "bolt \"%s\" does not reach its force: no part resists it; check supports and contact of the parts it clamps",
@@ -137,7 +136,7 @@ PetscErrorCode StepProblemAdvanceBolts(StepProblem *p, Vec u, StepReport *report
   }
   if (!changes) PetscFunctionReturn(0);
   *again = PETSC_TRUE;
-  if (p->sim->quadratic) PetscCall(StepProblemSetQuadratic(p, PETSC_FALSE));
+  if (p->model->quadratic) PetscCall(StepProblemSetQuadratic(p, PETSC_FALSE));
   PetscFunctionReturn(0);
 }
 
@@ -155,11 +154,11 @@ PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, V
   PetscCall(VecDuplicate(lin->g, &p->g));
   PetscCall(VecWAXPY(p->w, -1.0, u_linearized, p->base));
   PetscCall(MatMultAdd(lin->J, p->w, lin->g, p->g));
-  if (p->sim->ties.C) PetscCall(MatMatMult(lin->J, p->sim->ties.C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &p->J));
+  if (p->model->ties.C) PetscCall(MatMatMult(lin->J, p->model->ties.C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &p->J));
   else PetscCall(MatDuplicate(lin->J, MAT_COPY_VALUES, &p->J));
   PetscCall(VecDuplicate(p->base, &mask));
   PetscCall(VecSet(mask, 1.0));
-  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, mask));
+  PetscCall(PrescribedSet(&p->model->prescribed, 0.0, mask));
   PetscCall(MatDiagonalScale(p->J, NULL, mask));
   PetscCall(FrictionSetUp(p, lin, u_linearized, mask));
   PetscCall(VecDestroy(&mask));
@@ -179,10 +178,10 @@ PetscErrorCode StepProblemSetBounds(StepProblem *p, PetscReal increment)
   PetscCall(VecCopy(p->base, p->upper));
   PetscCall(VecShift(p->lower, -increment));
   PetscCall(VecShift(p->upper, increment));
-  PetscCall(PrescribedSet(&p->sim->prescribed, PETSC_NINFINITY, p->lower));
-  PetscCall(PrescribedSet(&p->sim->prescribed, PETSC_INFINITY, p->upper));
-  PetscCall(TiesSet(&p->sim->ties, PETSC_NINFINITY, p->lower));
-  PetscCall(TiesSet(&p->sim->ties, PETSC_INFINITY, p->upper));
+  PetscCall(PrescribedSet(&p->model->prescribed, PETSC_NINFINITY, p->lower));
+  PetscCall(PrescribedSet(&p->model->prescribed, PETSC_INFINITY, p->upper));
+  PetscCall(TiesSet(&p->model->ties, PETSC_NINFINITY, p->lower));
+  PetscCall(TiesSet(&p->model->ties, PETSC_INFINITY, p->upper));
   PetscFunctionReturn(0);
 }
 
@@ -193,9 +192,9 @@ PetscErrorCode StepProblemSetBounds(StepProblem *p, PetscReal increment)
 PetscErrorCode StepProblemForesee(StepProblem *p, StepReport *report)
 {
   PetscFunctionBegin;
-  if (p->foreseen || p->lower || SimulationIsDynamic(p->sim)) PetscFunctionReturn(0);
+  if (p->foreseen || p->lower || ModelIsDynamic(p->model)) PetscFunctionReturn(0);
   p->foreseen = PETSC_TRUE;
-  PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unsupported));
+  PetscCall(EquilibriumDiagnose(p->model, p->state, p->time, p->load, report, &p->unsupported));
   PetscFunctionReturn(0);
 }
 

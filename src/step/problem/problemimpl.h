@@ -9,10 +9,10 @@
 #include <petscamgf.h>
 
 /* stiffness.c: chooses the storage of the stiffness matrix and attaches rigid body modes */
-PETSC_INTERN PetscErrorCode StiffnessSetType(Simulation);
-PETSC_INTERN PetscErrorCode StiffnessGetWhole(Simulation, MatType, Mat *);
-PETSC_INTERN PetscErrorCode StiffnessSetModes(Simulation, KSP, Mat);
-PETSC_INTERN PetscErrorCode StiffnessGiveMotions(Simulation, Tao);
+PETSC_INTERN PetscErrorCode StiffnessSetType(Model);
+PETSC_INTERN PetscErrorCode StiffnessGetWhole(Model, MatType, Mat *);
+PETSC_INTERN PetscErrorCode StiffnessSetModes(Model, KSP, Mat);
+PETSC_INTERN PetscErrorCode StiffnessGiveMotions(Model, State, Tao);
 
 /*
    anderson.c: Anderson acceleration of the contact updates, of the follower loads or of the mean internal
@@ -49,6 +49,8 @@ typedef struct {
 
 typedef struct {
   Simulation sim;
+  Model      model; /* that of the simulation */
+  State      state; /* that of the simulation */
   PetscReal  time;
   PetscBool  quadratic; /* true if the objective is the quadratic model */
   Mat        K;
@@ -101,7 +103,7 @@ typedef struct {
 /* Returns the ratio of the optimizer's multipliers to the contact forces */
 static inline PetscReal StepProblemShare(const StepProblem *p)
 {
-  return SchemeShare(&p->sim->scene->dynamics);
+  return SchemeShare(&p->model->scene->dynamics);
 }
 
 PETSC_INTERN PetscErrorCode StepProblemCreate(Simulation, PetscReal time, StepProblem *);
@@ -168,8 +170,8 @@ static inline PetscBool EnergyIsFinite(PetscReal energy)
   return (PetscBool)(!PetscIsInfOrNanReal(energy) && energy < PETSC_INFINITY);
 }
 
-/* interference.c: ramps of initial overlaps; linearizations in sim->solved->upcoming are stored without ramps */
-PETSC_INTERN PetscErrorCode InterferenceAdd(Simulation, PetscReal time, PetscReal times, ContactLinearization);
+/* interference.c: ramps of initial overlaps; linearizations in state->solved->upcoming are stored without ramps */
+PETSC_INTERN PetscErrorCode InterferenceAdd(Model, State, PetscReal time, PetscReal times, ContactLinearization);
 
 /* check_weak_springs.c: rejects solutions in which weak springs carry the loads */
 PETSC_INTERN PetscErrorCode WeakSpringsTest(const StepProblem *, Vec u, StepReport *);

@@ -54,7 +54,7 @@ static PetscErrorCode ProximalGetForces(const StepProblem *p, Vec x, Vec *proxim
   PetscCall(VecDuplicate(x, elastic));
   PetscCall(VecZeroEntries(*proximal));
   PetscCall(ProximalAdd(p, x, &energy, *proximal));
-  PetscCall(ElasticityForce(p->sim->elasticity, x, *elastic));
+  PetscCall(ElasticityForce(p->model->elasticity, x, *elastic));
   PetscCall(VecNorm(*proximal, NORM_2, &norms[0]));
   PetscCall(VecNorm(*elastic, NORM_2, &norms[1]));
   PetscFunctionReturn(0);
@@ -96,18 +96,17 @@ PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
 */
 static PetscErrorCode ProximalGetWeakDensity(const StepProblem *p, Vec u, PetscReal density[])
 {
-  const Simulation sim     = p->sim;
-  const Bodies     bodies  = SimulationBodies(sim);
-  const PetscInt   nbodies = sim->scene->nbodies;
-  PetscReal       *sums, *volume, largest = 0.0;
-  Vec              force;
+  const Bodies   bodies  = ModelBodies(p->model);
+  const PetscInt nbodies = p->model->scene->nbodies;
+  PetscReal     *sums, *volume, largest = 0.0;
+  Vec            force;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(4 * nbodies, &sums, nbodies, &volume));
   PetscCall(VecDuplicate(u, &force));
-  PetscCall(ElasticityForce(sim->elasticity, u, force));
+  PetscCall(ElasticityForce(p->model->elasticity, u, force));
   if (p->load) PetscCall(VecAXPY(force, -1.0, p->load));
-  PetscCall(VertexPlacesSumForces(&sim->places, sim->springs.weak, force, nbodies, sums));
+  PetscCall(VertexPlacesSumForces(&p->model->places, p->model->springs.weak, force, nbodies, sums));
   PetscCall(SpringsMeasureVolumes(&bodies, volume));
   for (PetscInt b = 0; b < nbodies; ++b) largest = PetscMax(largest, sums[4 * b + 3]);
   for (PetscInt b = 0; b < nbodies; ++b) {
@@ -124,7 +123,7 @@ static PetscErrorCode ProximalGetWeakDensity(const StepProblem *p, Vec u, PetscR
    springs; NULL: all bodies get the term */
 static PetscErrorCode ProximalCreate(StepProblem *p, const PetscReal weak[])
 {
-  const Bodies bodies = SimulationBodies(p->sim);
+  const Bodies bodies = ModelBodies(p->model);
   Mat          K;
 
   PetscFunctionBegin;
@@ -132,10 +131,10 @@ static PetscErrorCode ProximalCreate(StepProblem *p, const PetscReal weak[])
   PetscCall(VecDuplicate(p->base, &p->proximal));
   if (weak) PetscCall(SpringsDistribute(&bodies, weak, p->proximal));
   else PetscCall(SpringsOfSize(&bodies, friction_stiffness, p->proximal));
-  PetscCall(PrescribedSet(&p->sim->prescribed, 0.0, p->proximal));
-  PetscCall(TiesSet(&p->sim->ties, 0.0, p->proximal));
-  if (p->sim->quadratic) {
-    PetscCall(MatDuplicate(p->sim->K, MAT_COPY_VALUES, &K));
+  PetscCall(PrescribedSet(&p->model->prescribed, 0.0, p->proximal));
+  PetscCall(TiesSet(&p->model->ties, 0.0, p->proximal));
+  if (p->model->quadratic) {
+    PetscCall(MatDuplicate(p->model->K, MAT_COPY_VALUES, &K));
     PetscCall(ProximalAddStiffness(p, K));
     PetscCall(MatDestroy(&p->K));
     p->K = K;
@@ -158,9 +157,9 @@ PetscErrorCode ProximalEnd(StepProblem *p)
 /* Returns whether bodies on weak springs get the proximal term */
 static PetscBool ProximalHoldsWeak(const StepProblem *p)
 {
-  const Scene scene = p->sim->scene;
+  const Scene scene = p->model->scene;
 
-  if (!p->sim->springs.weak || (p->centre && !p->holds_weak) || SimulationIsDynamic(p->sim) ||
+  if (!p->model->springs.weak || (p->centre && !p->holds_weak) || ModelIsDynamic(p->model) ||
       scene->contact_updates == 1)
     return PETSC_FALSE;
   for (PetscInt k = 0; k < scene->npairs; ++k)
@@ -172,7 +171,7 @@ static PetscBool ProximalHoldsWeak(const StepProblem *p)
    before */
 static PetscErrorCode ProximalHoldWeak(StepProblem *p, Vec u)
 {
-  const PetscInt nbodies = p->sim->scene->nbodies;
+  const PetscInt nbodies = p->model->scene->nbodies;
   PetscReal     *density;
   PetscBool      same = (PetscBool)(p->weak_density != NULL);
 
@@ -202,9 +201,9 @@ static PetscErrorCode ProximalHoldWeak(StepProblem *p, Vec u)
 PetscErrorCode ProximalBegin(StepProblem *p)
 {
   PetscFunctionBegin;
-  if (p->sim->rigid.n && !SimulationIsDynamic(p->sim)) {
-    PetscCall(PetscObjectReference((PetscObject)p->sim->rigid.restraint));
-    p->proximal = p->sim->rigid.restraint;
+  if (p->model->rigid.n && !ModelIsDynamic(p->model)) {
+    PetscCall(PetscObjectReference((PetscObject)p->model->rigid.restraint));
+    p->proximal = p->model->rigid.restraint;
     PetscCall(VecDuplicate(p->base, &p->centre));
     PetscCall(VecCopy(p->base, p->centre));
   }
@@ -231,7 +230,7 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
   PetscFunctionBegin;
   *again =
     (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->unsupported && !p->flowing &&
-                !p->sim->control->interrupted && EnergyIsFinite(p->energy) && !SimulationIsDynamic(p->sim));
+                !p->state->control->interrupted && EnergyIsFinite(p->energy) && !ModelIsDynamic(p->model));
   if (!*again) PetscFunctionReturn(0);
   PetscCall(PetscStrallocpy(report->reason, &p->failed));
   PetscCall(ProximalCreate(p, NULL));
@@ -246,19 +245,18 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
 static PetscErrorCode ProximalSetMotion(const StepProblem *p, PetscInt b, const PetscReal axis[3],
   const PetscReal point[3], Vec all, Vec motion, Vec own)
 {
-  const Simulation   sim = p->sim;
   const PetscScalar *x, *a;
   PetscScalar       *v, *f;
   PetscInt           n;
 
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(motion, &n));
-  PetscCall(VecGetArrayRead(sim->places.x, &x));
+  PetscCall(VecGetArrayRead(p->model->places.x, &x));
   PetscCall(VecGetArrayRead(all, &a));
   PetscCall(VecGetArrayWrite(motion, &v));
   PetscCall(VecGetArrayWrite(own, &f));
   for (PetscInt i = 0; i < n; i += 3) {
-    const PetscBool moves = (PetscBool)(sim->places.body[i / 3] == b);
+    const PetscBool moves = (PetscBool)(p->model->places.body[i / 3] == b);
     PetscReal       arm[3], way[3] = {axis[0], axis[1], axis[2]};
 
     for (PetscInt d = 0; d < 3 && point; ++d) arm[d] = PetscRealPart(x[i + d]) - point[d];
@@ -271,7 +269,7 @@ static PetscErrorCode ProximalSetMotion(const StepProblem *p, PetscInt b, const 
   PetscCall(VecRestoreArrayWrite(own, &f));
   PetscCall(VecRestoreArrayWrite(motion, &v));
   PetscCall(VecRestoreArrayRead(all, &a));
-  PetscCall(VecRestoreArrayRead(sim->places.x, &x));
+  PetscCall(VecRestoreArrayRead(p->model->places.x, &x));
   PetscFunctionReturn(0);
 }
 
@@ -312,12 +310,12 @@ static PetscErrorCode ProximalRelease(StepProblem *p, PetscInt b, const PetscRea
 */
 static PetscErrorCode ProximalReleaseGliding(StepProblem *p, Vec all, Vec way)
 {
-  const MeshRotation *rotations = p->sim->springs.rotations;
+  const MeshRotation *rotations = p->model->springs.rotations;
   const PetscReal     torque = 1e-2, axial = 1e-4;
 
   PetscFunctionBegin;
   p->glides = PETSC_FALSE;
-  for (PetscInt b = 0; b < p->sim->scene->nbodies; ++b) {
+  for (PetscInt b = 0; b < p->model->scene->nbodies; ++b) {
     const PetscInt naxes = rotations[b].any ? 3 : 1;
 
     for (PetscInt axis = 0; axis < naxes && rotations[b].free; ++axis) {
@@ -344,7 +342,7 @@ PetscErrorCode ProximalLinearize(StepProblem *p, Vec u_linearized)
   if (!p->holds_weak) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(u_linearized, &centre));
   PetscCall(VecDuplicate(u_linearized, &elastic));
-  PetscCall(ElasticityForce(p->sim->elasticity, u_linearized, elastic));
+  PetscCall(ElasticityForce(p->model->elasticity, u_linearized, elastic));
   PetscCall(VecWAXPY(centre, -1.0, p->centre, u_linearized));
   PetscCall(ProximalReleaseGliding(p, elastic, centre));
   PetscCall(VecAXPY(centre, 1.0, p->centre));
@@ -360,13 +358,13 @@ PetscErrorCode ProximalLinearize(StepProblem *p, Vec u_linearized)
 */
 static PetscErrorCode ProximalCompareResultants(const StepProblem *p, Vec force, Vec all, PetscReal *fraction)
 {
-  const PetscInt nbodies = p->sim->scene->nbodies;
+  const PetscInt nbodies = p->model->scene->nbodies;
   PetscReal     *sums;
 
   PetscFunctionBegin;
   *fraction = 0.0;
   PetscCall(PetscMalloc1(4 * nbodies, &sums));
-  PetscCall(VertexPlacesSumForces(&p->sim->places, force, all, nbodies, sums));
+  PetscCall(VertexPlacesSumForces(&p->model->places, force, all, nbodies, sums));
   for (PetscInt b = 0; b < nbodies; ++b) {
     if (sums[4 * b + 3] > 0.0) *fraction = PetscMax(*fraction, VectorNorm(&sums[4 * b]) / sums[4 * b + 3]);
   }
@@ -408,7 +406,7 @@ PetscErrorCode ProximalMeasure(StepProblem *p, Vec u, PetscReal *fraction)
 */
 static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepReport *report)
 {
-  const Scene scene  = p->sim->scene;
+  const Scene scene  = p->model->scene;
   PetscBool   mortar = PETSC_FALSE;
   Vec         increment;
 
@@ -417,7 +415,7 @@ static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepRepor
   PetscCall(VecDuplicate(u, &increment));
   PetscCall(VecWAXPY(increment, -1.0, p->centre, u));
   PetscCall(ReportReason(report, PETSC_FALSE, "no equilibrium was found in which friction holds the bodies"));
-  PetscCall(RigidMotionReport(p->sim, increment, "it does not come to rest",
+  PetscCall(RigidMotionReport(p->model, increment, "it does not come to rest",
     mortar ? "; if it should stand near the edge of a face, use gap: dual" : NULL, report));
   PetscCall(VecDestroy(&increment));
   p->moves_on = PETSC_TRUE;
@@ -433,7 +431,7 @@ PetscErrorCode ProximalReportFlow(const StepProblem *p, StepReport *report)
   PetscCall(PetscSNPrintf(reason, sizeof(reason),
     "no equilibrium exists at time %g: body \"%s\" flows plastically, because the load exceeds the collapse load; the "
     "last equilibrium is at time %g",
-    (double)p->time, p->flowing, (double)p->sim->path->time));
+    (double)p->time, p->flowing, (double)p->state->path->time));
   PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }
@@ -449,16 +447,17 @@ static PetscErrorCode ProximalTestFlow(StepProblem *p, Vec u)
   PetscInt        body;
 
   PetscFunctionBegin;
-  PetscCall(ElasticityPlasticFlow(p->sim->elasticity, p->centre, &stored[0], &work[0], &body));
-  PetscCall(ElasticityPlasticFlow(p->sim->elasticity, u, &stored[1], &work[1], &body));
-  if (work[1] - work[0] > multiple * PetscAbsReal(stored[1] - stored[0])) p->flowing = p->sim->scene->bodies[body].name;
+  PetscCall(ElasticityPlasticFlow(p->model->elasticity, p->centre, &stored[0], &work[0], &body));
+  PetscCall(ElasticityPlasticFlow(p->model->elasticity, u, &stored[1], &work[1], &body));
+  if (work[1] - work[0] > multiple * PetscAbsReal(stored[1] - stored[0]))
+    p->flowing = p->model->scene->bodies[body].name;
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode ProximalReportRigidBodies(StepProblem *p, Vec u, StepReport *report)
 {
   PetscFunctionBegin;
-  PetscCall(EquilibriumDiagnose(p->sim, p->time, p->load, report, &p->unsupported));
+  PetscCall(EquilibriumDiagnose(p->model, p->state, p->time, p->load, report, &p->unsupported));
   if (!p->unsupported) PetscCall(ProximalTestFlow(p, u));
   if (p->flowing) PetscCall(ProximalReportFlow(p, report));
   else if (!p->unsupported)
@@ -498,14 +497,14 @@ static PetscErrorCode ProximalMoveCentre(StepProblem *p, Vec u, PetscInt ncentre
 */
 PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepReport *report, PetscBool *again)
 {
-  const PetscReal tolerance = PetscMax(1e-3 * p->sim->control->tolerances.optimizer, 1e-12);
+  const PetscReal tolerance = PetscMax(1e-3 * p->state->control->tolerances.optimizer, 1e-12);
   PetscReal       norms[2], ratio;
   PetscBool       falls;
   Vec             force, all;
 
   PetscFunctionBegin;
   *again = PETSC_FALSE;
-  if (p->failed && !report->converged && !p->sim->control->interrupted)
+  if (p->failed && !report->converged && !p->state->control->interrupted)
     PetscCall(ReportReason(report, PETSC_FALSE, p->failed));
   if (!p->centre || p->holds_weak || !report->converged) PetscFunctionReturn(0);
   PetscCall(ProximalGetForces(p, u, &force, &all, norms));

@@ -20,7 +20,7 @@ static PetscErrorCode StartRecallContact(StepProblem *p, PetscReal scale, Tao ta
   PetscFunctionBegin;
   PetscCall(VecDuplicate(p->g, &slack));
   PetscCall(VecDuplicate(p->g, &pressure));
-  PetscCall(ContactHistoryRecall(p->sim->history, p->sim->solved->linearization, scale / StepProblemShare(p), slack,
+  PetscCall(ContactHistoryRecall(p->state->history, p->state->solved->linearization, scale / StepProblemShare(p), slack,
     pressure, any));
   if (*any) PetscCall(TaoIPFilterSetWarmStart(tao, slack, pressure));
   PetscCall(VecDestroy(&slack));
@@ -36,7 +36,7 @@ static PetscErrorCode StartRecallContact(StepProblem *p, PetscReal scale, Tao ta
 static PetscErrorCode StartModel(StepProblem *p, Vec e, StepProblem *q)
 {
   PetscReal size, extent, step;
-  Vec       u0 = p->sim->path->u, moved;
+  Vec       u0 = p->state->path->u, moved;
 
   PetscFunctionBegin;
   *q           = *p;
@@ -47,7 +47,7 @@ static PetscErrorCode StartModel(StepProblem *p, Vec e, StepProblem *q)
   PetscCall(VecDuplicate(u0, &q->w));
   PetscCall(VecDuplicate(u0, &moved));
   PetscCall(VecNorm(e, NORM_INFINITY, &size));
-  PetscCall(VecNorm(p->sim->places.x, NORM_INFINITY, &extent));
+  PetscCall(VecNorm(p->model->places.x, NORM_INFINITY, &extent));
   step = PETSC_SQRT_MACHINE_EPSILON * extent / size;
   PetscCall(VecWAXPY(moved, step, e, u0));
   PetscCall(EnergyGetGradient(p, moved, q->Kw));
@@ -126,7 +126,7 @@ static PetscErrorCode StartCarry(StepProblem *p, Vec e, PetscReal scale, Tao tao
   PetscCall(TaoGetConvergedReason(model, &reason));
   if (reason > 0) {
     PetscCall(TaoGetDualVariables(model, NULL, &forces));
-    PetscCall(TiesFollow(&p->sim->ties, start));
+    PetscCall(TiesFollow(&p->model->ties, start));
     PetscCall(StartMerit(p, start, forces, &carried));
     PetscCall(StartMerit(p, u, forces, &merit));
     if (carried < merit) {
@@ -146,15 +146,15 @@ static PetscErrorCode StartCarry(StepProblem *p, Vec e, PetscReal scale, Tao tao
 /* Finds whether prescribed displacements leave the path. *e: their increments, which the caller frees; NULL: no */
 static PetscErrorCode StartLeavesPath(StepProblem *p, Vec *e)
 {
-  PetscBool smooth = SimulationIsDynamic(p->sim); /* a time step always continues the path */
+  PetscBool smooth = ModelIsDynamic(p->model); /* a time step always continues the path */
   PetscReal size   = 0.0;
 
   PetscFunctionBegin;
   *e = NULL;
-  if (!smooth) PetscCall(PathIsSmooth(p->sim, p->time, &smooth));
+  if (!smooth) PetscCall(PathIsSmooth(p->model, p->state, p->time, &smooth));
   if (smooth) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(p->base, e));
-  PetscCall(VecWAXPY(*e, -1.0, p->sim->path->u, p->base));
+  PetscCall(VecWAXPY(*e, -1.0, p->state->path->u, p->base));
   PetscCall(VecNorm(*e, NORM_INFINITY, &size));
   if (size == 0.0) PetscCall(VecDestroy(e));
   PetscFunctionReturn(0);
@@ -172,7 +172,7 @@ static PetscErrorCode StartNonlinear(StepProblem *p, PetscBool moved, PetscReal 
 
   PetscFunctionBegin;
   if (moved) {
-    PetscCall(PathContinue(p->sim, p->time, u));
+    PetscCall(PathContinue(p->model, p->state, p->time, u));
     PetscCall(EnergyObjective(tao, u, &f, p));
   }
   if (!EnergyIsFinite(f)) PetscCall(VecCopy(p->base, u));
@@ -193,24 +193,23 @@ static PetscErrorCode StartNonlinear(StepProblem *p, PetscBool moved, PetscReal 
 */
 PetscErrorCode StepProblemStart(StepProblem *p, PetscBool resume, Tao tao, Vec u, PetscBool *valid)
 {
-  Simulation sim   = p->sim;
-  PetscReal  scale = 0.0;
-  PetscBool  moved = (PetscBool)(resume || SimulationIsDynamic(sim));
+  PetscReal scale = 0.0;
+  PetscBool moved = (PetscBool)(resume || ModelIsDynamic(p->model));
   /* with friction there may be several states, of which the one is wanted that continues the last */
-  const PetscBool last = (PetscBool)(p->friction.T && sim->quadratic);
+  const PetscBool last = (PetscBool)(p->friction.T && p->model->quadratic);
 
   PetscFunctionBegin;
   *valid = PETSC_TRUE;
-  if (p->J && (resume || sim->control->warm)) {
+  if (p->J && (resume || p->state->control->warm)) {
     if (resume || last) scale = 1.0;
-    else PetscCall(PathPressureScale(sim, p->time, &scale));
+    else PetscCall(PathPressureScale(p->model, p->state, p->time, &scale));
     PetscCall(StartRecallContact(p, scale, tao, &moved));
   }
   if (p->J) PetscCall(FrictionGive(p, tao, moved ? scale : 0.0));
   if (resume) PetscFunctionReturn(0);
-  if (!p->J) moved = sim->control->warm;
-  if (!sim->quadratic) PetscCall(StartNonlinear(p, moved, scale, tao, u, valid));
-  else if (moved && !last) PetscCall(PathContinue(sim, p->time, u));
+  if (!p->J) moved = p->state->control->warm;
+  if (!p->model->quadratic) PetscCall(StartNonlinear(p, moved, scale, tao, u, valid));
+  else if (moved && !last) PetscCall(PathContinue(p->model, p->state, p->time, u));
   else PetscCall(VecCopy(p->base, u));
   PetscFunctionReturn(0);
 }

@@ -8,30 +8,31 @@
    Chooses symmetric storage if the optimizer only multiplies with a constant K, on one rank. Call this function before
    the tangent is created.
 */
-PetscErrorCode StiffnessSetType(Simulation sim)
+PetscErrorCode StiffnessSetType(Model model)
 {
   PetscMPIInt size;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(sim->comm, &size));
-  if (sim->scene->npairs && sim->quadratic && size == 1) PetscCall(ElasticitySetMatType(sim->elasticity, MATSBAIJ));
+  PetscCallMPI(MPI_Comm_size(model->comm, &size));
+  if (model->scene->npairs && model->quadratic && size == 1)
+    PetscCall(ElasticitySetMatType(model->elasticity, MATSBAIJ));
   PetscFunctionReturn(0);
 }
 
 /*
-   Returns the stiffness matrix with both triangles. *K: sim->K itself, or a copy of the given type if sim->K stores
+   Returns the stiffness matrix with both triangles. *K: model->K itself, or a copy of the given type if model->K stores
    only the upper triangle.
 */
-PetscErrorCode StiffnessGetWhole(Simulation sim, MatType type, Mat *K)
+PetscErrorCode StiffnessGetWhole(Model model, MatType type, Mat *K)
 {
   PetscBool half;
 
   PetscFunctionBegin;
-  PetscCall(PetscObjectTypeCompare((PetscObject)sim->K, MATSEQSBAIJ, &half));
-  if (half) PetscCall(MatConvert(sim->K, type, MAT_INITIAL_MATRIX, K));
+  PetscCall(PetscObjectTypeCompare((PetscObject)model->K, MATSEQSBAIJ, &half));
+  if (half) PetscCall(MatConvert(model->K, type, MAT_INITIAL_MATRIX, K));
   else {
-    PetscCall(PetscObjectReference((PetscObject)sim->K));
-    *K = sim->K;
+    PetscCall(PetscObjectReference((PetscObject)model->K));
+    *K = model->K;
   }
   PetscFunctionReturn(0);
 }
@@ -67,10 +68,10 @@ static PetscErrorCode StiffnessUsesModes(KSP ksp, PetscBool *uses)
 }
 
 /*
-   Attaches rigid body modes to A (sim->K or a matrix computed from it) if the solver may use them. ksp: the solver
+   Attaches rigid body modes to A (model->K or a matrix computed from it) if the solver may use them. ksp: the solver
    after KSPSetFromOptions(); NULL: not known, the modes are attached.
 */
-PetscErrorCode StiffnessSetModes(Simulation sim, KSP ksp, Mat A)
+PetscErrorCode StiffnessSetModes(Model model, KSP ksp, Mat A)
 {
   MatNullSpace modes;
   PetscBool    uses;
@@ -78,31 +79,31 @@ PetscErrorCode StiffnessSetModes(Simulation sim, KSP ksp, Mat A)
   PetscFunctionBegin;
   PetscCall(StiffnessUsesModes(ksp, &uses));
   if (!uses) PetscFunctionReturn(0);
-  PetscCall(MatGetNearNullSpace(sim->K, &modes));
-  if (!modes) PetscCall(ElasticitySetNearNullSpace(sim->elasticity, sim->K));
-  PetscCall(MatGetNearNullSpace(sim->K, &modes));
+  PetscCall(MatGetNearNullSpace(model->K, &modes));
+  if (!modes) PetscCall(ElasticitySetNearNullSpace(model->elasticity, model->K));
+  PetscCall(MatGetNearNullSpace(model->K, &modes));
   PetscCall(MatSetNearNullSpace(A, modes));
   PetscFunctionReturn(0);
 }
 
 /* Collective. Passes the free motions to the optimizer's search space if bodies are on weak springs. */
-PetscErrorCode StiffnessGiveMotions(Simulation sim, Tao tao)
+PetscErrorCode StiffnessGiveMotions(Model model, State state, Tao tao)
 {
   FreeMotions motions;
   Vec         moves;
 
   PetscFunctionBegin;
-  if (!sim->springs.nweak || !sim->quadratic) PetscFunctionReturn(0);
-  if (!sim->springs.modes) {
-    PetscCall(FreeMotionsCreate(sim, &motions));
-    PetscCall(VecDuplicate(sim->places.x, &moves));
+  if (!model->springs.nweak || !model->quadratic) PetscFunctionReturn(0);
+  if (!model->springs.modes) {
+    PetscCall(FreeMotionsCreate(model, state, &motions));
+    PetscCall(VecDuplicate(model->places.x, &moves));
     PetscCall(VecSet(moves, 1.0));
-    PetscCall(PrescribedSet(&sim->prescribed, 0.0, moves));
-    PetscCall(TiesSet(&sim->ties, 0.0, moves));
+    PetscCall(PrescribedSet(&model->prescribed, 0.0, moves));
+    PetscCall(TiesSet(&model->ties, 0.0, moves));
     PetscCall(MatDiagonalScale(motions.Z, moves, NULL));
     PetscCall(VecDestroy(&moves));
-    sim->springs.modes = motions.Z;
+    model->springs.modes = motions.Z;
   }
-  PetscCall(TaoIPFilterSetModes(tao, sim->springs.modes));
+  PetscCall(TaoIPFilterSetModes(tao, model->springs.modes));
   PetscFunctionReturn(0);
 }

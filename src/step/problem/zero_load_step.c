@@ -20,20 +20,20 @@ PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool vanishes, Petsc
 
   PetscFunctionBegin;
   *due = PETSC_FALSE;
-  if (SimulationIsDynamic(p->sim)) PetscFunctionReturn(0);
+  if (ModelIsDynamic(p->model)) PetscFunctionReturn(0);
   if (p->load) PetscCall(VecNorm(p->load, NORM_INFINITY, &load));
-  PetscCall(TemperaturesGetLargest(&p->sim->temperatures, &temperature));
-  PetscCall(VecNorm(p->sim->path->u, NORM_INFINITY, &before));
+  PetscCall(TemperaturesGetLargest(&p->model->temperatures, &temperature));
+  PetscCall(VecNorm(p->state->path->u, NORM_INFINITY, &before));
   PetscCall(VecDuplicate(p->base, &u));
   PetscCall(VecZeroEntries(u));
-  PetscCall(PrescribedApply(&p->sim->prescribed, p->time, u));
+  PetscCall(PrescribedApply(&p->model->prescribed, p->time, u));
   PetscCall(VecNorm(u, NORM_INFINITY, &displacement));
   PetscCall(VecDestroy(&u));
-  if (p->sim->ties.o) PetscCall(VecNorm(p->sim->ties.o, NORM_INFINITY, &moved));
-  PetscCall(ElasticityHasYielded(p->sim->elasticity, &stays));
-  for (PetscInt b = 0; b < p->sim->bolts.n; ++b) stays = (PetscBool)(stays || p->sim->bolts.now[b] != 0.0);
-  for (PetscInt k = 0; !vanishes && k < p->sim->scene->npairs; ++k)
-    stays = (PetscBool)(stays || SceneContactPairHasFriction(&p->sim->scene->pairs[k]));
+  if (p->model->ties.o) PetscCall(VecNorm(p->model->ties.o, NORM_INFINITY, &moved));
+  PetscCall(ElasticityHasYielded(p->model->elasticity, &stays));
+  for (PetscInt b = 0; b < p->model->bolts.n; ++b) stays = (PetscBool)(stays || p->model->bolts.now[b] != 0.0);
+  for (PetscInt k = 0; !vanishes && k < p->model->scene->npairs; ++k)
+    stays = (PetscBool)(stays || SceneContactPairHasFriction(&p->model->scene->pairs[k]));
   *due =
     (PetscBool)(!stays && before > 0.0 && load == 0.0 && temperature == 0.0 && displacement == 0.0 && moved == 0.0);
   PetscFunctionReturn(0);
@@ -46,7 +46,7 @@ PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool vanishes, Petsc
 PetscErrorCode ZeroLoadStepSolve(StepProblem *p, ContactLinearization undeformed, Vec u, StepReport *report,
   ContactSolution *sol, PetscBool *rests)
 {
-  const PetscReal rounding = PETSC_SQRT_MACHINE_EPSILON * p->sim->path->largest_increment;
+  const PetscReal rounding = PETSC_SQRT_MACHINE_EPSILON * p->state->path->largest_increment;
   PetscReal       least    = 0.0;
   PetscInt        nrows;
 
@@ -59,11 +59,11 @@ PetscErrorCode ZeroLoadStepSolve(StepProblem *p, ContactLinearization undeformed
   PetscCall(ContactSolutionCreate(undeformed->g, sol));
   PetscCall(VecZeroEntries(sol->pressure));
   PetscCall(VecCopy(undeformed->g, sol->gap));
-  if (p->sim->history->frictional) {
+  if (p->state->history->frictional) {
     PetscCall(StepProblemSetContact(p, undeformed, u));
     PetscCall(FrictionKeepNone(p, u, sol));
   }
-  PetscCall(ContactHistoryStore(p->sim->history, undeformed, sol, sol->gap, p->sim->stiffness));
+  PetscCall(ContactHistoryStore(p->state->history, undeformed, sol, sol->gap, p->model->stiffness));
   report->potential = report->kkt_error = report->kkt_error_unscaled = 0.0;
   PetscCall(ReportReason(report, PETSC_TRUE,
     "converged: loads and prescribed displacements are zero, the bodies are undeformed"));
