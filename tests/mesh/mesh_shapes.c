@@ -325,7 +325,8 @@ static PetscErrorCode CheckSizes(Scene scene, PetscInt refine)
     PetscInt nfaces;
     char   **faces;
 
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: volume %.6f\n", scene->bodies[b].name, (double)volume[b]));
+    PetscCall(
+      PetscPrintf(PETSC_COMM_WORLD, "%s: volume %.6f, facets and vertices", scene->bodies[b].name, (double)volume[b]));
     PetscCall(MeshGetFaceNames(PETSC_COMM_WORLD, &scene->bodies[b], &nfaces, &faces));
     for (PetscInt f = 0; f < nfaces; ++f) {
       char     name[64];
@@ -338,12 +339,13 @@ static PetscErrorCode CheckSizes(Scene scene, PetscInt refine)
       PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &nfacets, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
       PetscCall(MeshGetFaceDofs(dm, name, 0, &rows));
       PetscCall(ISGetSize(rows, &nrows));
-      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: facets %" PetscInt_FMT ", vertices %" PetscInt_FMT "\n", name,
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s %s %" PetscInt_FMT " %" PetscInt_FMT, f ? "," : ":", faces[f],
         nfacets, nrows));
       PetscCall(ISDestroy(&facets));
       PetscCall(ISDestroy(&rows));
     }
     PetscCall(MeshRestoreFaceNames(&nfaces, &faces));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "\n"));
   }
   PetscCall(PetscFree(volume));
   PetscCall(VecDestroy(&u));
