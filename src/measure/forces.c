@@ -255,19 +255,12 @@ static PetscErrorCode ForcesTakeAll(DM dm, const VertexPlaces *places, Vec u, Ve
   PetscFunctionBegin;
   PetscCall(ForcesAddFace(dm, places, face, u, rigid, sum));
   for (PetscInt c = 0; c < 3; ++c) {
-    IS              is;
-    const PetscInt *rows;
-    PetscInt        n;
+    IS is;
 
     PetscCall(MeshGetFaceDofs(dm, face, c, &is));
-    PetscCall(ISGetLocalSize(is, &n));
-    PetscCall(ISGetIndices(is, &rows));
-    for (PetscInt k = 0; k < n; ++k) PetscCall(VecSetValue(rigid, rows[k], 0.0, INSERT_VALUES));
-    PetscCall(ISRestoreIndices(is, &rows));
+    PetscCall(VecISSet(rigid, is, 0.0));
     PetscCall(ISDestroy(&is));
   }
-  PetscCall(VecAssemblyBegin(rigid));
-  PetscCall(VecAssemblyEnd(rigid));
   PetscFunctionReturn(0);
 }
 

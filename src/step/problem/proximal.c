@@ -238,67 +238,54 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
   PetscFunctionReturn(0);
 }
 
-/*
-   Sets `motion` to a unit rotation of body b about an axis through `point`, or, if `point` is NULL, to a unit
-   translation along the axis, and `own` to the forces `all` on body b. Both are 0 on other bodies.
-*/
-static PetscErrorCode ProximalSetMotion(const StepProblem *p, PetscInt b, const PetscReal axis[3],
-  const PetscReal point[3], Vec all, Vec motion, Vec own)
+/* Returns component i of a unit rotation about an axis through `point`, or, if `point` is NULL, of a unit translation
+   along the axis. x: coordinates of the nodes [length] */
+static PetscReal ProximalMotion(const PetscReal axis[3], const PetscReal point[3], const PetscScalar x[], PetscInt i)
 {
-  const PetscScalar *x, *a;
-  PetscScalar       *v, *f;
-  PetscInt           n;
+  const PetscInt c = i % 3, d = (c + 1) % 3, e = (c + 2) % 3, v = i - c;
 
-  PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(motion, &n));
-  PetscCall(VecGetArrayRead(p->model->places.x, &x));
-  PetscCall(VecGetArrayRead(all, &a));
-  PetscCall(VecGetArrayWrite(motion, &v));
-  PetscCall(VecGetArrayWrite(own, &f));
-  for (PetscInt i = 0; i < n; i += 3) {
-    const PetscBool moves = (PetscBool)(p->model->places.body[i / 3] == b);
-    PetscReal       arm[3], way[3] = {axis[0], axis[1], axis[2]};
-
-    for (PetscInt d = 0; d < 3 && point; ++d) arm[d] = PetscRealPart(x[i + d]) - point[d];
-    if (point) VectorCross(axis, arm, way);
-    for (PetscInt d = 0; d < 3; ++d) {
-      v[i + d] = moves ? way[d] : 0.0;
-      f[i + d] = moves ? a[i + d] : 0.0;
-    }
-  }
-  PetscCall(VecRestoreArrayWrite(own, &f));
-  PetscCall(VecRestoreArrayWrite(motion, &v));
-  PetscCall(VecRestoreArrayRead(all, &a));
-  PetscCall(VecRestoreArrayRead(p->model->places.x, &x));
-  PetscFunctionReturn(0);
+  if (!point) return axis[c];
+  return axis[d] * (PetscRealPart(x[v + e]) - point[e]) - axis[e] * (PetscRealPart(x[v + d]) - point[d]);
 }
 
 /*
-   Removes from `way`, the displacement from the centre, a motion of body b, see ProximalSetMotion(), unless the force
-   of the proximal term that resists it is more than `most` of the forces `all` on the body.
+   Removes from `way`, the displacement from the centre, a motion of body b, see ProximalMotion(), unless the force of
+   the proximal term that resists it is more than `most` of the forces `all` on the body
 */
 static PetscErrorCode ProximalRelease(StepProblem *p, PetscInt b, const PetscReal axis[3], const PetscReal point[3],
   PetscReal most, Vec all, Vec way)
 {
-  PetscScalar work, stiffness;
-  PetscReal   part, whole;
-  Vec         motion, resistance;
+  const PetscInt    *body = p->model->places.body;
+  const PetscScalar *x, *a, *k;
+  PetscScalar       *w;
+  PetscReal          sums[4] = {0.0}; /* work on the motion, its stiffness, magnitudes of the resistance, of `all` */
+  PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(way, &motion));
-  PetscCall(VecDuplicate(way, &resistance));
-  PetscCall(ProximalSetMotion(p, b, axis, point, all, motion, resistance));
-  PetscCall(VecNorm(resistance, NORM_1, &whole));
-  PetscCall(VecPointwiseMult(resistance, p->proximal, motion));
-  PetscCall(VecDot(way, resistance, &work));
-  PetscCall(VecDot(resistance, motion, &stiffness));
-  PetscCall(VecNorm(resistance, NORM_1, &part));
-  if (PetscRealPart(stiffness) > 0.0 && PetscAbsScalar(work / stiffness) * part <= most * whole) {
-    PetscCall(VecAXPY(way, -work / stiffness, motion));
+  PetscCall(VecGetLocalSize(way, &n));
+  PetscCall(VecGetArrayRead(p->model->places.x, &x));
+  PetscCall(VecGetArrayRead(all, &a));
+  PetscCall(VecGetArrayRead(p->proximal, &k));
+  PetscCall(VecGetArray(way, &w));
+  for (PetscInt i = 0; i < n; ++i) {
+    const PetscReal moved = ProximalMotion(axis, point, x, i), force = PetscRealPart(k[i]) * moved;
+
+    if (body[i / 3] != b) continue;
+    sums[0] += PetscRealPart(w[i]) * force;
+    sums[1] += moved * force;
+    sums[2] += PetscAbsReal(force);
+    sums[3] += PetscAbsScalar(a[i]);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, p->model->comm));
+  if (sums[1] > 0.0 && PetscAbsReal(sums[0] / sums[1]) * sums[2] <= most * sums[3]) {
+    for (PetscInt i = 0; i < n; ++i)
+      if (body[i / 3] == b) w[i] -= sums[0] / sums[1] * ProximalMotion(axis, point, x, i);
     p->glides = PETSC_TRUE;
   }
-  PetscCall(VecDestroy(&resistance));
-  PetscCall(VecDestroy(&motion));
+  PetscCall(VecRestoreArray(way, &w));
+  PetscCall(VecRestoreArrayRead(p->proximal, &k));
+  PetscCall(VecRestoreArrayRead(all, &a));
+  PetscCall(VecRestoreArrayRead(p->model->places.x, &x));
   PetscFunctionReturn(0);
 }
 
