@@ -20,7 +20,7 @@ static char help[] =
     attempt_error = call; \
     PetscCall(AttemptEnd()); \
     PetscCall(AttemptCompareRanks(name, attempt_error)); \
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n  ", name)); \
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: ", name)); \
     PetscCall(AttemptPrint(attempt_error)); \
   } while (0)
 

@@ -11,7 +11,7 @@ static char help[] = "Bad input to the mesh gives one sentence, the same error o
     expected = call; \
     PetscCall(AttemptEnd()); \
     PetscCall(AttemptCompareRanks(name, expected)); \
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n  %s\n", name, expected ? attempt_sentence : "NO ERROR")); \
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", name, expected ? attempt_sentence : "NO ERROR")); \
   } while (0)
 
 static PetscErrorCode BadBodies(void)

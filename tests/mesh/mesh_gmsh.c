@@ -185,7 +185,7 @@ int main(int argc, char **argv)
     ierr = LoadAndMesh();
     PetscCall(AttemptEnd());
     PetscCall(AttemptCompareRanks(mistakes[i].name, ierr));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n    %s\n", mistakes[i].name, ierr ? attempt_sentence : "a mesh"));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", mistakes[i].name, ierr ? attempt_sentence : "a mesh"));
   }
   PetscCall(PetscFinalize());
   return 0;

@@ -271,7 +271,7 @@ static PetscErrorCode TryScene(const char name[], const char file[])
   ierr = LoadAndMesh(file);
   PetscCall(AttemptEnd());
   PetscCall(AttemptCompareRanks(name, ierr));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n    %s\n", name, ierr ? attempt_sentence : "loads"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", name, ierr ? attempt_sentence : "loads"));
   PetscFunctionReturn(0);
 }
 
