@@ -44,9 +44,11 @@ build/%.o: %.c makefile share/toolchain.mk $(configuration)
 	$(Q)$(COMPILE) $< -o $@
 
 # Which Python makes the page of a run, and converts meshes
-# Products and sums of the V-cycle become one instruction where the processor has it. Vectors of 8 floats are never
-# arguments of functions that are not inlined.
-build/pc_amgf/blockamg/sweep.o: COMPILE_FLAGS += -ffp-contract=fast -Wno-psabi
+# Products and sums become one instruction where the processor has it. Vectors of 8 floats are never arguments of
+# functions that are not inlined.
+build/pc_amgf/blockamg/sweep.o: COMPILE_FLAGS += -Wno-psabi
+build/pc_amgf/blockamg/sweep.o build/src/elasticity/elements/%.o build/src/material/%.o: \
+  COMPILE_FLAGS += -ffp-contract=fast
 build/src/output/page.o build/src/mesh/gmsh/convert.o build/apps/deck.o: COMPILE_FLAGS += -DCONTACT_PYTHON='"$(PYTHON)"'
 
 $(source_list): FORCE

@@ -2,6 +2,7 @@
 #ifndef MATERIAL_H
 #define MATERIAL_H
 
+#include <lanes.h>
 #include <petscsys.h>
 
 /* The material laws. A new law needs a file in src/material and a line here, with its name in C and its name in
@@ -101,14 +102,18 @@ typedef struct {
    PETSC_FALSE and write nothing.
 */
 typedef struct {
-  PetscBool constant;  /* the tangent does not depend on H */
-  PetscBool isotropic; /* the tangent is also isotropic: lambda I (x) I + 2 mu I_sym */
+  PetscBool constant; /* the tangent does not depend on H */
   /* Energy density W(H) [force/length^2] */
   PetscReal (*energy)(const MaterialModuli *, const PetscReal H[9]);
   /* First Piola-Kirchhoff stress P = dW/dH [force/length^2] */
   PetscBool (*stress)(const MaterialModuli *, const PetscReal H[9], PetscReal P[9]);
   /* Tangent A[9 (3 i + j) + 3 k + l] = dP_ij/dH_kl [force/length^2] */
   PetscBool (*tangent)(const MaterialModuli *, const PetscReal H[9], PetscReal A[81]);
+  /* The same three functions at as many points as there are lanes; false if one of these is inverted. NULL: the
+     functions above are called for each point. */
+  PetscBool (*energies)(const MaterialModuli *, const Lanes H[9], Lanes *W);
+  PetscBool (*stresses)(const MaterialModuli *, const Lanes H[9], Lanes P[9]);
+  PetscBool (*tangents)(const MaterialModuli *, const Lanes H[9], Lanes A[81]);
   /* Cauchy stress xx yy zz xy yz zx [force/length^2] */
   PetscBool (*cauchy)(const MaterialModuli *, const PetscReal H[9], PetscReal sigma[6]);
   /* Dilatation theta(H) and its derivative C = dtheta/dH */

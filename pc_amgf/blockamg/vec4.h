@@ -5,7 +5,7 @@
 #ifndef AMGF_VEC4_H
 #define AMGF_VEC4_H
 
-#include "pc_amgf/clones.h"
+#include <clones.h>
 #include <stdint.h>
 #include <string.h>
 

@@ -307,7 +307,6 @@ static const MaterialConstant constants[] = {
 
 const MaterialLaw MaterialLawJ2 = {
   .constant   = PETSC_FALSE,
-  .isotropic  = PETSC_FALSE,
   .energy     = MaterialEnergy_J2,
   .stress     = MaterialStress_J2,
   .tangent    = MaterialTangent_J2,

@@ -187,7 +187,6 @@ static const MaterialConstant constants[] = {MATERIAL_YOUNG, MATERIAL_POISSON, M
 
 const MaterialLaw MaterialLawJ2Finite = {
   .constant   = PETSC_FALSE,
-  .isotropic  = PETSC_FALSE,
   .energy     = MaterialEnergy_J2Finite,
   .stress     = MaterialStress_J2Finite,
   .tangent    = MaterialTangent_J2Finite,

@@ -55,7 +55,6 @@ PetscReal MaterialDilatation_Linear(const PetscReal H[9], PetscReal C[9])
 
 const MaterialLaw MaterialLawLinear = {
   .constant   = PETSC_TRUE,
-  .isotropic  = PETSC_TRUE,
   .energy     = MaterialEnergy_Linear,
   .stress     = MaterialStress_Linear,
   .tangent    = MaterialTangent_Linear,

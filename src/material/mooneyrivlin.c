@@ -147,7 +147,6 @@ static const MaterialConstant constants[] = {
 
 const MaterialLaw MaterialLawMooneyRivlin = {
   .constant   = PETSC_FALSE,
-  .isotropic  = PETSC_FALSE,
   .energy     = MaterialEnergy_MooneyRivlin,
   .stress     = MaterialStress_MooneyRivlin,
   .tangent    = MaterialTangent_MooneyRivlin,

@@ -156,7 +156,6 @@ static const MaterialConstant constants[] = {
 
 const MaterialLaw MaterialLawOrthotropic = {
   .constant   = PETSC_TRUE,
-  .isotropic  = PETSC_FALSE,
   .energy     = MaterialEnergy_Orthotropic,
   .stress     = MaterialStress_Orthotropic,
   .tangent    = MaterialTangent_Orthotropic,

@@ -42,7 +42,6 @@ static const MaterialConstant constants[] = {MATERIAL_DENSITY, {NULL}};
 
 const MaterialLaw MaterialLawRigid = {
   .constant   = PETSC_TRUE,
-  .isotropic  = PETSC_FALSE,
   .energy     = MaterialEnergy_Rigid,
   .stress     = MaterialStress_Rigid,
   .tangent    = MaterialTangent_Rigid,

@@ -110,7 +110,6 @@ static void MaterialCurvature_SaintVenant(PetscReal pressure, const PetscReal H[
 
 const MaterialLaw MaterialLawSaintVenant = {
   .constant   = PETSC_FALSE,
-  .isotropic  = PETSC_FALSE,
   .energy     = MaterialEnergy_SaintVenant,
   .stress     = MaterialStress_SaintVenant,
   .tangent    = MaterialTangent_SaintVenant,

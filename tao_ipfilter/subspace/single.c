@@ -3,7 +3,7 @@
    Memory traffic determines the time: each function reads the directions once.
 */
 #include "subspaceimpl.h"
-#include "pc_amgf/clones.h"
+#include <clones.h>
 
 #define SINGLE_LANES 8    /* partial sums of a dot product, one per lane of a vector register */
 #define SINGLE_CHUNK 1024 /* entries of a vector that stay in the cache while all directions are read */

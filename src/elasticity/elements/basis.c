@@ -2,6 +2,20 @@
 #include "elementsimpl.h"
 #include <petscdt.h>
 
+/* Copies weights and derivatives to the packs */
+static void BasisSetPacks(CellBasis *basis)
+{
+  basis->npacks = (basis->npoints + LANES - 1) / LANES;
+  for (PetscInt p = 0; p < LANES * basis->npacks; ++p) {
+    const PetscInt q = PetscMin(p, basis->npoints - 1);
+
+    basis->packweight[p / LANES][p % LANES] = p == q ? basis->weight[q] : 0;
+    for (PetscInt a = 0; a < basis->nnodes; ++a) {
+      for (PetscInt k = 0; k < 3; ++k) basis->packdN[p / LANES][a][k][p % LANES] = basis->dN[q][k][a];
+    }
+  }
+}
+
 PetscErrorCode CellBasisCreate(PetscInt nnodes, PetscInt n, CellBasis *basis)
 {
   PetscReal x[3], w[3];
@@ -22,5 +36,6 @@ PetscErrorCode CellBasisCreate(PetscInt nnodes, PetscInt n, CellBasis *basis)
     }
   }
   for (PetscInt q = 0; q < basis->npoints; ++q) MeshCellShape(nnodes, basis->xi[q], basis->N[q], basis->dN[q]);
+  BasisSetPacks(basis);
   PetscFunctionReturn(0);
 }

@@ -162,16 +162,15 @@ static PetscBool ElementStiffnessPoints_Bbar(const CellBasis *basis, const BodyM
   PetscScalar K[])
 {
   PetscReal      A[81];
-  CellSums       S;
+  CellTangents   t;
   MaterialModuli own;
 
-  CellSumsClear(basis->nnodes, &S);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     if (!m->law->tangent(BbarModuli(m, q, &own), d->H[q], A)) return PETSC_FALSE;
     if (m->law->curvature) m->law->curvature((m->moduli.bulk - m->rest) * DilatationAt(d, q), d->H[q], A);
-    CellStiffnessAdd(basis, d->w[q], d->G[q], A, &S);
+    CellTangentsSetPoint(basis, q, d->w[q], d->G[q], A, &t);
   }
-  CellStiffnessFinish(basis, &S, K);
+  CellStiffness(basis, &t, K);
   return PETSC_TRUE;
 }
 

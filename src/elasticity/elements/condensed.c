@@ -235,17 +235,16 @@ PetscBool CondensedForce(const CellBasis *basis, const BodyMaterial *m, PetscRea
 PetscBool CondensedStiffness(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
 {
-  PetscReal B[MODES][3][CELL_MAX_NODES] = {{{0}}}, A[81], AM[9];
-  Condensed c;
-  CellSums  S;
+  PetscReal    B[MODES][3][CELL_MAX_NODES] = {{{0}}}, A[81], AM[9];
+  Condensed    c;
+  CellTangents t;
 
   CondensedSolve(basis, m, X, U, &c);
-  CellSumsClear(8, &S);
   for (PetscInt q = 0; q < c.npoints; ++q) {
     MaterialModuli own;
 
     (void)m->law->tangent(CellModuli(&m->moduli, q, &own), c.H[q], A);
-    CellStiffnessAdd(basis, c.w[q], c.G[q], A, &S);
+    CellTangentsSetPoint(basis, q, c.w[q], c.G[q], A, &t);
     for (int k = 0; k < MODES; ++k) {
       for (int i = 0; i < 9; ++i) {
         AM[i] = 0;
@@ -254,7 +253,7 @@ PetscBool CondensedStiffness(const CellBasis *basis, const BodyMaterial *m, Pets
       CellForceAdd(8, c.w[q], c.G[q], AM, B[k]);
     }
   }
-  CellStiffnessFinish(basis, &S, K);
+  CellStiffness(basis, &t, K);
   for (int r = 0; r < 24; ++r) {
     PetscReal x[MODES];
 

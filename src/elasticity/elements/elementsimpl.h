@@ -3,6 +3,7 @@
 #define ELEMENTSIMPL_H
 
 #include <elasticity.h>
+#include <lanes.h>
 #include <vector3.h>
 #include <petsccompat.h>
 #include <mesh.h>
@@ -16,6 +17,8 @@
 */
 #define CELL_MAX_NODES  27
 #define CELL_MAX_POINTS 27
+#define CELL_PACKS      ((CELL_MAX_POINTS + LANES - 1) / LANES) /* packs of points, one in each lane */
+#define CELL_WIDTH      32                                      /* CELL_MAX_NODES rounded up to a multiple of LANES */
 
 typedef struct {
   PetscInt  nnodes, npoints;
@@ -23,6 +26,10 @@ typedef struct {
   PetscReal xi[CELL_MAX_POINTS][3];
   PetscReal N[CELL_MAX_POINTS][CELL_MAX_NODES];
   PetscReal dN[CELL_MAX_POINTS][3][CELL_MAX_NODES]; /* dN/dxi_k */
+  PetscInt  npacks;
+  PetscReal packweight[CELL_PACKS][LANES]; /* zero in lanes beyond the last point, which have the
+                                                              other values of the last point */
+  PetscReal packdN[CELL_PACKS][CELL_MAX_NODES][3][LANES];
 } CellBasis;
 
 /* nnodes: number of nodes of a cell, 4, 8, 10 or 27; gausspoints: per axis of a hexahedron, 2 or 3 */
@@ -83,26 +90,92 @@ static inline void CellForceAdd(const int n, PetscReal w, PetscReal G[3][CELL_MA
   }
 }
 
-/*
-   stiffness.c: stiffness of a cell from the tangents at its points, used by all elements. The entry for component i of
-   node a and component k of node b is K[(3 a + i) 3 n + 3 b + k].
-*/
+/* Volumes, gradients G[j][a] and displacement gradients at the points of a pack */
 typedef struct {
-  PetscReal of[3][3][CELL_MAX_NODES * CELL_MAX_NODES]; /* of[i][k][n a + b]: entry for component i of node a and
-                                                          component k >= i of node b */
-} CellSums;
+  Lanes w, G[3][CELL_MAX_NODES], H[9];
+} CellPack;
 
+/* Computes volumes and gradients, which take less time than it takes to read them from memory */
+LANES_INLINE void CellPackGradients(const int n, const CellBasis *basis, PetscInt pack, PetscReal X[3][CELL_MAX_NODES],
+  CellPack *c)
+{
+  Lanes J[3][3] = {{{0}}}, C[3][3], det, inverse;
+
+  for (int a = 0; a < n; ++a) {
+    for (int k = 0; k < 3; ++k) {
+      const Lanes dN = LANES_OF(basis->packdN[pack][a][k]);
+
+      for (int i = 0; i < 3; ++i) J[i][k] += X[i][a] * dN;
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+
+    for (int k = 0; k < 3; ++k) {
+      const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
+
+      C[i][k] = J[i1][k1] * J[i2][k2] - J[i1][k2] * J[i2][k1];
+    }
+  }
+  det     = J[0][0] * C[0][0] + J[0][1] * C[0][1] + J[0][2] * C[0][2];
+  inverse = 1 / det;
+  c->w    = LANES_OF(basis->packweight[pack]) * det;
+  for (int j = 0; j < 3; ++j) {
+    for (int k = 0; k < 3; ++k) C[j][k] *= inverse;
+  }
+  for (int a = 0; a < n; ++a) {
+    const Lanes d0 = LANES_OF(basis->packdN[pack][a][0]), d1 = LANES_OF(basis->packdN[pack][a][1]),
+                d2 = LANES_OF(basis->packdN[pack][a][2]);
+
+    for (int j = 0; j < 3; ++j) c->G[j][a] = C[j][0] * d0 + C[j][1] * d1 + C[j][2] * d2;
+  }
+}
+
+/* Computes volumes, gradients and displacement gradients */
+LANES_INLINE void CellPackSet(const int n, const CellBasis *basis, PetscInt pack, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], CellPack *c)
+{
+  CellPackGradients(n, basis, pack, X, c);
+  for (int i = 0; i < 9; ++i) {
+    Lanes sum = {0};
+
+    for (int a = 0; a < n; ++a) sum += U[i / 3][a] * c->G[i % 3][a];
+    c->H[i] = sum;
+  }
+}
+
+/* stiffness.c: stiffness of a cell from the tangents at its points, used by all elements */
+typedef struct {
+  PetscReal G[CELL_MAX_POINTS][3][CELL_WIDTH]; /* gradients of the shape functions; zero beyond the last node, to a
+                                                  multiple of 8 */
+  Lanes     A[CELL_PACKS][81];                 /* tangents times the volumes of the points */
+} CellTangents;
+
+/* Sets the gradients at the points of a pack */
+LANES_INLINE void CellTangentsSetGradients(const int n, const CellBasis *basis, PetscInt pack,
+  Lanes G[3][CELL_MAX_NODES], CellTangents *t)
+{
+  for (int l = 0; l < LANES && LANES * pack + l < basis->npoints; ++l) {
+    for (int j = 0; j < 3; ++j) {
+      PetscReal *g = t->G[LANES * pack + l][j];
+
+      for (int a = 0; a < n; ++a) g[a] = LANE(G[j][a], l);
+      for (int a = n; a % 8; ++a) g[a] = 0;
+    }
+  }
+}
+
+/* Sets the gradients and the tangent A at point q, whose volume is w */
+PETSC_INTERN void CellTangentsSetPoint(const CellBasis *, PetscInt q, PetscReal w, PetscReal G[3][CELL_MAX_NODES],
+  const PetscReal A[81], CellTangents *);
+/*
+   Computes K_ia,kb = int dN_a/dX_j A_ijkl dN_b/dX_l with symmetric A. The entry for component i of node a and component
+   k of node b is K[(3 a + i) 3 n + 3 b + k].
+*/
+PETSC_INTERN void CellStiffness(const CellBasis *, const CellTangents *, PetscScalar K[]);
 /* Computes the stiffness of a cell for a law with constant tangent */
 PETSC_INTERN void CellStiffnessConstant(const CellBasis *, const MaterialLaw *, const MaterialModuli *,
   PetscReal X[3][CELL_MAX_NODES], PetscScalar K[]);
-/*
-   CellSumsClear() sets the sums to zero. CellStiffnessAdd() adds w dN_a/dX_j A_ijkl dN_b/dX_l, with symmetric A, to
-   of[i][k][n a + b]. CellStiffnessFinish() computes the stiffness from the sums over all points.
-*/
-PETSC_INTERN void CellSumsClear(PetscInt n, CellSums *);
-PETSC_INTERN void CellStiffnessAdd(const CellBasis *, PetscReal w, PetscReal G[3][CELL_MAX_NODES],
-  const PetscReal A[81], CellSums *);
-PETSC_INTERN void CellStiffnessFinish(const CellBasis *, const CellSums *, PetscScalar K[]);
 
 /*
    full.c, bbar.c, incompatible.c: elements. An element computes energy, force, stiffness and stress of a cell from its
@@ -126,6 +199,16 @@ static inline const MaterialModuli *CellModuli(const MaterialModuli *cell, Petsc
   own->history += MATERIAL_HISTORY * q;
   return own;
 }
+
+/*
+   points.c: functions of a law at the points of a pack. Each returns false if a point is inverted.
+*/
+PETSC_INTERN PetscBool PointsEnergy(const MaterialLaw *, const MaterialModuli *cell, PetscInt pack, PetscInt npoints,
+  const Lanes H[9], Lanes *W);
+PETSC_INTERN PetscBool PointsStress(const MaterialLaw *, const MaterialModuli *cell, PetscInt pack, PetscInt npoints,
+  const Lanes H[9], Lanes P[9]);
+PETSC_INTERN PetscBool PointsTangent(const MaterialLaw *, const MaterialModuli *cell, PetscInt pack, PetscInt npoints,
+  const Lanes H[9], Lanes A[81]);
 
 /* Replaces the displacement gradient at point q by its elastic part */
 static inline void CellElastic(const BodyMaterial *cell, PetscInt q, PetscReal H[9])

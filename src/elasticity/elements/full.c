@@ -1,79 +1,87 @@
 /* Element with full integration: E = int W(H) */
 #include "elementsimpl.h"
 
-static inline PetscReal FullEnergy(const int n, const CellBasis *basis, const BodyMaterial *m,
+LANES_INLINE PetscReal FullEnergy(const int n, const CellBasis *basis, const BodyMaterial *m,
   PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES])
 {
-  PetscReal      G[3][CELL_MAX_NODES], H[9], sum = 0;
-  MaterialModuli own;
+  Lanes    sum = {0}, W;
+  CellPack c;
 
-  for (PetscInt q = 0; q < basis->npoints; ++q) {
-    const PetscReal w = CellGradients(n, basis, q, X, G);
-    PetscReal       density;
-
-    CellDisplacementGradient(n, U, G, H);
-    density = m->law->energy(CellModuli(&m->moduli, q, &own), H);
-    if (density >= PETSC_INFINITY) return PETSC_INFINITY;
-    sum += w * density;
+  for (PetscInt pack = 0; pack < basis->npacks; ++pack) {
+    CellPackSet(n, basis, pack, X, U, &c);
+    if (!PointsEnergy(m->law, &m->moduli, pack, basis->npoints, c.H, &W)) return PETSC_INFINITY;
+    sum += c.w * W;
   }
-  return sum;
+  return LanesSum(&sum);
 }
 
-static PetscReal ElementEnergy_Full(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
-  PetscReal U[3][CELL_MAX_NODES])
+AMGF_CLONES static PetscReal ElementEnergy_Full(const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES])
 {
   return CELL_CALL(FullEnergy, basis, m, X, U);
 }
 
-static inline PetscBool FullForce(const int n, const CellBasis *basis, const BodyMaterial *m,
+/* Computes F_ia = int P_ij dN_a/dX_j */
+LANES_INLINE PetscBool FullForce(const int n, const CellBasis *basis, const BodyMaterial *m,
   PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
 {
-  PetscReal      G[3][CELL_MAX_NODES], H[9], P[9];
-  MaterialModuli own;
+  Lanes    P[9];
+  CellPack c;
 
   for (int i = 0; i < 3; ++i) {
     for (int a = 0; a < n; ++a) F[i][a] = 0;
   }
-  for (PetscInt q = 0; q < basis->npoints; ++q) {
-    const PetscReal w = CellGradients(n, basis, q, X, G);
+  for (PetscInt pack = 0; pack < basis->npacks; ++pack) {
+    CellPackSet(n, basis, pack, X, U, &c);
+    if (!PointsStress(m->law, &m->moduli, pack, basis->npoints, c.H, P)) return PETSC_FALSE;
+    for (int i = 0; i < 3; ++i) {
+      const Lanes p0 = c.w * P[3 * i], p1 = c.w * P[3 * i + 1], p2 = c.w * P[3 * i + 2];
 
-    CellDisplacementGradient(n, U, G, H);
-    if (!m->law->stress(CellModuli(&m->moduli, q, &own), H, P)) return PETSC_FALSE;
-    CellForceAdd(n, w, G, P, F);
+      for (int a = 0; a < n; ++a) {
+        const Lanes f = p0 * c.G[0][a] + p1 * c.G[1][a] + p2 * c.G[2][a];
+
+        F[i][a] += LanesSum(&f);
+      }
+    }
   }
   return PETSC_TRUE;
 }
 
-static PetscBool ElementForce_Full(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
-  PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
+AMGF_CLONES static PetscBool ElementForce_Full(const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
 {
   return CELL_CALL(FullForce, basis, m, X, U, F);
 }
 
-/* Computes K_ia,kb = int dN_a/dX_j dP_ij/dH_kl dN_b/dX_l */
-static inline PetscBool FullStiffness(const int n, const CellBasis *basis, const BodyMaterial *m,
+/* Computes gradients, and dP_ij/dH_kl times the volumes of the points */
+LANES_INLINE PetscBool FullTangents(const int n, const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], CellTangents *t)
+{
+  CellPack c;
+
+  for (PetscInt pack = 0; pack < basis->npacks; ++pack) {
+    CellPackSet(n, basis, pack, X, U, &c);
+    if (!PointsTangent(m->law, &m->moduli, pack, basis->npoints, c.H, t->A[pack])) return PETSC_FALSE;
+    CellTangentsSetGradients(n, basis, pack, c.G, t);
+    for (int i = 0; i < 81; ++i) t->A[pack][i] *= c.w;
+  }
+  return PETSC_TRUE;
+}
+
+AMGF_CLONES static PetscBool FullStiffness(const CellBasis *basis, const BodyMaterial *m,
   PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
 {
-  PetscReal      G[3][CELL_MAX_NODES], H[9], A[81];
-  CellSums       S;
-  MaterialModuli own;
+  CellTangents t;
 
-  CellSumsClear(n, &S);
-  for (PetscInt q = 0; q < basis->npoints; ++q) {
-    const PetscReal w = CellGradients(n, basis, q, X, G);
-
-    CellDisplacementGradient(n, U, G, H);
-    if (!m->law->tangent(CellModuli(&m->moduli, q, &own), H, A)) return PETSC_FALSE;
-    CellStiffnessAdd(basis, w, G, A, &S);
-  }
-  CellStiffnessFinish(basis, &S, K);
+  if (!CELL_CALL(FullTangents, basis, m, X, U, &t)) return PETSC_FALSE;
+  CellStiffness(basis, &t, K);
   return PETSC_TRUE;
 }
 
 static PetscBool ElementStiffness_Full(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
 {
-  if (!m->law->constant) return CELL_CALL(FullStiffness, basis, m, X, U, K);
+  if (!m->law->constant) return FullStiffness(basis, m, X, U, K);
   CellStiffnessConstant(basis, m->law, &m->moduli, X, K);
   return PETSC_TRUE;
 }
