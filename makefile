@@ -47,7 +47,8 @@ build/%.o: %.c makefile share/toolchain.mk $(configuration)
 # Products and sums become one instruction where the processor has it. Vectors of 8 floats are never arguments of
 # functions that are not inlined.
 build/pc_amgf/blockamg/sweep.o: COMPILE_FLAGS += -Wno-psabi
-build/pc_amgf/blockamg/sweep.o build/src/elasticity/elements/%.o build/src/material/%.o: \
+build/pc_amgf/blockamg/sweep.o build/tao_ipfilter/subspace/products.o build/src/elasticity/elements/%.o \
+  build/src/material/%.o: \
   COMPILE_FLAGS += -ffp-contract=fast
 build/src/output/page.o build/src/mesh/gmsh/convert.o build/apps/deck.o: COMPILE_FLAGS += -DCONTACT_PYTHON='"$(PYTHON)"'
 

@@ -7,6 +7,7 @@
    if the preconditioner is good. Only a direction that almost depends on the others is made K-orthogonal to them.
 */
 #include "subspaceimpl.h"
+#include <lanes.h>
 #include <math.h>
 #include <petscblaslapack.h>
 
@@ -498,16 +499,48 @@ PetscErrorCode IPBasisCompress(IPBasis *b, PetscInt best, PetscInt last, PetscRe
   PetscFunctionReturn(0);
 }
 
-/* Computes the rows of K P that belong to W, and the Gram matrix P^T K P */
+/* Stores the rows W, and the columns of the Gram matrix, of k directions from number `first` on. KD: K times them */
+static PetscErrorCode BasisStoreProducts(IPBasis *b, PetscInt first, PetscInt k, const PetscReal *KD)
+{
+  const PetscInt *w, n = first + k;
+  PetscInt        nw, start;
+  PetscReal      *s;
+
+  PetscFunctionBegin;
+  PetscCall(ISGetLocalSize(b->W, &nw));
+  PetscCall(ISGetIndices(b->W, &w));
+  PetscCall(VecGetOwnershipRange(b->d, &start, NULL));
+  PetscCall(PetscMalloc1(LANES * n, &s));
+  IPProductsDots(b->nlocal, n, b->p, KD, s);
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, s, (PetscMPIInt)(LANES * n), MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)b->d)));
+  for (PetscInt j = first; j < n; j++) {
+    if (!b->q[j]) PetscCall(PetscMalloc1(nw, &b->q[j]));
+    for (PetscInt i = 0; i < nw; i++) b->q[j][i] = KD[(size_t)(w[i] - start) * LANES + (size_t)(j - first)];
+    for (PetscInt i = 0; i <= j; i++)
+      b->gram[i + j * b->max] = b->gram[j + i * b->max] = b->size[i] * s[LANES * i + j - first];
+  }
+  PetscCall(PetscFree(s));
+  PetscCall(ISRestoreIndices(b->W, &w));
+  PetscFunctionReturn(0);
+}
+
+/* Computes the rows of K P that belong to W, and the Gram matrix P^T K P, for as many directions at once as there are
+   lanes */
 PetscErrorCode IPBasisMultiply(IPBasis *b, Mat K)
 {
+  PetscReal *D, *KD;
+
   PetscFunctionBegin;
-  for (PetscInt j = 0; j < b->n; j++) {
-    PetscCall(BasisExpand(b, j));
-    PetscCall(BasisMultiply(b, K, j));
-    PetscCall(IPBasisDots(b, 0, j + 1, b->Kd, &b->gram[j * b->max]));
-    for (PetscInt i = 0; i < j; i++) b->gram[j + i * b->max] = b->gram[i + j * b->max];
+  PetscCall(PetscMalloc2(LANES * b->nlocal, &D, LANES * b->nlocal, &KD));
+  for (PetscInt first = 0; first < b->n; first += LANES) {
+    const PetscInt k = PetscMin(LANES, b->n - first);
+
+    IPProductsSpread(b->nlocal, k, b->p + first, b->size + first, D);
+    PetscCall(IPProductsMultiply(K, D, b->d, b->Kd, KD));
+    PetscCall(BasisStoreProducts(b, first, k, KD));
   }
+  PetscCall(PetscFree2(D, KD));
   PetscCall(BasisFactor(b));
   PetscFunctionReturn(0);
 }

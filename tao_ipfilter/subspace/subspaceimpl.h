@@ -152,6 +152,11 @@ PETSC_INTERN void IPSingleRound(PetscInt n, const PetscScalar *v, PetscReal size
 PETSC_INTERN void IPSingleDots(PetscInt n, PetscInt k, float *const p[], const PetscScalar *v, PetscReal s[]);
 PETSC_INTERN void IPSingleCombine(PetscInt n, PetscInt k, const PetscReal a[], float *const p[], PetscScalar *v);
 
+/* products.c */
+PETSC_INTERN PetscErrorCode IPProductsMultiply(Mat K, const PetscReal *X, Vec x, Vec y, PetscReal *Y);
+PETSC_INTERN void IPProductsSpread(PetscInt n, PetscInt k, float *const p[], const PetscReal size[], PetscReal *X);
+PETSC_INTERN void IPProductsDots(PetscInt n, PetscInt k, float *const p[], const PetscReal *Y, PetscReal s[]);
+
 /* basis.c */
 PETSC_INTERN PetscErrorCode IPBasisCreate(PetscInt max, Vec like, IPBasis *);
 PETSC_INTERN PetscErrorCode IPBasisDestroy(IPBasis *);

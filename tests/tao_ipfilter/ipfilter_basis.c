@@ -2,14 +2,16 @@ static char help[] =
   "The directions of the filtered subspace after many compressions: the Gram matrix and the products "
   "with K must remain those of the stored directions.\n\n";
 
+#include "../../tao_ipfilter/subspace/products.c"
 #include "../../tao_ipfilter/subspace/single.c"
 #include "../../tao_ipfilter/subspace/basis.c"
 
 enum { N = 300, ROOM = 12, COMPRESSIONS = 120 };
 
-/* The matrix of a chain of springs, which are stiffer towards its end */
+/* The matrix of a chain of springs, which are stiffer towards its end; -mat_type */
 static PetscErrorCode CreateChain(Mat *K)
 {
+  char     type[64] = MATAIJ;
   PetscInt start, end;
 
   PetscFunctionBeginUser;
@@ -24,6 +26,10 @@ static PetscErrorCode CreateChain(Mat *K)
   }
   PetscCall(MatAssemblyBegin(*K, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(*K, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscOptionsGetString(NULL, NULL, "-mat_type", type, sizeof(type), NULL));
+  PetscCall(MatSetOption(*K, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscCall(MatSetBlockSize(*K, strcmp(type, MATAIJ) ? 3 : 1));
+  PetscCall(MatConvert(*K, type, MAT_INPLACE_MATRIX, K));
   PetscFunctionReturn(0);
 }
 
@@ -110,5 +116,10 @@ int main(int argc, char **argv)
    test:
       suffix: 1
       nsize: {{1 3}}
+
+   test:
+      suffix: blocks
+      args: -mat_type {{baij sbaij}}
+      output_file: output/ipfilter_basis_1.out
 
 TEST*/
