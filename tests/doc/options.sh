@@ -4,9 +4,8 @@ contact=$AMGF_DIR/bin/contact
 scene=$AMGF_DIR/share/scenes/cantilever.yaml
 
 try() {
-  echo "$*"
   "$contact" "$scene" -quiet -load_steps 1 "$@" > out 2> err
-  echo "  exit $?: $(sed "s|$AMGF_DIR/||" err)"
+  echo "$*: exit $?: $(sed "s|$AMGF_DIR/||" err)"
   [ ! -s out ] || head -n 3 out
 }
 

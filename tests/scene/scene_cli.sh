@@ -1,5 +1,5 @@
-# What bin/contact says to bad input, on one rank and on three: its exit code, and one sentence. A run of ten minutes
-# hangs.
+# What bin/contact says to bad input, on one rank, and on three if that differs: its exit code, and one sentence. A run
+# of ten minutes hangs.
 contact=$AMGF_DIR/bin/contact
 sound=$AMGF_DIR/share/scenes/two_block.yaml
 
@@ -9,15 +9,17 @@ change() { sed "$1" "$sound" > changed.yaml; }
 try() {
   name=$1
   shift
-  echo "$name"
+  before=
   for ranks in ${RANKS:-1 3}; do
     launch=()
     [ "$ranks" -eq 1 ] || launch=(mpiexec --oversubscribe -n "$ranks")
     timeout 600 "${launch[@]}" "$contact" "$@" > out 2> err
     code=$?
     sentence=$(grep -h 'contact: ' err)
-    echo "  $ranks: exit $([ $code -eq 0 ] && echo 0 || { [ $code -eq 124 ] && echo hang || echo 'not 0'; })," \
-      "$(grep -c . <<< "$sentence") sentence: ${sentence//$AMGF_DIR\//}"
+    said="exit $([ $code -eq 0 ] && echo 0 || { [ $code -eq 124 ] && echo hang || echo 'not 0'; })"
+    said="$said, $(grep -c . <<< "$sentence") sentence: ${sentence//$AMGF_DIR\//}"
+    [ "$said" = "$before" ] || echo "$name, ranks $ranks: $said"
+    before=$said
   done
 }
 
