@@ -333,7 +333,7 @@ static void Place(const PetscReal x[3], PETSC_UNUSED PetscInt body, PETSC_UNUSED
 
 /* Force and moment about the origin that J or the derivative transmits of a pressure of 1 on all rows, on both bodies
    together, by the sum of their sizes */
-static PetscErrorCode ReportBalance(Mat J, Vec mass, Vec x)
+static PetscErrorCode ReportBalance(const char force[], const char moment[], Mat J, Vec mass, Vec x)
 {
   Vec                f;
   const PetscScalar *a, *y;
@@ -357,8 +357,8 @@ static PetscErrorCode ReportBalance(Mat J, Vec mass, Vec x)
   PetscCall(VecRestoreArrayRead(x, &y));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 7, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   for (PetscInt k = 0; k < 6; ++k) sum[k] = PetscAbsReal(sum[k]) / sum[6];
-  PetscCall(Report("    force", PetscMax(PetscMax(sum[0], sum[1]), sum[2]), 1e-12));
-  PetscCall(Report("    moment", PetscMax(PetscMax(sum[3], sum[4]), sum[5]), 1e-12));
+  PetscCall(Report(force, PetscMax(PetscMax(sum[0], sum[1]), sum[2]), 1e-12));
+  PetscCall(Report(moment, PetscMax(PetscMax(sum[3], sum[4]), sum[5]), 1e-12));
   PetscCall(VecDestroy(&f));
   PetscFunctionReturn(0);
 }
@@ -374,10 +374,8 @@ static PetscErrorCode TestBalance(DM dm, const State *state)
   PetscCall(VecDuplicate(v, &x));
   PetscCall(SetField(dm, Place, NULL, x));
   PetscCall(VecAXPY(x, 1.0, v));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  balance of J\n"));
-  PetscCall(ReportBalance(lin->J, lin->mass, x));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  balance of the derivative\n"));
-  PetscCall(ReportBalance(lin->derivative, lin->mass, x));
+  PetscCall(ReportBalance("  J, force", "  J, moment", lin->J, lin->mass, x));
+  PetscCall(ReportBalance("  derivative, force", "  derivative, moment", lin->derivative, lin->mass, x));
   PetscCall(VecDestroy(&x));
   PetscCall(VecDestroy(&v));
   PetscCall(ContactLinearizationDestroy(&lin));
