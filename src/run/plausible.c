@@ -62,7 +62,29 @@ static PetscErrorCode PlausibleDensity(Model model, RunReport *report, const Sce
   PetscFunctionReturn(0);
 }
 
-/* Warns of constants of elastic bodies that no solid has in the scene's units. Nothing is known without units. */
+/* Warns of bodies whose stiffnesses differ so much that contact forces are lost in rounding errors of the stiffer one */
+static PetscErrorCode PlausibleRatio(Model model, RunReport *report)
+{
+  const PetscReal  most = 1e9; /* with 1e8 blocks that contact alone holds came to rest, with 1e10 they did not */
+  const SceneBody *soft = NULL, *hard = NULL;
+
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < model->scene->nbodies; ++b) {
+    const SceneBody *body = &model->scene->bodies[b];
+
+    if (!(body->material.young > 0.0) || body->material.type == MATERIAL_RIGID) continue;
+    if (!soft || body->material.young < soft->material.young) soft = body;
+    if (!hard || body->material.young > hard->material.young) hard = body;
+  }
+  if (!soft || hard->material.young <= most * soft->material.young) PetscFunctionReturn(0);
+  PetscCall(ReportWarn(model->comm, report, hard->place,
+    "body \"%s\" is %.1g times as stiff as body \"%s\", so that rounding errors of its forces may exceed the forces "
+    "between them: use material: rigid",
+    hard->name, (double)(hard->material.young / soft->material.young), soft->name));
+  PetscFunctionReturn(0);
+}
+
+/* Warns of constants of elastic bodies that no solid has in the scene's units, without which nothing is known */
 PetscErrorCode PlausibleTest(Model model, RunReport *report)
 {
   Scene     scene = model->scene;
@@ -74,6 +96,7 @@ PetscErrorCode PlausibleTest(Model model, RunReport *report)
   (void)UnitsFind(scene->units, UNIT_STRESS, &stress);
   (void)UnitsFind(scene->units, UNIT_TIME, &time);
   if (time == 0.0) time = 1.0;
+  PetscCall(PlausibleRatio(model, report));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     const SceneBody *body = &scene->bodies[b];
 

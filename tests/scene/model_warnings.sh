@@ -114,3 +114,17 @@ contact:
 SCENE
   run lid
 done
+
+# Bodies whose stiffnesses differ by more than rounding errors allow
+cat > ratio.yaml <<'SCENE'
+problem: ratio
+bodies:
+  - hard: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [2, 2, 2], young: 2e11, poisson: 0.3}
+  - soft: {lower: [-0.5, -0.5, -1], upper: [1.5, 1.5, 0], cells: [4, 4, 2], young: 5e-3, poisson: 0.3}
+displacements:
+  - base: {face: soft.zmin, value: [0, 0, 0]}
+  - press: {face: hard.zmax, value: [0, 0, -0.01]}
+contact:
+  - pair: {mortar: soft.zmax, nonmortar: hard.zmin}
+SCENE
+run ratio
