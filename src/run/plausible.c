@@ -62,7 +62,7 @@ static PetscErrorCode PlausibleDensity(Model model, RunReport *report, const Sce
   PetscFunctionReturn(0);
 }
 
-/* Warns of bodies whose stiffnesses differ so much that contact forces are lost in rounding errors of the stiffer one */
+/* Warns of bodies whose stiffnesses differ so much that contact forces are lost in rounding errors of the stiffer */
 static PetscErrorCode PlausibleRatio(Model model, RunReport *report)
 {
   const PetscReal  most = 1e9; /* with 1e8 blocks that contact alone holds came to rest, with 1e10 they did not */

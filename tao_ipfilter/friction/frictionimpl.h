@@ -106,10 +106,13 @@ PETSC_INTERN PetscErrorCode ConesStart(Cones, PetscBool *started);
 PETSC_INTERN PetscErrorCode ConesIterate(Cones, PetscReal tolerance, PetscReal *error, PetscBool *solved);
 
 /* newton.c */
-PETSC_INTERN void           ContactsLinearize(const Contacts *, PetscInt i);
+PETSC_INTERN PetscBool      ContactsLinearize(const Contacts *, PetscInt i);
 PETSC_INTERN void           ContactsGuessStates(Contacts *, PetscBool interior);
 PETSC_INTERN PetscErrorCode ContactsNewtonStep(Contacts *, const ContactBodies *, PetscReal *merit, PetscReal *change,
   PetscBool *solved);
+
+/* choice.c */
+PETSC_INTERN PetscErrorCode ContactsChoose(Contacts *, const ContactBodies *, PetscBool *chosen);
 
 /* stick.c */
 typedef struct {
@@ -151,6 +154,7 @@ typedef struct {
   PetscReal     size, best;      /* violation or change of motions at the start; smallest violation of this phase */
   PetscReal     known;           /* error of the interior point method at which Newton's method is tried */
   PetscReal     violation;       /* relative violation of the laws; infinite in the interior point method */
+  PetscBool     chosen, keeps;   /* whether forces were chosen (choice.c); whether `kept` has those before */
   PetscReal    *kept;            /* state at the start of Newton's method */
 } ContactIteration;
 

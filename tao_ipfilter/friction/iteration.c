@@ -80,14 +80,35 @@ static PetscErrorCode IterationStick(ContactIteration *it, PetscBool *done)
 }
 
 /*
+   Chooses among the forces of equilibrium where they are not determined, the first time that the laws are solved.
+   Newton's method then solves the laws again, which the chosen forces fulfil almost.
+*/
+static PetscErrorCode IterationChoose(ContactIteration *it)
+{
+  PetscFunctionBegin;
+  if (it->chosen) {
+    it->keeps = PETSC_FALSE;
+    PetscFunctionReturn(0);
+  }
+  it->chosen = PETSC_TRUE;
+  PetscCall(IterationKeep(it, PETSC_FALSE));
+  PetscCall(ContactsChoose(it->contacts, &it->bodies, &it->keeps));
+  it->best = PETSC_INFINITY;
+  if (it->keeps) it->violation = PETSC_INFINITY;
+  PetscFunctionReturn(0);
+}
+
+/*
    Takes one Newton step. *done: false if the violation of the laws was not halved in three steps in a row, or after
-   twelve, although it is more than rounding errors
+   twelve, although it is more than rounding errors. If forces were chosen that do not become a solution, the ones
+   before are taken.
 */
 static PetscErrorCode IterationNewton(ContactIteration *it, PetscBool *done)
 {
   const PetscInt  patience = 3, most = 12;
-  const PetscReal exact = 1e-9; /* violation that counts as none, relative to its size at the start */
-  PetscReal       before, violation, rounding, change, merit;
+  const PetscReal exact = 1e-9, /* violation that counts as none, relative to its size at the start */
+    known               = 1e-6; /* violation at which forces are chosen */
+  PetscReal before, violation, rounding, change, merit;
 
   PetscFunctionBegin;
   PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &before, &rounding));
@@ -98,14 +119,21 @@ static PetscErrorCode IterationNewton(ContactIteration *it, PetscBool *done)
   PetscCall(PetscInfo(NULL, "Newton: merit %g, violation %g, rounding %g, size %g, change %g\n", (double)merit,
     (double)violation, (double)rounding, (double)it->size, (double)change));
   it->violation = violation > rounding ? violation / it->size : 0.0;
-  if (violation <= PetscMax(exact * it->size, rounding)) {
+  if (violation <= PetscMax((it->chosen || it->sticks ? exact : known) * it->size, rounding)) {
     it->nsteps = it->nfutile = 0;
     if (it->sticks) PetscCall(IterationUpdateHeld(it));
+    else PetscCall(IterationChoose(it));
     PetscFunctionReturn(0);
   }
   it->nfutile = merit <= 0.7 * it->best ? 0 : it->nfutile + 1;
   it->best    = PetscMin(it->best, merit);
   *done       = (PetscBool)(!PetscIsInfOrNanReal(merit) && it->nfutile < patience && ++it->nsteps < most);
+  if (!*done && it->keeps) {
+    PetscCall(IterationKeep(it, PETSC_TRUE));
+    it->keeps     = PETSC_FALSE;
+    it->violation = 0.0;
+    *done         = PETSC_TRUE;
+  }
   PetscFunctionReturn(0);
 }
 

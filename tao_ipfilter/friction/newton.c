@@ -87,9 +87,9 @@ static void NewtonSlipLaw(const Contacts *c, PetscInt i, const PetscReal t[2], P
 
 /*
    Sets the linearized law of a contact. It slips if tau - rho v is outside of the bound, at the normal force that a
-   step from f_n - rho u_n would have.
+   step from f_n - rho u_n would have. Returns whether it sticks.
 */
-void ContactsLinearize(const Contacts *c, PetscInt i)
+PetscBool ContactsLinearize(const Contacts *c, PetscInt i)
 {
   const PetscReal *f = &c->f[3 * i], *u = &c->u[3 * i], compliance = c->compliance[2 * i + 1];
   PetscReal       *D = &c->D[9 * i], *s = &c->s[3 * i], t[2], size;
@@ -99,13 +99,17 @@ void ContactsLinearize(const Contacts *c, PetscInt i)
   for (PetscInt a = 1; a < 3; a++) s[a] = -f[a];
   if (c->law[i] == CONTACT_STICKS) {
     if (c->held[i]) ContactsSetNoSlip(c, i);
-    return;
+    return c->held[i];
   }
-  if (c->law[i] == CONTACT_SMOOTH || (!c->closed[i] && c->coefficient[i] >= 0.0)) return;
+  if (c->law[i] == CONTACT_SMOOTH || (!c->closed[i] && c->coefficient[i] >= 0.0)) return PETSC_FALSE;
   for (PetscInt a = 0; a < 2; a++) t[a] = f[1 + a] - u[1 + a] / compliance;
   size = PetscSqrtReal(t[0] * t[0] + t[1] * t[1]);
-  if (size > ContactsBound(c, i, f[0] - u[0] / c->compliance[2 * i])) NewtonSlipLaw(c, i, t, size, D, s);
-  else ContactsSetNoSlip(c, i);
+  if (size > ContactsBound(c, i, f[0] - u[0] / c->compliance[2 * i])) {
+    NewtonSlipLaw(c, i, t, size, D, s);
+    return PETSC_FALSE;
+  }
+  ContactsSetNoSlip(c, i);
+  return PETSC_TRUE;
 }
 
 /*
