@@ -128,7 +128,7 @@ PetscErrorCode ElasticityTangent(Elasticity e, Vec u, Mat tangent)
 {
   ISLocalToGlobalMapping map;
   const PetscInt        *global;
-  PetscBool              holds = PETSC_FALSE, linear = PETSC_FALSE, again = PETSC_FALSE;
+  PetscBool              holds = PETSC_FALSE, linear = PETSC_FALSE, again = PETSC_FALSE, kept = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(ElasticityHoldsAssembled(e, tangent, &holds));
@@ -136,7 +136,8 @@ PetscErrorCode ElasticityTangent(Elasticity e, Vec u, Mat tangent)
   if (holds && linear) PetscFunctionReturn(0);
   PetscCall(PetscLogEventBegin(ELASTICITY_Tangent, tangent, 0, 0, 0));
   PetscCall(MatHasOperation(tangent, MATOP_ZERO_ROWS, &again));
-  if (!holds) again = PETSC_FALSE;
+  for (PetscInt b = 0; b < e->nbodies; ++b) kept = (PetscBool)(kept || e->bodies[b].kept);
+  if (!holds || !kept) again = PETSC_FALSE;
   PetscCall(DMGetLocalToGlobalMapping(e->dm, &map));
   PetscCall(ISLocalToGlobalMappingGetBlockIndices(map, &global));
   if (again) PetscCall(ElasticityZeroAssembledAgain(e, global, tangent));

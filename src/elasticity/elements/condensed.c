@@ -10,61 +10,77 @@
 #define MODES INCOMPATIBLE_MODES
 
 typedef struct {
-  PetscInt  npoints;
-  PetscReal w[CELL_MAX_POINTS], G[CELL_MAX_POINTS][3][CELL_MAX_NODES], M[CELL_MAX_POINTS][MODES][9];
-  PetscReal h[CELL_MAX_POINTS][9], H[CELL_MAX_POINTS][9]; /* displacement gradients without and with the modes */
-  PetscReal a[MODES];
-  PetscReal energy, force[MODES], L[MODES][MODES]; /* at H: energy; forces int P:M on the modes; Cholesky factor of
-                                                      K_aa */
+  const CellBasis *basis;
+  CellPack         points[CELL_PACKS];                        /* without the modes */
+  Lanes            M[CELL_PACKS][MODES][9], H[CELL_PACKS][9]; /* the modes; displacement gradients with the modes */
+  PetscReal        a[MODES];
+  PetscReal        energy, force[MODES], L[MODES][MODES]; /* at H: energy; forces int P:M on the modes; Cholesky factor
+                                                             of K_aa */
 } Condensed;
 
 static const PetscReal singular = 1e-10; /* multiple of the diagonal of K_aa that is added to it */
 
-static void CondensedSetPoints(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES],
-  Condensed *c)
+AMGF_CLONES static void CondensedSetPoints(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], Condensed *c)
 {
-  PetscReal cofactor[3][3];
+  PetscReal cofactor[3][3], M[MODES][9];
 
-  c->npoints = basis->npoints;
+  c->basis = basis;
   IncompatibleCentre(X, cofactor);
-  for (PetscInt q = 0; q < c->npoints; ++q) {
-    c->w[q] = CellGradients(8, basis, q, X, c->G[q]);
-    CellDisplacementGradient(8, U, c->G[q], c->h[q]);
-    IncompatibleModes(basis, q, c->w[q], cofactor, c->M[q]);
+  for (PetscInt pack = 0; pack < basis->npacks; ++pack) {
+    CellPackSet(8, basis, pack, X, U, &c->points[pack]);
+    memset(c->M[pack], 0, sizeof(c->M[pack]));
+  }
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    IncompatibleModes(basis, q, LANE(c->points[q / LANES].w, q % LANES), cofactor, M);
+    for (int i = 0; i < 9 * MODES; ++i) LANE(c->M[q / LANES][i / 9][i % 9], q % LANES) = M[i / 9][i % 9];
   }
 }
 
-static void CondensedMove(Condensed *c)
+AMGF_CLONES static void CondensedMove(Condensed *c)
 {
-  for (PetscInt q = 0; q < c->npoints; ++q) {
+  for (PetscInt pack = 0; pack < c->basis->npacks; ++pack) {
     for (int j = 0; j < 9; ++j) {
-      c->H[q][j] = c->h[q][j];
-      for (int k = 0; k < MODES; ++k) c->H[q][j] += c->a[k] * c->M[q][k][j];
+      c->H[pack][j] = c->points[pack].H[j];
+      for (int k = 0; k < MODES; ++k) c->H[pack][j] += c->a[k] * c->M[pack][k][j];
     }
   }
 }
 
-static PetscReal CondensedSum(const BodyMaterial *m, const Condensed *c)
+AMGF_CLONES static PetscReal CondensedSum(const BodyMaterial *m, const Condensed *c)
 {
-  PetscReal      sum = 0;
-  MaterialModuli own;
+  Lanes sum = {0}, W;
 
-  for (PetscInt q = 0; q < c->npoints; ++q) sum += c->w[q] * m->law->energy(CellModuli(&m->moduli, q, &own), c->H[q]);
-  return sum;
+  for (PetscInt pack = 0; pack < c->basis->npacks; ++pack) {
+    (void)PointsEnergy(m->law, &m->moduli, pack, c->basis->npoints, c->H[pack], &W);
+    sum += c->points[pack].w * W;
+  }
+  return LanesSum(&sum);
 }
 
 /* Computes the forces on the modes */
-static void CondensedForces(const BodyMaterial *m, Condensed *c)
+AMGF_CLONES static void CondensedForces(const BodyMaterial *m, Condensed *c)
 {
-  for (int k = 0; k < MODES; ++k) c->force[k] = 0;
-  for (PetscInt q = 0; q < c->npoints; ++q) {
-    PetscReal      P[9];
-    MaterialModuli own;
+  Lanes force[MODES] = {{0}}, P[9];
 
-    (void)m->law->stress(CellModuli(&m->moduli, q, &own), c->H[q], P);
+  for (PetscInt pack = 0; pack < c->basis->npacks; ++pack) {
+    (void)PointsStress(m->law, &m->moduli, pack, c->basis->npoints, c->H[pack], P);
+    for (int i = 0; i < 9; ++i) P[i] *= c->points[pack].w;
     for (int k = 0; k < MODES; ++k) {
-      for (int i = 0; i < 9; ++i) c->force[k] += c->w[q] * P[i] * c->M[q][k][i];
+      for (int i = 0; i < 9; ++i) force[k] += P[i] * c->M[pack][k][i];
     }
+  }
+  for (int k = 0; k < MODES; ++k) c->force[k] = LanesSum(&force[k]);
+}
+
+/* Computes the stresses AM = A M of a mode M */
+LANES_INLINE void CondensedModeStress(const Lanes A[81], const Lanes M[9], Lanes AM[9])
+{
+  for (int i = 0; i < 9; ++i) {
+    Lanes sum = {0};
+
+    for (int j = 0; j < 9; ++j) sum += A[9 * i + j] * M[j];
+    AM[i] = sum;
   }
 }
 
@@ -72,26 +88,22 @@ static void CondensedForces(const BodyMaterial *m, Condensed *c)
    Computes the energy and the factor of the stiffness K_aa of the modes. A small multiple of its diagonal is added,
    since without hardening K_aa may be singular.
 */
-static void CondensedFactor(const BodyMaterial *m, Condensed *c)
+AMGF_CLONES static void CondensedFactor(const BodyMaterial *m, Condensed *c)
 {
   c->energy = CondensedSum(m, c);
-  for (int k = 0; k < MODES; ++k) {
-    for (int l = 0; l <= k; ++l) c->L[k][l] = 0;
-  }
-  for (PetscInt q = 0; q < c->npoints; ++q) {
-    PetscReal      A[81];
-    MaterialModuli own;
+  memset(c->L, 0, sizeof(c->L));
+  for (PetscInt pack = 0; pack < c->basis->npacks; ++pack) {
+    Lanes A[81], AM[9];
 
-    (void)m->law->tangent(CellModuli(&m->moduli, q, &own), c->H[q], A);
+    (void)PointsTangent(m->law, &m->moduli, pack, c->basis->npoints, c->H[pack], A);
+    for (int i = 0; i < 81; ++i) A[i] *= c->points[pack].w;
     for (int k = 0; k < MODES; ++k) {
-      PetscReal AM[9];
-
-      for (int i = 0; i < 9; ++i) {
-        AM[i] = 0;
-        for (int j = 0; j < 9; ++j) AM[i] += A[9 * i + j] * c->M[q][k][j];
-      }
+      CondensedModeStress(A, c->M[pack][k], AM);
       for (int l = 0; l <= k; ++l) {
-        for (int i = 0; i < 9; ++i) c->L[k][l] += c->w[q] * AM[i] * c->M[q][l][i];
+        Lanes sum = {0};
+
+        for (int i = 0; i < 9; ++i) sum += AM[i] * c->M[pack][l][i];
+        c->L[k][l] += LanesSum(&sum);
       }
     }
   }
@@ -214,43 +226,52 @@ PetscReal CondensedEnergy(const CellBasis *basis, const BodyMaterial *m, PetscRe
   return c.energy;
 }
 
-PetscBool CondensedForce(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+/* Adds int P_ij dN_b/dX_j over the points of a pack to F. P: stress times the volumes of the points */
+LANES_INLINE void CondensedAddForce(const Lanes P[9], const Lanes G[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
+{
+  for (int i = 0; i < 3; ++i) {
+    for (int b = 0; b < 8; ++b) {
+      const Lanes f = P[3 * i] * G[0][b] + P[3 * i + 1] * G[1][b] + P[3 * i + 2] * G[2][b];
+
+      F[i][b] += LanesSum(&f);
+    }
+  }
+}
+
+AMGF_CLONES PetscBool CondensedForce(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
 {
-  Condensed      c;
-  PetscReal      P[9];
-  MaterialModuli own;
+  Condensed c;
+  Lanes     P[9];
 
   CondensedSolve(basis, m, X, U, &c);
   for (int i = 0; i < 3; ++i) {
     for (int b = 0; b < 8; ++b) F[i][b] = 0;
   }
-  for (PetscInt q = 0; q < c.npoints; ++q) {
-    (void)m->law->stress(CellModuli(&m->moduli, q, &own), c.H[q], P);
-    CellForceAdd(8, c.w[q], c.G[q], P, F);
+  for (PetscInt pack = 0; pack < basis->npacks; ++pack) {
+    (void)PointsStress(m->law, &m->moduli, pack, basis->npoints, c.H[pack], P);
+    for (int i = 0; i < 9; ++i) P[i] *= c.points[pack].w;
+    CondensedAddForce(P, c.points[pack].G, F);
   }
   return PETSC_TRUE;
 }
 
-PetscBool CondensedStiffness(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+AMGF_CLONES PetscBool CondensedStiffness(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
 {
-  PetscReal    B[MODES][3][CELL_MAX_NODES] = {{{0}}}, A[81], AM[9];
+  PetscReal    B[MODES][3][CELL_MAX_NODES] = {{{0}}}, row[MODES][24];
+  Lanes        AM[9];
   Condensed    c;
   CellTangents t;
 
   CondensedSolve(basis, m, X, U, &c);
-  for (PetscInt q = 0; q < c.npoints; ++q) {
-    MaterialModuli own;
-
-    (void)m->law->tangent(CellModuli(&m->moduli, q, &own), c.H[q], A);
-    CellTangentsSetPoint(basis, q, c.w[q], c.G[q], A, &t);
+  for (PetscInt pack = 0; pack < basis->npacks; ++pack) {
+    (void)PointsTangent(m->law, &m->moduli, pack, basis->npoints, c.H[pack], t.A[pack]);
+    for (int i = 0; i < 81; ++i) t.A[pack][i] *= c.points[pack].w;
+    CellTangentsSetGradients(8, basis, pack, c.points[pack].G, &t);
     for (int k = 0; k < MODES; ++k) {
-      for (int i = 0; i < 9; ++i) {
-        AM[i] = 0;
-        for (int j = 0; j < 9; ++j) AM[i] += A[9 * i + j] * c.M[q][k][j];
-      }
-      CellForceAdd(8, c.w[q], c.G[q], AM, B[k]);
+      CondensedModeStress(t.A[pack], c.M[pack][k], AM);
+      CondensedAddForce(AM, c.points[pack].G, B[k]);
     }
   }
   CellStiffness(basis, &t, K);
@@ -259,29 +280,38 @@ PetscBool CondensedStiffness(const CellBasis *basis, const BodyMaterial *m, Pets
 
     for (int k = 0; k < MODES; ++k) x[k] = B[k][r % 3][r / 3];
     CondensedForward(&c, x);
-    for (int k = 0; k < MODES; ++k) B[k][r % 3][r / 3] = x[k];
+    for (int k = 0; k < MODES; ++k) row[k][r] = x[k];
   }
-  for (int k = 0; k < MODES; ++k) {
-    for (int r = 0; r < 24; ++r) {
-      for (int s = 0; s < 24; ++s) K[24 * r + s] -= B[k][r % 3][r / 3] * B[k][s % 3][s / 3];
+  for (int r = 0; r < 24; ++r) {
+    for (int k = 0; k < MODES; ++k) {
+      for (int s = 0; s < 24; ++s) K[24 * r + s] -= row[k][r] * row[k][s];
     }
   }
   return PETSC_TRUE;
 }
 
+/* Copies the displacement gradient at point q. Returns the volume of the point. */
+static PetscReal CondensedPoint(const Condensed *c, PetscInt q, PetscReal H[9])
+{
+  for (int i = 0; i < 9; ++i) H[i] = LANE(c->H[q / LANES][i], q % LANES);
+  return LANE(c->points[q / LANES].w, q % LANES);
+}
+
 PetscBool CondensedCauchy(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
   PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
 {
-  PetscReal      volume = 0, s[6];
+  PetscReal      volume = 0, s[6], H[9];
   Condensed      c;
   MaterialModuli own;
 
   CondensedSolve(basis, m, X, U, &c);
   for (int k = 0; k < 6; ++k) sigma[k] = 0;
-  for (PetscInt q = 0; q < c.npoints; ++q) {
-    (void)m->law->cauchy(CellModuli(&m->moduli, q, &own), c.H[q], s);
-    for (int k = 0; k < 6; ++k) sigma[k] += c.w[q] * s[k];
-    volume += c.w[q];
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    const PetscReal w = CondensedPoint(&c, q, H);
+
+    (void)m->law->cauchy(CellModuli(&m->moduli, q, &own), H, s);
+    for (int k = 0; k < 6; ++k) sigma[k] += w * s[k];
+    volume += w;
   }
   for (int k = 0; k < 6; ++k) sigma[k] /= volume;
   return PETSC_TRUE;
@@ -294,9 +324,8 @@ void CondensedStrains(const CellBasis *basis, const BodyMaterial *m, PetscReal X
   Condensed c;
 
   CondensedSolve(basis, m, X, U, &c);
-  for (PetscInt q = 0; q < c.npoints; ++q) {
-    w[q] = c.w[q];
-    for (int j = 0; j < 9; ++j) H[q][j] = c.H[q][j];
+  for (PetscInt q = 0; q < basis->npoints; ++q) {
+    w[q]    = CondensedPoint(&c, q, H[q]);
     H[q][9] = m->law->dilatation(H[q], C);
   }
 }
