@@ -18,5 +18,7 @@ contact:
   - support: {mortar: support.surface, nonmortar: beam.zmin}
 load: {factors: [0.9, 1.5]}
 YAML
-"$AMGF_DIR/bin/contact" hinge.yaml -quiet -error_estimate 0 2>&1 | sed "s/time [0-9.]*[0-9]/time .../g"
-echo "exit code ${PIPESTATUS[0]}"
+"$AMGF_DIR/bin/contact" hinge.yaml -quiet -error_estimate 0 > said 2>&1
+echo "exit code $?"
+sed "s/time [0-9.]*[0-9]/time .../g" said
+awk '/last equilibrium/ {print "the last equilibrium is near the collapse load: " ($NF > 1.5 ? "yes" : "NO, " $NF)}' said
