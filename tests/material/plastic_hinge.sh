@@ -21,4 +21,4 @@ YAML
 "$AMGF_DIR/bin/contact" hinge.yaml -quiet -error_estimate 0 > said 2>&1
 echo "exit code $?"
 sed "s/time [0-9.]*[0-9]/time .../g" said
-awk '/last equilibrium/ {print "the last equilibrium is near the collapse load: " ($NF > 1.5 ? "yes" : "NO, " $NF)}' said
+awk '/last equilibrium/ {print "the last equilibrium is near collapse: " ($NF > 1.5 ? "yes" : "NO, " $NF)}' said
