@@ -87,17 +87,20 @@ static PetscErrorCode CreateElasticity(DM dm, const MaterialType types[NBODIES],
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode PrintAssemblies(const char when[], Elasticity e)
+static PetscErrorCode AppendAssemblies(char line[512], const char when[], Elasticity e)
 {
+  char text[16];
+
   PetscFunctionBeginUser;
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %-32s", when));
+  PetscCall(PetscStrlcat(line, "; ", 512));
+  PetscCall(PetscStrlcat(line, when, 512));
   for (PetscInt b = 0; b < NBODIES; ++b) {
     PetscInt n;
 
     PetscCall(ElasticityGetAssemblies(e, b, &n));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %" PetscInt_FMT, n));
+    PetscCall(PetscSNPrintf(text, sizeof(text), " %" PetscInt_FMT, n));
+    PetscCall(PetscStrlcat(line, text, 512));
   }
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "\n"));
   PetscFunctionReturn(0);
 }
 
@@ -137,6 +140,7 @@ static PetscErrorCode CheckAssemblies(DM dm, const char name[], const MaterialTy
   Mat              K, other;
   Vec              u, v;
   PetscBool        linear;
+  char             line[512];
   PetscObjectState state;
 
   PetscFunctionBeginUser;
@@ -144,29 +148,30 @@ static PetscErrorCode CheckAssemblies(DM dm, const char name[], const MaterialTy
   PetscCall(ProblemInterpolate(dm, Smoother, &v));
   PetscCall(CreateElasticity(dm, types, &e));
   PetscCall(ElasticityIsLinear(e, &linear));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s%s\n", name, linear ? ", linear" : ""));
+  PetscCall(PetscSNPrintf(line, sizeof(line), "%s%s", name, linear ? ", linear" : ""));
   PetscCall(ElasticityCreateTangent(e, &K));
   PetscCall(ElasticityTangent(e, u, K));
-  PetscCall(PrintAssemblies("first", e));
+  PetscCall(AppendAssemblies(line, "first", e));
   PetscCall(ElasticityTangent(e, v, K));
-  PetscCall(PrintAssemblies("second", e));
+  PetscCall(AppendAssemblies(line, "second", e));
   PetscCall(CheckAgainstFresh(dm, types, v, K));
   PetscCall(ElasticityTangent(e, u, K));
-  PetscCall(PrintAssemblies("third", e));
+  PetscCall(AppendAssemblies(line, "third", e));
   PetscCall(CheckAgainstFresh(dm, types, u, K));
   PetscCall(MatShift(K, 1));
   PetscCall(ElasticityTangent(e, v, K));
-  PetscCall(PrintAssemblies("changed by someone else", e));
+  PetscCall(AppendAssemblies(line, "changed by someone else", e));
   PetscCall(CheckAgainstFresh(dm, types, v, K));
   PetscCall(ElasticityCreateTangent(e, &other));
   PetscCall(PetscObjectStateGet((PetscObject)K, &state));
   PetscCall(PetscObjectStateSet((PetscObject)other, state));
   PetscCall(ElasticityTangent(e, v, other));
-  PetscCall(PrintAssemblies("another matrix", e));
+  PetscCall(AppendAssemblies(line, "another matrix", e));
   PetscCall(CheckAgainstFresh(dm, types, v, other));
   PetscCall(ElasticitySetPrescribed(e, NULL));
   PetscCall(ElasticityTangent(e, v, other));
-  PetscCall(PrintAssemblies("other prescribed rows", e));
+  PetscCall(AppendAssemblies(line, "other prescribed rows", e));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n", line));
   PetscCall(MatDestroy(&other));
   PetscCall(MatDestroy(&K));
   PetscCall(VecDestroy(&v));
