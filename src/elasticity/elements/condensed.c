@@ -61,7 +61,7 @@ AMGF_CLONES static PetscReal CondensedSum(const BodyMaterial *m, const Condensed
 /* Computes the forces on the modes */
 AMGF_CLONES static void CondensedForces(const BodyMaterial *m, Condensed *c)
 {
-  Lanes force[MODES] = {{0}}, P[9];
+  Lanes force[MODES] = {}, P[9];
 
   for (PetscInt pack = 0; pack < c->basis->npacks; ++pack) {
     (void)PointsStress(m->law, &m->moduli, pack, c->basis->npoints, c->H[pack], P);

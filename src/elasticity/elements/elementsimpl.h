@@ -99,7 +99,7 @@ typedef struct {
 LANES_INLINE void CellPackGradients(const int n, const CellBasis *basis, PetscInt pack, PetscReal X[3][CELL_MAX_NODES],
   CellPack *c)
 {
-  Lanes J[3][3] = {{{0}}}, C[3][3], det, inverse;
+  Lanes J[3][3] = {}, C[3][3], det, inverse;
 
   for (int a = 0; a < n; ++a) {
     for (int k = 0; k < 3; ++k) {

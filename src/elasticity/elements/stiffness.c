@@ -32,7 +32,7 @@ LANES_INLINE void StiffnessOfComponents(const int width, const CellBasis *basis,
   }
   for (int a = 0; a < width; a += 8) {
     for (int b = 0; b < width / LANES; ++b) {
-      Lanes sum[8] = {{0}};
+      Lanes sum[8] = {};
 
       for (PetscInt q = 0; q < basis->npoints; ++q) {
         for (int j = 0; j < 3; ++j) {
