@@ -51,11 +51,12 @@ static PetscErrorCode ChoiceIterate(Contacts *c, const ContactBodies *bodies, co
   PetscReal df[], PetscReal p[], PetscBool *solved)
 {
   const PetscInt  most  = 300;
-  const PetscReal small = 1e-7; /* change of the forces that ends the iteration, relative to the forces */
+  const PetscReal small = 1e-6; /* change of the forces that ends the iteration, relative to the forces */
   PetscReal       sums[2];
+  PetscInt        k;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < most; k++) {
+  for (k = 0; k < most; k++) {
     PetscCall(ChoiceBalance(c, bodies, du, df, solved));
     if (!*solved) break;
     sums[0] = sums[1] = 0.0;
@@ -76,7 +77,7 @@ static PetscErrorCode ChoiceIterate(Contacts *c, const ContactBodies *bodies, co
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_REAL, MPIU_SUM, c->comm));
     if (sums[0] <= PetscSqr(small) * sums[1]) break;
   }
-  PetscCall(PetscInfo(NULL, "Chosen forces are off their bounds by %g of their size\n",
+  PetscCall(PetscInfo(NULL, "Forces chosen by %" PetscInt_FMT " projections, off their bounds by %g of their size\n", k,
     (double)PetscSqrtReal(sums[0] / sums[1])));
   PetscFunctionReturn(0);
 }

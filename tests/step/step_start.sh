@@ -43,6 +43,6 @@ contact:
 load: {factors: [0.5]}
 YAML
 mpicc -shared -fPIC "$AMGF_DIR/tests/lib/delay.c" -o delay.so -ldl
-timeout 60 mpiexec --oversubscribe -x LD_PRELOAD="$PWD/delay.so" -n 2 "$contact" wedge.yaml -quiet -error_estimate 0 \
+timeout 240 mpiexec --oversubscribe -x LD_PRELOAD="$PWD/delay.so" -n 2 "$contact" wedge.yaml -quiet -error_estimate 0 \
   -summary wedge.json || echo "wedge: exit code $?"
 "$PYTHON" "$AMGF_DIR/tests/step/step_start.py"

@@ -7,6 +7,7 @@ static char help[] =
 #include "../../tao_ipfilter/friction/cones.c"
 #include "../../tao_ipfilter/friction/newton.c"
 #include "../../tao_ipfilter/friction/stick.c"
+#include "../../tao_ipfilter/friction/choice.c"
 #include "../../tao_ipfilter/friction/iteration.c"
 
 /* What contacts.c needs of the optimizer */
