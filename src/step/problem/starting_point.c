@@ -187,6 +187,16 @@ static PetscErrorCode StartNonlinear(StepProblem *p, PetscBool moved, PetscReal 
   PetscFunctionReturn(0);
 }
 
+/* Sets the tied nodes of u, which the quadratic model leaves where p->base has them. Their motion follows afterwards. */
+static PetscErrorCode StartUntie(StepProblem *p, Vec u)
+{
+  PetscFunctionBegin;
+  PetscCall(VecWAXPY(p->w, -1.0, p->base, u));
+  PetscCall(TiesSet(&p->model->ties, 0.0, p->w));
+  PetscCall(VecWAXPY(u, 1.0, p->base, p->w));
+  PetscFunctionReturn(0);
+}
+
 /*
    Sets the starting point u. If `resume`, u is unchanged. A new load step starts from the extrapolated path if the last
    load step had contact pressures, otherwise from p->base. *valid: false if an element is inverted there.
@@ -206,10 +216,13 @@ PetscErrorCode StepProblemStart(StepProblem *p, PetscBool resume, Tao tao, Vec u
     PetscCall(StartRecallContact(p, scale, tao, &moved));
   }
   if (p->J) PetscCall(FrictionGive(p, tao, moved ? scale : 0.0));
+  if (resume && p->quadratic) PetscCall(StartUntie(p, u));
   if (resume) PetscFunctionReturn(0);
   if (!p->J) moved = p->state->control->warm;
   if (!p->model->quadratic) PetscCall(StartNonlinear(p, moved, scale, tao, u, valid));
-  else if (moved && !last) PetscCall(PathContinue(p->model, p->state, p->time, u));
-  else PetscCall(VecCopy(p->base, u));
+  else if (moved && !last) {
+    PetscCall(PathContinue(p->model, p->state, p->time, u));
+    PetscCall(StartUntie(p, u));
+  } else PetscCall(VecCopy(p->base, u));
   PetscFunctionReturn(0);
 }
