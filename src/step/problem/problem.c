@@ -135,7 +135,7 @@ PetscErrorCode StepProblemAdvanceBolts(StepProblem *p, Vec u, StepReport *report
     PetscCall(ReportReason(report, PETSC_FALSE, sentence));
   }
   if (!changes) PetscFunctionReturn(0);
-  *again = PETSC_TRUE;
+  *again = (PetscBool)(*again || !p->ended_early);
   if (p->model->quadratic) PetscCall(StepProblemSetQuadratic(p, PETSC_FALSE));
   PetscFunctionReturn(0);
 }
