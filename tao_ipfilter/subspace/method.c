@@ -127,30 +127,32 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPRecycle *recycle, PetscIn
 }
 
 /*
-   Finds whether W has all unknowns: if these are few, if directions were slow, or if contacts stick, since the residual
-   that directions leave would decide which contacts are held
+   Finds whether W has all n unknowns. They are few and constraints touch most of them; or there are norm terms, and the
+   unknowns are very few, directions were slow, or contacts stick, since the residual that directions leave would decide
+   which contacts are held. most: whether constraints touch most unknowns
 */
-static PetscErrorCode FilteredTakesAll(Tao tao, const IPRecycle *recycle, PetscInt n, PetscBool *all)
+static PetscErrorCode FilteredTakesAll(Tao tao, const IPRecycle *recycle, PetscInt n, PetscBool most, PetscBool *all)
 {
   const IPTerms *terms   = ((TAO_IPFILTER *)tao->data)->terms;
   PetscReal      largest = 0.0;
 
   PetscFunctionBegin;
   if (terms->n && terms->coefficient) PetscCall(VecMax(terms->coefficient, NULL, &largest));
-  *all = (PetscBool)(terms->n && n <= IP_WHOLE && (n <= IP_SMALL || recycle->whole || largest >= PETSC_INFINITY));
+  *all = (PetscBool)(n <= IP_WHOLE &&
+                     (most || (terms->n && (n <= IP_SMALL || recycle->whole || largest >= PETSC_INFINITY))));
   PetscFunctionReturn(0);
 }
 
 /*
-   Sets W. *few: whether there are constraints, and they involve few unknowns. What is few is decided only with
-   -tao_ipfilter_subspace auto and without norm terms.
+   Sets W. *few: whether there are constraints, and they involve few unknowns or are few themselves. What is few is
+   decided only with -tao_ipfilter_subspace auto and without norm terms.
 */
 static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscReal fraction = 0.5;
-  const PetscInt  largest  = 5000; /* with norm terms, which need factors for each system */
-  PetscInt        n, touched, most;
+  const PetscReal fraction = 0.5, rows = 0.25;
+  const PetscInt  largest = 5000; /* with norm terms, which need factors for each system */
+  PetscInt        n, m, touched, most;
   PetscBool       all = PETSC_FALSE;
 
   PetscFunctionBegin;
@@ -158,12 +160,14 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
   PetscCall(IPSubspaceUpdate(tao));
   PetscCall(VecGetSize(tao->solution, &n));
   PetscCall(ISGetSize(ip->cond->filter, &touched));
-  *few = (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n || touched <= fraction * n));
+  PetscCall(VecGetSize(ip->at.c, &m));
+  *few = (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n || touched <= fraction * n ||
+                                      (n <= IP_WHOLE && m <= rows * n)));
   PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
   if (!*few) PetscFunctionReturn(0);
   most = (PetscInt)(fraction * n);
+  PetscCall(FilteredTakesAll(tao, recycle, n, (PetscBool)(touched > most), &all));
   if (ip->terms->n) most = PetscMin(most, largest);
-  PetscCall(FilteredTakesAll(tao, recycle, n, &all));
   if (all) PetscCall(IPFilteredTakeAll(tao));
   else PetscCall(FilteredChooseW(tao, recycle, most, &IPFilteredOf(tao)->W));
   PetscFunctionReturn(0);
