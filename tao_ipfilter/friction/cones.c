@@ -36,7 +36,6 @@ struct _p_Cones {
   Cone                *cone;
   PetscReal           *du, *df;       /* changes of unscaled motions and forces */
   PetscReal            length, force; /* sizes of scaled motions and forces [square root of energy] */
-  PetscReal            force_now;     /* the larger one of `force` and the forces of the iterate */
   PetscReal            count;         /* number of cones on all ranks */
 };
 
@@ -84,22 +83,23 @@ static PetscReal ConeLength(const PetscReal t[2])
 
 /*
    Computes the residuals of the equations of motions, y = (u_n + |slip|, slip) and slip + z_t = u_t, and the derivative
-   of |slip|. Returns the largest residual.
+   of |slip|. Returns the sum of squares of the residuals.
 */
 static PetscReal ConeResidual(Cone *k, const PetscReal motion[3])
 {
-  PetscReal u[3], largest = 0.0, slip;
+  PetscReal u[3], sum, slip;
 
   ConeScale(k, motion, u);
-  slip = k->n == 3 ? ConeLength(k->limited ? k->y + 1 : u + 1) : 0.0;
+  slip     = k->n == 3 ? ConeLength(k->limited ? k->y + 1 : u + 1) : 0.0;
+  k->ry[0] = k->n ? k->y[0] - u[0] - slip : 0.0;
+  sum      = PetscSqr(k->ry[0]);
   for (PetscInt a = 0; a < 2; a++) {
     k->e[a]      = slip > 0.0 ? (k->limited ? k->y[1 + a] : u[1 + a]) / slip : 0.0;
     k->ry[1 + a] = k->n == 3 && !k->limited ? k->y[1 + a] - u[1 + a] : 0.0;
     k->rz[a]     = k->limited ? k->z[1 + a] + (k->n == 3 ? k->y[1 + a] : 0.0) - u[1 + a] : 0.0;
-    largest      = PetscMax(largest, PetscMax(PetscAbsReal(k->ry[1 + a]), PetscAbsReal(k->rz[a])));
+    sum += PetscSqr(k->ry[1 + a]) + PetscSqr(k->rz[a]);
   }
-  k->ry[0] = k->n ? k->y[0] - u[0] - slip : 0.0;
-  return PetscMax(largest, PetscAbsReal(k->ry[0]));
+  return sum;
 }
 
 /* Returns the sum of y^T f over the cones of a contact after a step of length t */
@@ -303,8 +303,8 @@ static PetscErrorCode ConesSetLaws(Cones s, PetscBool matrix, PetscBool *ready)
 */
 static PetscErrorCode ConesFindSizes(Cones s, PetscBool *found)
 {
-  Contacts *c        = s->c;
-  PetscReal sizes[3] = {0.0, 0.0, 0.0}, least = PETSC_SQRT_MACHINE_EPSILON;
+  Contacts *c     = s->c;
+  PetscReal least = PETSC_SQRT_MACHINE_EPSILON;
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(c->f, 3 * c->n));
@@ -316,8 +316,7 @@ static PetscErrorCode ConesFindSizes(Cones s, PetscBool *found)
     }
     ContactsProjectLaw(c, i);
   }
-  PetscCall(s->bodies->residual(s->bodies->data, c->f, sizes));
-  s->force = sizes[0];
+  PetscCall(s->bodies->residual(s->bodies->data, c->f, &s->force));
   PetscCall(s->bodies->prepare(s->bodies->data, c->D, found));
   if (*found) PetscCall(ContactsStep(c, s->bodies, 0.01, 0.0, s->du, s->df, found));
   if (!*found) PetscFunctionReturn(0);
@@ -360,26 +359,26 @@ PetscErrorCode ConesStart(Cones s, PetscBool *started)
 }
 
 /*
-   Computes the residuals at the iterate. gap: the mean of y^T f over the cones; error: the larger one of the gap and of
-   the residual of motions, relative to forces and motions; balance: the residual of the bodies, relative to forces
+   Computes the residuals at the iterate. gap: the mean of y^T f over the cones; error: the norm by which the laws are
+   violated, relative to that of the forces, or of the load if that is larger. Both norms are square roots of energies.
 */
-static PetscErrorCode ConesAssess(Cones s, PetscReal *gap, PetscReal *error, PetscReal *balance)
+static PetscErrorCode ConesAssess(Cones s, PetscReal *gap, PetscReal *error)
 {
-  PetscReal motions = 0.0, sizes[3];
+  PetscReal sums[3] = {0.0, 0.0, 0.0}, balance; /* sums of y^T f, of squares of residuals of motions, and of forces */
 
   PetscFunctionBegin;
-  *gap = 0.0;
   for (PetscInt i = 0; i < s->c->n; i++) {
-    motions = PetscMax(motions, ConeResidual(&s->cone[i], &s->c->u[3 * i]));
-    *gap += ConeGap(&s->cone[i], 0.0);
+    Cone *k = &s->cone[i];
+
+    sums[0] += ConeGap(k, 0.0);
+    sums[1] += ConeResidual(k, &s->c->u[3 * i]);
+    for (PetscInt r = 0; r < 3; r++) sums[2] += PetscSqr(k->f[r]);
   }
-  PetscCall(ConesMax(s, &motions));
-  PetscCall(ConesSum(s, gap));
-  *gap /= s->count;
-  PetscCall(s->bodies->residual(s->bodies->data, s->c->f, sizes));
-  s->force_now = PetscMax(s->force, sizes[1]);
-  *balance     = sizes[0] / s->force_now;
-  *error       = PetscMax(motions / s->length, *gap / (s->length * s->force));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPIU_REAL, MPIU_SUM, s->c->comm));
+  PetscCall(s->bodies->residual(s->bodies->data, s->c->f, &balance));
+  *gap   = sums[0] / s->count;
+  *error = PetscSqrtReal((sums[0] + sums[1]) / PetscMax(sums[2], PetscSqr(s->force)));
+  PetscCall(PetscInfo(NULL, "Cones: error %g, gap %g, balance %g\n", (double)*error, (double)*gap, (double)balance));
   PetscFunctionReturn(0);
 }
 
@@ -432,12 +431,11 @@ PetscErrorCode ConesIterate(Cones s, PetscReal tolerance, PetscReal *error, Pets
 {
   const PetscReal inside = 0.99, /* fraction of the longest step */
     least                = 1e-6; /* of the centring: below it, rounding errors decide */
-  PetscReal t = 0.0, gap, balance = 0.0, after = 0.0;
+  PetscReal t = 0.0, gap, after = 0.0;
 
   PetscFunctionBegin;
   *solved = PETSC_TRUE;
-  PetscCall(ConesAssess(s, &gap, error, &balance));
-  PetscCall(PetscInfo(NULL, "Cones: error %g, gap %g, balance %g\n", (double)*error, (double)gap, (double)balance));
+  PetscCall(ConesAssess(s, &gap, error));
   if (*error < tolerance) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < s->c->n; i++) ConeSetScalings(&s->cone[i]);
   PetscCall(ConesDirection(s, 0.0, PETSC_FALSE, &t, solved));

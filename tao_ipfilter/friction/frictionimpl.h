@@ -54,15 +54,16 @@ typedef struct {
 */
 typedef struct {
   void *data;
-  /* computes r. sizes: the largest entries of r and of R^T f, and the 2-norm of r, where each entry is divided by the
-     square root of K's diagonal entry [square root of energy] */
-  PetscErrorCode (*residual)(void *, const PetscReal f[], PetscReal sizes[3]);
+  /* computes r. size: its largest entry, where each is divided by the square root of K's diagonal entry [square root of
+     energy]; NULL: not computed */
+  PetscErrorCode (*residual)(void *, const PetscReal f[], PetscReal *size);
   /* sets the matrix K + R^T D R. *prepared: false if it is singular */
   PetscErrorCode (*prepare)(void *, const PetscReal D[], PetscBool *prepared);
   /* solves (K + R^T D R) dx = R^T s - r until the residual is at most that fraction of the first one, or at most the
-     target, in the measure of sizes[0]; du = R dx */
+     target, in the measure of `size`; du = R dx */
   PetscErrorCode (
     *solve)(void *, const PetscReal s[], PetscReal fraction, PetscReal target, PetscReal du[], PetscBool *solved);
+  PetscErrorCode (*work)(void *, PetscReal *); /* computes the work r^T dx of the residual */
   /* solves K dx = R^T df - r with the linearized laws df = s - D du of tangential components, and f >= s, u >= 0 and
      (f - s) u = 0 for the normal ones */
   PetscErrorCode (*solve_normal)(void *, const PetscReal D[], const PetscReal s[], const PetscReal f[],
@@ -150,7 +151,7 @@ typedef struct {
   PetscBool     sticks;          /* whether there are contacts that stick while they are closed */
   PetscBool     cold;            /* there is no state from which Newton's method could start */
   Cones         cones;           /* NULL before the phase CONTACT_CONES */
-  PetscInt      nsteps, nfutile; /* numbers of steps of this phase; of those since the violation was halved */
+  PetscInt      nsteps, nfutile; /* numbers of steps of this phase; of those since the merit was halved */
   PetscReal     size, best;      /* violation or change of motions at the start; smallest violation of this phase */
   PetscReal     known;           /* error of the interior point method at which Newton's method is tried */
   PetscReal     violation;       /* relative violation of the laws; infinite in the interior point method */

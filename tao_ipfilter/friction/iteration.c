@@ -156,8 +156,8 @@ static PetscErrorCode IterationCones(ContactIteration *it, PetscBool *done)
 /* Returns from Newton's method to the interior point method, since the states of some contacts were not known yet */
 static PetscErrorCode IterationReturn(ContactIteration *it, PetscBool *done)
 {
-  const PetscReal closer = 1e-2,
-                  last   = 1e-10; /* error: by which factor it is reduced; below it, rounding errors decide */
+  const PetscReal closer = 0.1,
+                  last   = 1e-6; /* error: by which factor it is reduced; below it, rounding errors decide */
 
   PetscFunctionBegin;
   PetscCall(IterationKeep(it, PETSC_TRUE));
@@ -165,7 +165,6 @@ static PetscErrorCode IterationReturn(ContactIteration *it, PetscBool *done)
   it->phase  = CONTACT_CONES;
   it->nsteps = 0;
   *done      = (PetscBool)(it->known >= last);
-  if (*done) PetscCall(ConesStart(it->cones, done)); /* with the directions that Newton's method has added */
   if (*done) PetscCall(IterationCones(it, done));
   PetscFunctionReturn(0);
 }
@@ -178,7 +177,7 @@ static PetscErrorCode IterationEnterCones(ContactIteration *it, PetscBool *done)
   it->cold   = PETSC_FALSE;
   it->phase  = CONTACT_CONES;
   it->nsteps = 0;
-  it->known  = 1e-5; /* most states are known then; IterationReturn() is for the others */
+  it->known  = 1e-3; /* most states are known then; IterationReturn() is for the others */
   PetscCall(ConesCreate(it->contacts, &it->bodies, &it->cones));
   PetscCall(ConesStart(it->cones, done));
   if (*done) PetscCall(IterationCones(it, done));

@@ -115,7 +115,8 @@ PetscBool ContactsLinearize(const Contacts *c, PetscInt i)
 /*
    Finds the fraction of a step with the smallest merit, by halving it. The merit is the violation of the laws together
    with the residual of the bodies, which falls in proportion to the step. If no fraction is better than the start, it
-   is the whole step, since many short steps would make no progress. merit: that of the fraction
+   is the whole step, since many short steps would make no progress. residual: of the bodies at the start [square root of
+   energy]; merit: that of the fraction
 */
 static PetscErrorCode NewtonChooseFraction(const Contacts *c, const PetscReal du[], const PetscReal df[],
   PetscReal residual, PetscReal *fraction, PetscReal *merit)
@@ -151,7 +152,7 @@ PetscErrorCode ContactsNewtonStep(Contacts *c, const ContactBodies *bodies, Pets
   PetscBool *solved)
 {
   const PetscReal forcing = 0.1; /* residual of a system, relative to that with the directions there are */
-  PetscReal       sizes[3], fraction, *du, *df;
+  PetscReal       fraction, work, *du, *df;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc2(3 * c->n, &du, 3 * c->n, &df));
@@ -159,11 +160,12 @@ PetscErrorCode ContactsNewtonStep(Contacts *c, const ContactBodies *bodies, Pets
     ContactsLinearize(c, i);
     ContactsProjectLaw(c, i);
   }
-  PetscCall(bodies->residual(bodies->data, c->f, sizes));
+  PetscCall(bodies->residual(bodies->data, c->f, NULL));
   PetscCall(bodies->prepare(bodies->data, c->D, solved));
   if (*solved) PetscCall(ContactsStep(c, bodies, forcing, 0.0, du, df, solved));
   if (*solved) {
-    PetscCall(NewtonChooseFraction(c, du, df, sizes[2], &fraction, merit));
+    PetscCall(bodies->work(bodies->data, &work));
+    PetscCall(NewtonChooseFraction(c, du, df, PetscSqrtReal(PetscAbsReal(work)), &fraction, merit));
     for (PetscInt r = 0; r < 3 * c->n; r++) {
       c->u[r] += fraction * du[r];
       c->f[r] += fraction * df[r];

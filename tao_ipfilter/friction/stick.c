@@ -134,7 +134,6 @@ static PetscErrorCode StickPredict(ContactStick *s)
   const PetscReal accuracy = 1e-3; /* of the places */
   Contacts       *c        = s->contacts;
   PetscBool       needed   = PETSC_FALSE, solved;
-  PetscReal       sizes[3];
 
   PetscFunctionBegin;
   s->predicted = PETSC_TRUE;
@@ -145,7 +144,7 @@ static PetscErrorCode StickPredict(ContactStick *s)
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &needed, 1, MPI_PETSCBOOL, MPI_LOR, c->comm));
   if (!needed) PetscFunctionReturn(0);
-  PetscCall(s->bodies->residual(s->bodies->data, c->f, sizes));
+  PetscCall(s->bodies->residual(s->bodies->data, c->f, NULL));
   PetscCall(s->bodies->prepare(s->bodies->data, c->D, &solved));
   if (solved) PetscCall(ContactsStep(c, s->bodies, accuracy, 0.0, s->du, s->df, &solved));
   for (PetscInt i = 0; i < c->n && solved; i++) {
@@ -161,7 +160,6 @@ static PetscErrorCode StickPredict(ContactStick *s)
 static PetscErrorCode StickSolve(ContactStick *s, PetscBool *solved)
 {
   Contacts *c = s->contacts;
-  PetscReal sizes[3];
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < c->n; i++) {
@@ -171,7 +169,7 @@ static PetscErrorCode StickSolve(ContactStick *s, PetscBool *solved)
     if (c->held[i]) ContactsSetNoSlip(c, i);
     ContactsProjectLaw(c, i);
   }
-  PetscCall(s->bodies->residual(s->bodies->data, c->f, sizes));
+  PetscCall(s->bodies->residual(s->bodies->data, c->f, NULL));
   PetscCall(s->bodies->solve_normal(s->bodies->data, c->D, c->s, c->f, c->u, s->du, s->df, solved));
   if (!*solved) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < c->n; i++) {
@@ -193,7 +191,6 @@ static PetscErrorCode StickDivide(ContactStick *s)
   const PetscInt  parts = 8; /* three leaves: energy 3 % from that of 12 load steps; 11 % with 4 parts; 50 % without */
   const PetscReal small = 1e-6;
   Contacts       *c     = s->contacts;
-  PetscReal       sizes[3];
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < c->n; i++) s->tension = PetscMax(s->tension, small * c->f[3 * i]);
@@ -202,7 +199,7 @@ static PetscErrorCode StickDivide(ContactStick *s)
   PetscCall(PetscArraycpy(c->f, s->first + 3 * c->n, 3 * c->n));
   PetscCall(PetscArrayzero(c->shift, 2 * c->n));
   PetscCall(s->bodies->keep(s->bodies->data, PETSC_TRUE));
-  PetscCall(s->bodies->residual(s->bodies->data, c->f, sizes));
+  PetscCall(s->bodies->residual(s->bodies->data, c->f, NULL));
   PetscCall(StickClose(c, c->f, c->u));
   s->nparts = parts;
   PetscFunctionReturn(0);

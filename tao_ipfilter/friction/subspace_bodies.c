@@ -314,47 +314,38 @@ static PetscErrorCode BodiesSpread(SubspaceBodies b, const PetscReal f[], PetscB
   PetscFunctionReturn(0);
 }
 
-/* Returns the largest entry of v, and the 2-norm unless it is NULL, where each entry is divided by the square root of
-   K's diagonal entry */
-static PetscErrorCode BodiesSize(SubspaceBodies b, Vec v, PetscReal *size, PetscReal *norm)
+/* Returns the largest entry of v, where each is divided by the square root of K's diagonal entry */
+static PetscErrorCode BodiesSize(SubspaceBodies b, Vec v, PetscReal *size)
 {
   const PetscScalar *a, *d;
   PetscInt           n;
-  PetscReal          largest = 0.0, sum = 0.0;
+  PetscReal          largest  = 0.0;
   const Vec          diagonal = ((TAO_IPFILTER *)b->tao->data)->stiff->hdiag;
 
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(v, &n));
   PetscCall(VecGetArrayRead(v, &a));
   PetscCall(VecGetArrayRead(diagonal, &d));
-  for (PetscInt i = 0; i < n; i++) {
-    const PetscReal square = PetscAbsScalar(d[i]) > 0.0 ? PetscSqr(PetscAbsScalar(a[i])) / PetscAbsScalar(d[i]) : 0.0;
-
-    largest = PetscMax(largest, square);
-    sum += square;
-  }
+  for (PetscInt i = 0; i < n; i++)
+    if (PetscAbsScalar(d[i]) > 0.0) largest = PetscMax(largest, PetscSqr(PetscAbsScalar(a[i])) / PetscAbsScalar(d[i]));
   PetscCall(VecRestoreArrayRead(diagonal, &d));
   PetscCall(VecRestoreArrayRead(v, &a));
   PetscCallMPI(MPI_Allreduce(&largest, size, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)v)));
   *size = PetscSqrtReal(*size);
-  if (!norm) PetscFunctionReturn(0);
-  PetscCallMPI(MPI_Allreduce(&sum, norm, 1, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)v)));
-  *norm = PetscSqrtReal(*norm);
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode BodiesResidual(void *data, const PetscReal f[], PetscReal sizes[3])
+static PetscErrorCode BodiesResidual(void *data, const PetscReal f[], PetscReal *size)
 {
   const SubspaceBodies b = (SubspaceBodies)data;
 
   PetscFunctionBegin;
   PetscCall(BodiesSpread(b, f, PETSC_FALSE, b->r));
-  PetscCall(BodiesSize(b, b->r, &sizes[1], NULL));
   PetscCall(VecAYPX(b->r, -1.0, b->g));
   PetscCall(VecAXPY(b->r, 1.0, b->Kx));
   if (b->first) PetscCall(VecAXPY(b->r, -b->lacks, b->first));
   PetscCall(IPFixedZero(b->tao, b->r));
-  PetscCall(BodiesSize(b, b->r, &sizes[0], &sizes[2]));
+  if (size) PetscCall(BodiesSize(b, b->r, size));
   PetscFunctionReturn(0);
 }
 
@@ -691,7 +682,7 @@ static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fra
     PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
     if (!*solved) break;
     PetscCall(BodiesLeft(b, left, &norm));
-    PetscCall(BodiesSize(b, left, &size, NULL));
+    PetscCall(BodiesSize(b, left, &size));
     *solved = (PetscBool)!PetscIsInfOrNanReal(size);
     if (!k) first = size;
     if (!*solved || size <= PetscMax(fraction * first, target) || (fraction > 0.0 && norm <= b->enough)) break;
@@ -889,6 +880,17 @@ static PetscErrorCode BodiesSolveNormal(void *data, const PetscReal D[], const P
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode BodiesWork(void *data, PetscReal *work)
+{
+  const SubspaceBodies b = (SubspaceBodies)data;
+  PetscScalar          dot;
+
+  PetscFunctionBegin;
+  PetscCall(VecDot(b->r, b->dx, &dot));
+  *work = PetscRealPart(dot);
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode BodiesLoad(void *data, PetscReal fraction)
 {
   const SubspaceBodies b = (SubspaceBodies)data;
@@ -943,6 +945,7 @@ ContactBodies SubspaceBodiesInterface(SubspaceBodies b)
     .prepare      = BodiesPrepare,
     .solve        = BodiesSolve,
     .solve_normal = BodiesSolveNormal,
+    .work         = BodiesWork,
     .load         = BodiesLoad,
     .advance      = BodiesAdvance,
     .keep         = BodiesKeep,

@@ -39,19 +39,16 @@ typedef struct {
   PetscReal k, g[3 * N], x[3 * N], dx[3 * N], r[3 * N], D[9 * N], kept[3 * N];
 } Springs;
 
-static PetscErrorCode SpringsResidual(void *data, const PetscReal f[], PetscReal sizes[3])
+static PetscErrorCode SpringsResidual(void *data, const PetscReal f[], PetscReal *size)
 {
   Springs *s = (Springs *)data;
 
   PetscFunctionBeginUser;
-  sizes[0] = sizes[1] = sizes[2] = 0.0;
+  if (size) *size = 0.0;
   for (PetscInt i = 0; i < 3 * N; i++) {
-    s->r[i]  = s->k * s->x[i] + s->g[i] - f[i];
-    sizes[0] = PetscMax(sizes[0], PetscAbsReal(s->r[i]) / PetscSqrtReal(s->k));
-    sizes[1] = PetscMax(sizes[1], PetscAbsReal(f[i]) / PetscSqrtReal(s->k));
-    sizes[2] += PetscSqr(s->r[i]) / s->k;
+    s->r[i] = s->k * s->x[i] + s->g[i] - f[i];
+    if (size) *size = PetscMax(*size, PetscAbsReal(s->r[i]) / PetscSqrtReal(s->k));
   }
-  sizes[2] = PetscSqrtReal(sizes[2]);
   PetscFunctionReturn(0);
 }
 
@@ -80,6 +77,16 @@ static PetscErrorCode SpringsSolve(void *data, const PetscReal load[], PetscReal
     ConeMultiply(inverse, b, &s->dx[3 * i]);
   }
   PetscCall(PetscArraycpy(du, s->dx, 3 * N));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode SpringsWork(void *data, PetscReal *work)
+{
+  const Springs *s = (Springs *)data;
+
+  PetscFunctionBeginUser;
+  *work = 0.0;
+  for (PetscInt i = 0; i < 3 * N; i++) *work += s->r[i] * s->dx[i];
   PetscFunctionReturn(0);
 }
 
@@ -116,6 +123,7 @@ static ContactBodies SpringsBodies(Springs *s)
     .residual    = SpringsResidual,
     .prepare     = SpringsPrepare,
     .solve       = SpringsSolve,
+    .work        = SpringsWork,
     .advance     = SpringsAdvance,
     .keep        = SpringsKeep,
     .interrupted = SpringsInterrupted,
