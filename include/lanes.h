@@ -6,7 +6,7 @@
 #ifndef LANES_H
 #define LANES_H
 
-#include <clones.h>
+#include "clones.h"
 #include <petscsys.h>
 #include <stdint.h>
 #include <string.h>

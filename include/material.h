@@ -2,7 +2,7 @@
 #ifndef MATERIAL_H
 #define MATERIAL_H
 
-#include <lanes.h>
+#include "lanes.h"
 #include <petscsys.h>
 
 /* The material laws. A new law needs a file in src/material and a line here, with its name in C and its name in

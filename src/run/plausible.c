@@ -69,7 +69,7 @@ static PetscErrorCode PlausibleRatio(Model model, RunReport *report)
   const SceneBody *soft = NULL, *hard = NULL;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < model->scene->nbodies; ++b) {
+  for (PetscInt b = 0; b < model->scene->nbodies && model->scene->npairs; ++b) {
     const SceneBody *body = &model->scene->bodies[b];
 
     if (!(body->material.young > 0.0) || body->material.type == MATERIAL_RIGID) continue;

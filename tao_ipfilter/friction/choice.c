@@ -18,11 +18,9 @@ static PetscReal ChoiceSquare(const Contacts *c, PetscInt i, const PetscReal v[3
 static PetscErrorCode ChoiceBalance(Contacts *c, const ContactBodies *bodies, PetscReal du[], PetscReal df[],
   PetscBool *solved)
 {
-  PetscReal sizes[3];
-
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(c->s, 3 * c->n));
-  PetscCall(bodies->residual(bodies->data, c->f, sizes));
+  PetscCall(bodies->residual(bodies->data, c->f, NULL));
   PetscCall(ContactsStep(c, bodies, 1.0, 0.0, du, df, solved));
   for (PetscInt r = 0; r < 3 * c->n && *solved; r++) c->f[r] += df[r];
   PetscFunctionReturn(0);

@@ -115,8 +115,8 @@ PetscBool ContactsLinearize(const Contacts *c, PetscInt i)
 /*
    Finds the fraction of a step with the smallest merit, by halving it. The merit is the violation of the laws together
    with the residual of the bodies, which falls in proportion to the step. If no fraction is better than the start, it
-   is the whole step, since many short steps would make no progress. residual: of the bodies at the start [square root of
-   energy]; merit: that of the fraction
+   is the whole step, since many short steps would make no progress. residual: of the bodies at the start, in the norm
+   of the energy, like the violation [square root of energy]; merit: that of the fraction
 */
 static PetscErrorCode NewtonChooseFraction(const Contacts *c, const PetscReal du[], const PetscReal df[],
   PetscReal residual, PetscReal *fraction, PetscReal *merit)

@@ -15,9 +15,9 @@ contact:
   - a: {mortar: left.surface, nonmortar: wedge.$1, friction: 0.2}
   - b: {mortar: right.surface, nonmortar: wedge.$2, friction: 0.2}
 YAML
-  mpiexec -n $3 "$contact" wedge.yaml -quiet -summary wedge.json 2>&1 | sed 's/^/  /'
+  mpiexec -n $3 "$contact" wedge.yaml -quiet -summary wedge.json 2>&1 | $4 | sed 's/^/  /'
   "$contact" wedge.yaml -scene_check | grep -c WARNING
 }
-echo "each side on its plane:"; wedge side1 side3 1
-echo "swapped:"; wedge side3 side1 1
-echo "swapped, on 3 ranks:"; wedge side3 side1 3
+echo "each side on its plane:"; wedge side1 side3 1 cat
+echo "swapped:"; wedge side3 side1 1 "grep away"
+echo "swapped, on 3 ranks:"; wedge side3 side1 3 "grep away"

@@ -3,14 +3,18 @@
 contact=$AMGF_DIR/bin/contact
 run() { "$contact" "$@" -quiet -error_estimate 0 2> err || { echo "exit $?"; cat err; }; }
 "$PYTHON" "$AMGF_DIR/tests/dynamics/dynamics_bodies.py" scenes
-for scene in bars bars_alpha slide bounce bounce_damped spin spin_impact rigid turn tumble pendulum massless; do
+# momentum is kept as exactly as the optimizer solves a step
+exact="-tao_gatol 1e-11"
+for scene in bars bars_alpha; do run $scene.yaml $exact -output $scene; done
+for scene in slide bounce bounce_damped spin spin_impact rigid turn tumble pendulum massless; do
   run $scene.yaml -output $scene; done
 for ranks in 2 3; do
-  mpiexec --oversubscribe -n $ranks "$contact" bars.yaml -quiet -error_estimate 0 -output bars_$ranks
+  mpiexec --oversubscribe -n $ranks "$contact" bars.yaml -quiet -error_estimate 0 $exact -output bars_$ranks
 done
 for scene in bars bars_alpha bounce_damped; do
-  run $scene.yaml -checkpoint_every 15 -checkpoint $scene.h5 -output part_$scene
-  run $scene.yaml -restart $scene.h5 -output part_$scene
+  [ $scene != bounce_damped ] || exact=
+  run $scene.yaml $exact -checkpoint_every 15 -checkpoint $scene.h5 -output part_$scene
+  run $scene.yaml $exact -restart $scene.h5 -output part_$scene
 done
 "$contact" bars.yaml -quiet -load_steps 2 -tables_view 2> err | grep '^inertia'
 "$PYTHON" "$AMGF_DIR/tests/dynamics/dynamics_bodies.py"

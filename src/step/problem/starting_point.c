@@ -187,7 +187,7 @@ static PetscErrorCode StartNonlinear(StepProblem *p, PetscBool moved, PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Sets the tied nodes of u, which the quadratic model leaves where p->base has them. Their motion follows afterwards. */
+/* Sets the tied nodes of u to where p->base has them, as the quadratic model does. Their motion follows afterwards. */
 static PetscErrorCode StartUntie(StepProblem *p, Vec u)
 {
   PetscFunctionBegin;
