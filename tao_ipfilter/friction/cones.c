@@ -186,16 +186,13 @@ static void ConeCoulombLaw(const Cone *k, PetscReal D[9], PetscReal s[3])
 
 /*
    Computes the linearized law with a limit. du + C df = q is the sum of the compliances of the sliders. Without a
-   Coulomb cone, only the tangential components take part.
+   Coulomb cone, only the tangential components take part. Returns whether C is regular.
 */
-static PetscErrorCode ConeLimitedLaw(const Cone *k, PetscReal D[9], PetscReal s[3])
+static PetscBool ConeLimitedLaw(const Cone *k, PetscReal D[9], PetscReal s[3])
 {
-  const PetscInt n = k->n == 3 ? 3 : 2;
-  PetscReal      C[9], q[3], square[9], a[3] = {0.0, 0.0, 0.0}, b[3];
+  const PetscInt n    = k->n == 3 ? 3 : 2;
+  PetscReal      C[9] = {0.0}, q[3], square[9], a[3] = {0.0, 0.0, 0.0}, b[3];
 
-  PetscFunctionBegin;
-  PetscCall(PetscArrayzero(C, 9));
-  PetscCall(PetscArrayzero(D, 9));
   if (n == 3) {
     ConeSquare(k->W, C);
     ConeMultiply(k->W, k->p, a);
@@ -208,20 +205,17 @@ static PetscErrorCode ConeLimitedLaw(const Cone *k, PetscReal D[9], PetscReal s[
     q[r] = a[r] + b[r] + k->rz[r - 1];
     for (PetscInt c = 1; c < 3; c++) C[3 * r + c] += square[3 * r + c];
   }
-  PetscCheck(ConeInvert(n, C, D), PETSC_COMM_SELF, PETSC_ERR_FP,
-    "The compliance of a contact with a limit is singular");
+  if (!ConeInvert(n, C, D)) return PETSC_FALSE;
   ConeMultiply(D, q, s);
-  PetscFunctionReturn(0);
+  return PETSC_TRUE;
 }
 
-/* Computes the linearized law of a contact in unscaled components */
-static PetscErrorCode ConeLaw(const Cone *k, PetscReal D[9], PetscReal s[3])
+/* Computes the linearized law of a contact in unscaled components. Returns whether it exists. */
+static PetscBool ConeLaw(const Cone *k, PetscReal D[9], PetscReal s[3])
 {
-  PetscFunctionBegin;
-  PetscCall(PetscArrayzero(D, 9));
-  PetscCall(PetscArrayzero(s, 3));
-  if (k->limited) PetscCall(ConeLimitedLaw(k, D, s));
-  else if (k->n == 3) ConeCoulombLaw(k, D, s);
+  for (PetscInt r = 0; r < 9; r++) D[r] = s[r % 3] = 0.0;
+  if (k->limited && !ConeLimitedLaw(k, D, s)) return PETSC_FALSE;
+  if (k->n == 3 && !k->limited) ConeCoulombLaw(k, D, s);
   if (k->n == 1) {
     D[0] = k->f[0] / k->y[0];
     s[0] = k->p[0] / k->y[0] + D[0] * k->ry[0];
@@ -230,7 +224,7 @@ static PetscErrorCode ConeLaw(const Cone *k, PetscReal D[9], PetscReal s[3])
     s[r] *= k->scale[r > 0];
     for (PetscInt c = 0; c < 3; c++) D[3 * r + c] *= k->scale[r > 0] * k->scale[c > 0];
   }
-  PetscFunctionReturn(0);
+  return PETSC_TRUE;
 }
 
 /* Computes the changes of y, z and f from those of the unscaled motions and forces */
@@ -289,11 +283,12 @@ static PetscErrorCode ConesSetLaws(Cones s, PetscBool matrix, PetscBool *ready)
   PetscFunctionBegin;
   *ready = PETSC_TRUE;
   for (PetscInt i = 0; i < s->c->n; i++) {
-    PetscCall(ConeLaw(&s->cone[i], &s->c->D[9 * i], &s->c->s[3 * i]));
+    *ready = (PetscBool)(ConeLaw(&s->cone[i], &s->c->D[9 * i], &s->c->s[3 * i]) && *ready);
     if (s->c->held[i]) ContactsSetNoSlip(s->c, i);
     ContactsProjectLaw(s->c, i);
   }
-  if (matrix) PetscCall(s->bodies->prepare(s->bodies->data, s->c->D, ready));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, ready, 1, MPI_PETSCBOOL, MPI_LAND, s->c->comm));
+  if (matrix && *ready) PetscCall(s->bodies->prepare(s->bodies->data, s->c->D, ready));
   PetscFunctionReturn(0);
 }
 
@@ -383,10 +378,12 @@ static PetscErrorCode ConesAssess(Cones s, PetscReal *gap, PetscReal *error)
 }
 
 /*
-   Computes a direction. t: its largest step inside the cones. Where there are several solutions, the path decides which
-   one is found: it must not depend on the directions that the bodies have.
+   Computes a direction. t: its largest step inside the cones; after: the mean of y^T f at its end, or that of the whole
+   direction. Where there are several solutions, the path decides which one is found: it must not depend on the
+   directions that the bodies have.
 */
-static PetscErrorCode ConesDirection(Cones s, PetscReal target, PetscBool corrector, PetscReal *t, PetscBool *solved)
+static PetscErrorCode ConesDirection(Cones s, PetscReal target, PetscBool corrector, PetscReal *t, PetscReal *after,
+  PetscBool *solved)
 {
   const PetscReal accuracy = 1e-2; /* loose bricks on 1, 2, 3 ranks: energies to 1e-13; with 0.1: 1e-8; 1: 0.03 */
 
@@ -401,6 +398,10 @@ static PetscErrorCode ConesDirection(Cones s, PetscReal target, PetscBool correc
     *t = PetscMin(*t, ConeStep(&s->cone[i]));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, t, 1, MPIU_REAL, MPIU_MIN, s->c->comm));
+  *after = 0.0;
+  for (PetscInt i = 0; i < s->c->n; i++) *after += ConeGap(&s->cone[i], PetscMin(1.0, *t)) / s->count;
+  PetscCall(ConesSum(s, after));
+  *solved = (PetscBool)!PetscIsInfOrNanReal(*after);
   PetscFunctionReturn(0);
 }
 
@@ -425,25 +426,25 @@ static PetscErrorCode ConesAdvance(Cones s, PetscReal t)
 
 /*
    Takes one step of predictor and corrector. *error: that of the laws at the iterate before the step. No step is taken
-   if it is below the tolerance. *solved: false if a system was not solved
+   if it is below the tolerance. *solved: false if a system was not solved, or the cones leave no room for a step
 */
 PetscErrorCode ConesIterate(Cones s, PetscReal tolerance, PetscReal *error, PetscBool *solved)
 {
   const PetscReal inside = 0.99, /* fraction of the longest step */
-    least                = 1e-6; /* of the centring: below it, rounding errors decide */
-  PetscReal t = 0.0, gap, after = 0.0;
+    least                = 1e-6, /* of the centring: below it, rounding errors decide */
+    room                 = 1e-3; /* shortest step */
+  PetscReal t = 0.0, gap, after = 0.0, fraction;
 
   PetscFunctionBegin;
   *solved = PETSC_TRUE;
   PetscCall(ConesAssess(s, &gap, error));
   if (*error < tolerance) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < s->c->n; i++) ConeSetScalings(&s->cone[i]);
-  PetscCall(ConesDirection(s, 0.0, PETSC_FALSE, &t, solved));
+  PetscCall(ConesDirection(s, 0.0, PETSC_FALSE, &t, &after, solved));
   if (!*solved) PetscFunctionReturn(0);
-  for (PetscInt i = 0; i < s->c->n; i++) after += ConeGap(&s->cone[i], PetscMin(1.0, t));
-  PetscCall(ConesSum(s, &after));
-  after = PetscClipInterval(after / s->count / gap, 0.0, 1.0);
-  PetscCall(ConesDirection(s, PetscMax(least, after * after * after) * gap, PETSC_TRUE, &t, solved));
+  fraction = PetscClipInterval(after / gap, 0.0, 1.0);
+  PetscCall(ConesDirection(s, PetscMax(least, fraction * fraction * fraction) * gap, PETSC_TRUE, &t, &after, solved));
+  *solved = (PetscBool)(*solved && t > room);
   if (*solved) PetscCall(ConesAdvance(s, PetscMin(1.0, inside * t)));
   PetscFunctionReturn(0);
 }

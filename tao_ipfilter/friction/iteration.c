@@ -93,7 +93,6 @@ static PetscErrorCode IterationChoose(ContactIteration *it)
   it->chosen = PETSC_TRUE;
   PetscCall(IterationKeep(it, PETSC_FALSE));
   PetscCall(ContactsChoose(it->contacts, &it->bodies, &it->keeps));
-  it->best = PETSC_INFINITY;
   if (it->keeps) it->violation = PETSC_INFINITY;
   PetscFunctionReturn(0);
 }
@@ -121,6 +120,7 @@ static PetscErrorCode IterationNewton(ContactIteration *it, PetscBool *done)
   it->violation = violation > rounding ? violation / it->size : 0.0;
   if (violation <= PetscMax((it->chosen || it->sticks ? exact : known) * it->size, rounding)) {
     it->nsteps = it->nfutile = 0;
+    it->best                 = PETSC_INFINITY; /* a next step is for a smaller residual of the bodies */
     if (it->sticks) PetscCall(IterationUpdateHeld(it));
     else PetscCall(IterationChoose(it));
     PetscFunctionReturn(0);
@@ -137,17 +137,26 @@ static PetscErrorCode IterationNewton(ContactIteration *it, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
-/* Takes one step of the interior point method, or of Newton's method if the error is below it->known */
+/*
+   Takes one step of the interior point method, or of Newton's method if the error is below it->known, or if it is small
+   and the cones leave no room for a step
+*/
 static PetscErrorCode IterationCones(ContactIteration *it, PetscBool *done)
 {
-  const PetscInt most = 60;
-  PetscReal      error;
+  const PetscInt  most = 60;
+  const PetscReal near = 1e-2;
+  PetscReal       error;
 
   PetscFunctionBegin;
   PetscCall(ConesIterate(it->cones, it->known, &error, done));
   it->violation = PETSC_INFINITY; /* iterates inside the cones belong to no state of a contact */
-  if (++it->nsteps > most) *done = PETSC_FALSE;
-  if (!*done || error >= it->known) PetscFunctionReturn(0);
+  if (!*done && error < near) {
+    *done     = PETSC_TRUE;
+    it->known = 0.0; /* the last attempt */
+  } else if (!*done || !(error < it->known)) {
+    if (++it->nsteps > most) *done = PETSC_FALSE;
+    PetscFunctionReturn(0);
+  }
   PetscCall(IterationEnterNewton(it, CONTACT_LAST));
   PetscCall(IterationNewton(it, done));
   PetscFunctionReturn(0);
@@ -177,7 +186,7 @@ static PetscErrorCode IterationEnterCones(ContactIteration *it, PetscBool *done)
   it->cold   = PETSC_FALSE;
   it->phase  = CONTACT_CONES;
   it->nsteps = 0;
-  it->known  = 1e-3; /* most states are known then; IterationReturn() is for the others */
+  it->known  = 1e-4; /* most states are known then; IterationReturn() is for the others */
   PetscCall(ConesCreate(it->contacts, &it->bodies, &it->cones));
   PetscCall(ConesStart(it->cones, done));
   if (*done) PetscCall(IterationCones(it, done));

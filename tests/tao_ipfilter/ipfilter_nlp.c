@@ -25,7 +25,7 @@ static const struct {
   {"direct",
     "-tao_max_it 200 -tao_ipfilter_ksp_type preonly -tao_ipfilter_pc_type lu -tao_ipfilter_pc_factor_mat_solver_type "
     "mumps",
-    ",zigzag,", {2100, 6200}},
+    ",zigzag,", {2300, 6900}},
   /* it runs into a corner from which restoration leads to a local minimum of the violation, and says so */
   {"monotone", "-tao_max_it 200 -tao_ipfilter_barrier monotone", ",HS104,zigzag,", {2100, 6100}},
   /* differences know nothing of units as far apart as those of HS54 */
