@@ -51,8 +51,8 @@ static PetscReal RelaxBalance(const TAO_IPFILTER *ip)
    Finds whether the constraints have no interior. There are two signs. First, mu does not fall, and the multiplier of a
    slack on the central path is too large compared with the one that balances the gradient of the objective. Second, the
    multiplier of a bound is that large, and cancels the multiplier of an equality constraint.
-   At infeasible points these signs occur temporarily; such points are excluded. Where the objective is constant none
-   can be used: no multiplier is too large beside a gradient of zero.
+   At infeasible points these signs occur temporarily; such points are excluded. Neither can be used where the objective
+   is constant, since no multiplier is too large beside a gradient of zero, nor without scales.
 */
 static PetscErrorCode RelaxVanished(Tao tao, PetscBool *vanished)
 {
@@ -64,7 +64,7 @@ static PetscErrorCode RelaxVanished(Tao tao, PetscBool *vanished)
   *vanished = PETSC_FALSE;
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
   if (ip->first->gradient == 0.0 && gradient == 0.0) PetscFunctionReturn(0);
-  if (ip->kkt->primal > met) PetscFunctionReturn(0);
+  if (ip->opt->scaling == IP_SCALING_NONE || ip->kkt->primal > met) PetscFunctionReturn(0);
   if (ip->mi) *vanished = (PetscBool)(ip->mu > IP_RELAX_LARGE * ip->relax->least_slack * RelaxBalance(ip));
   if (*vanished || !ip->me) PetscFunctionReturn(0);
   if (!(ip->mu > IP_RELAX_LARGE * ip->relax->least_bound * gradient)) PetscFunctionReturn(0);
