@@ -22,8 +22,8 @@ int main(int argc, char **argv)
   PetscCall(SceneLoadText("ties_memory.yaml", scene_text, &scene));
   PetscCall(SimulationCreate(PETSC_COMM_WORLD, scene, &sim));
   PetscCall(SimulationSetUp(sim));
-  PetscCall(MatGetSize(sim->ties.C, &rows, NULL));
-  PetscCall(MatGetInfo(sim->ties.C, MAT_GLOBAL_SUM, &info));
+  PetscCall(MatGetSize(sim->model->ties.C, &rows, NULL));
+  PetscCall(MatGetInfo(sim->model->ties.C, MAT_GLOBAL_SUM, &info));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "entries reserved: %s than one a row more than there are\n",
     info.nz_allocated <= info.nz_used + rows ? "no more" : "MORE"));
   if (info.nz_allocated > info.nz_used + rows)

@@ -30,7 +30,7 @@ int main(int argc, char **argv)
   PetscCall(SimulationCreate(PETSC_COMM_WORLD, scene, &sim));
   PetscCall(SimulationSetFromOptions(sim));
   PetscCall(SimulationSetUp(sim));
-  PetscCall(VecDuplicate(sim->places.x, &force));
+  PetscCall(VecDuplicate(sim->model->places.x, &force));
   PetscCall(VecGetOwnershipRange(force, &first, &end));
   for (PetscInt i = first; i < end; ++i) {
     if (i % 3 != 1) PetscCall(VecSetValue(force, i, i % 3 ? -1.0 : 1.0, INSERT_VALUES));
@@ -40,9 +40,9 @@ int main(int argc, char **argv)
   PetscCall(SimulationCatchSignals());
   for (PetscInt k = 0; k < 2; ++k) {
     if (k && rank == 0) (void)raise(SIGUSR1);
-    PetscCall(EquilibriumDiagnose(sim, 1.0, force, &report, &none));
+    PetscCall(EquilibriumDiagnose(sim->model, sim->state, 1.0, force, &report, &none));
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s; signal %s\n", k ? "after a signal" : "without a signal",
-      none ? report.reason : "nothing is proven", sim->control->interrupted == SIGUSR1 ? "SIGUSR1" : "none"));
+      none ? report.reason : "nothing is proven", sim->state->control->interrupted == SIGUSR1 ? "SIGUSR1" : "none"));
   }
   PetscCall(PetscFree(report.reason));
   PetscCall(VecDestroy(&force));
