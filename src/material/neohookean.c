@@ -146,24 +146,26 @@ static PetscReal MaterialEnergy_NeoHookean(const MaterialModuli *m, const PetscR
   return NeoHookeanEnergies(m, h, &W) ? LANE(W, 0) : PETSC_INFINITY;
 }
 
-static PetscBool MaterialStress_NeoHookean(const MaterialModuli *m, const PetscReal H[9], PetscReal P[9])
+/* Computes n values at one point by the function of all lanes */
+LANES_INLINE PetscBool NeoHookeanAtOne(PetscBool (*all)(const MaterialModuli *, const Lanes[9], Lanes[]), int n,
+  const MaterialModuli *m, const PetscReal H[9], PetscReal values[])
 {
-  Lanes h[9], p[9];
+  Lanes h[9], v[81];
 
   NeoHookeanSpread(H, h);
-  if (!NeoHookeanStresses(m, h, p)) return PETSC_FALSE;
-  for (int i = 0; i < 9; ++i) P[i] = LANE(p[i], 0);
+  if (!all(m, h, v)) return PETSC_FALSE;
+  for (int i = 0; i < n; ++i) values[i] = LANE(v[i], 0);
   return PETSC_TRUE;
+}
+
+static PetscBool MaterialStress_NeoHookean(const MaterialModuli *m, const PetscReal H[9], PetscReal P[9])
+{
+  return NeoHookeanAtOne(NeoHookeanStresses, 9, m, H, P);
 }
 
 static PetscBool MaterialTangent_NeoHookean(const MaterialModuli *m, const PetscReal H[9], PetscReal A[81])
 {
-  Lanes h[9], a[81];
-
-  NeoHookeanSpread(H, h);
-  if (!NeoHookeanTangents(m, h, a)) return PETSC_FALSE;
-  for (int i = 0; i < 81; ++i) A[i] = LANE(a[i], 0);
-  return PETSC_TRUE;
+  return NeoHookeanAtOne(NeoHookeanTangents, 81, m, H, A);
 }
 
 /* Returns the dilatation theta = J - 1, and computes its derivative C */

@@ -16,7 +16,7 @@ typedef struct _n_Results         Results;
 typedef struct _n_StepControl     StepControl;
 typedef struct _n_RunState        RunState;
 
-/* What is given: the bodies, and the loads and constraints that act on them */
+/* The model: the bodies, and the loads and constraints that act on them */
 typedef struct _n_Model {
   MPI_Comm     comm;
   Scene        scene;
@@ -41,7 +41,7 @@ typedef struct _n_Model {
                              [force/length] */
 } * Model;
 
-/* What changes from load step to load step */
+/* The state: the data that a load step takes from the one before, and the settings of load steps */
 typedef struct _n_State {
   LoadPath       *path;    /* last two equilibrium states (path.h) */
   ContactHistory *history; /* contact results by vertex, from which the next solve starts (contact_history.h) */
@@ -49,7 +49,7 @@ typedef struct _n_State {
   StepControl    *control; /* settings for the solution of load steps (control.h) */
 } * State;
 
-/* The simulation: these two, and what is written down */
+/* The simulation: its model, its state, and its results */
 struct _n_Simulation {
   Model     model;
   State     state;

@@ -48,9 +48,9 @@ static void ChoiceBound(const Contacts *c, PetscInt i, PetscReal f[3])
 static PetscErrorCode ChoiceIterate(Contacts *c, const ContactBodies *bodies, const PetscBool free[], PetscReal du[],
   PetscReal df[], PetscReal p[], PetscBool *solved)
 {
-  const PetscInt  most  = 300;
-  const PetscReal small = 1e-6; /* change of the forces that ends the iteration, relative to the forces */
-  PetscReal       sums[2];
+  const PetscInt  most    = 300;
+  const PetscReal small   = 1e-6; /* change of the forces that ends the iteration, relative to the forces */
+  PetscReal       sums[2] = {0.0, 1.0};
   PetscInt        k;
 
   PetscFunctionBegin;

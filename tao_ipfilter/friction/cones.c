@@ -293,8 +293,8 @@ static PetscErrorCode ConesSetLaws(Cones s, PetscBool matrix, PetscBool *ready)
 }
 
 /*
-   Moves to the equilibrium with a spring as stiff as the bodies in the place of each contact. The forces and motions
-   there decide where the iteration starts.
+   Finds the sizes of forces and motions at which the iteration starts. Motions are those of the equilibrium with a
+   spring as stiff as the bodies in the place of each contact.
 */
 static PetscErrorCode ConesFindSizes(Cones s, PetscBool *found)
 {
@@ -359,7 +359,7 @@ PetscErrorCode ConesStart(Cones s, PetscBool *started)
 */
 static PetscErrorCode ConesAssess(Cones s, PetscReal *gap, PetscReal *error)
 {
-  PetscReal sums[3] = {0.0, 0.0, 0.0}, balance; /* sums of y^T f, of squares of residuals of motions, and of forces */
+  PetscReal sums[3] = {0.0, 0.0, 0.0}; /* sums of y^T f, of squares of residuals of motions, and of forces */
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < s->c->n; i++) {
@@ -370,16 +370,16 @@ static PetscErrorCode ConesAssess(Cones s, PetscReal *gap, PetscReal *error)
     for (PetscInt r = 0; r < 3; r++) sums[2] += PetscSqr(k->f[r]);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPIU_REAL, MPIU_SUM, s->c->comm));
-  PetscCall(s->bodies->residual(s->bodies->data, s->c->f, &balance));
+  PetscCall(s->bodies->residual(s->bodies->data, s->c->f, NULL));
   *gap   = sums[0] / s->count;
   *error = PetscSqrtReal((sums[0] + sums[1]) / PetscMax(sums[2], PetscSqr(s->force)));
-  PetscCall(PetscInfo(NULL, "Cones: error %g, gap %g, balance %g\n", (double)*error, (double)*gap, (double)balance));
+  PetscCall(PetscInfo(NULL, "Cones: error %g, gap %g\n", (double)*error, (double)*gap));
   PetscFunctionReturn(0);
 }
 
 /*
-   Computes a direction. t: its largest step inside the cones; after: the mean of y^T f at its end, or that of the whole
-   direction. Where there are several solutions, the path decides which one is found: it must not depend on the
+   Computes a direction. t: its largest step inside the cones; after: the mean of y^T f after this step, of at most the
+   whole direction. Where there are several solutions, the path decides which one is found: it must not depend on the
    directions that the bodies have.
 */
 static PetscErrorCode ConesDirection(Cones s, PetscReal target, PetscBool corrector, PetscReal *t, PetscReal *after,

@@ -151,8 +151,8 @@ typedef struct {
   PetscBool     sticks;          /* whether there are contacts that stick while they are closed */
   PetscBool     cold;            /* there is no state from which Newton's method could start */
   Cones         cones;           /* NULL before the phase CONTACT_CONES */
-  PetscInt      nsteps, nfutile; /* numbers of steps of this phase; of those since the merit was halved */
-  PetscReal     size, best;      /* violation or change of motions at the start; smallest violation of this phase */
+  PetscInt      nsteps, nfutile; /* numbers of steps of this phase; of those in a row that hardly reduced the merit */
+  PetscReal     size, best;      /* violation or change of motions at the start; smallest merit of this phase */
   PetscReal     known;           /* error of the interior point method at which Newton's method is tried */
   PetscReal     violation;       /* relative violation of the laws; infinite in the interior point method */
   PetscBool     chosen, keeps;   /* whether forces were chosen (choice.c); whether `kept` has those before */

@@ -98,9 +98,9 @@ static PetscErrorCode IterationChoose(ContactIteration *it)
 }
 
 /*
-   Takes one Newton step. *done: false if the violation of the laws was not halved in three steps in a row, or after
-   twelve, although it is more than rounding errors. If forces were chosen that do not become a solution, the ones
-   before are taken.
+   Takes one Newton step. *done: false if three steps in a row did not reduce the merit to 0.7 of the smallest one, or
+   after twelve steps, although the violation of the laws is more than rounding errors. If forces were chosen that do
+   not become a solution, the ones before are taken.
 */
 static PetscErrorCode IterationNewton(ContactIteration *it, PetscBool *done)
 {
@@ -149,11 +149,9 @@ static PetscErrorCode IterationCones(ContactIteration *it, PetscBool *done)
 
   PetscFunctionBegin;
   PetscCall(ConesIterate(it->cones, it->known, &error, done));
-  it->violation = PETSC_INFINITY; /* iterates inside the cones belong to no state of a contact */
-  if (!*done && error < near) {
-    *done     = PETSC_TRUE;
-    it->known = 0.0; /* the last attempt */
-  } else if (!*done || !(error < it->known)) {
+  it->violation = PETSC_INFINITY;              /* iterates inside the cones belong to no state of a contact */
+  if (!*done && error < near) it->known = 0.0; /* the last attempt */
+  else if (!*done || !(error < it->known)) {
     if (++it->nsteps > most) *done = PETSC_FALSE;
     PetscFunctionReturn(0);
   }

@@ -30,34 +30,30 @@ PetscBool PointsEnergy(const MaterialLaw *law, const MaterialModuli *cell, Petsc
   return PETSC_TRUE;
 }
 
-PetscBool PointsStress(const MaterialLaw *law, const MaterialModuli *cell, PetscInt pack, PetscInt npoints,
-  const Lanes H[9], Lanes P[9])
+/* Fills the n values V of each point by the function `at` of one point */
+LANES_INLINE PetscBool PointsFill(PetscBool (*at)(const MaterialModuli *, const PetscReal[9], PetscReal[]), PetscInt n,
+  const MaterialModuli *cell, PetscInt pack, PetscInt npoints, const Lanes H[9], Lanes V[])
 {
   const MaterialModuli *moduli;
   MaterialModuli        own;
-  PetscReal             h[9], p[9];
+  PetscReal             h[9], v[81];
 
-  if (law->stresses) return law->stresses(cell, H, P);
-  for (int i = 0; i < 9; ++i) P[i] = (Lanes){0};
+  for (int i = 0; i < n; ++i) V[i] = (Lanes){0};
   for (int l = 0; l < LANES && PointGet(cell, LANES * pack + l, npoints, H, &own, &moduli, h); ++l) {
-    if (!law->stress(moduli, h, p)) return PETSC_FALSE;
-    for (int i = 0; i < 9; ++i) LANE(P[i], l) = p[i];
+    if (!at(moduli, h, v)) return PETSC_FALSE;
+    for (int i = 0; i < n; ++i) LANE(V[i], l) = v[i];
   }
   return PETSC_TRUE;
+}
+
+PetscBool PointsStress(const MaterialLaw *law, const MaterialModuli *cell, PetscInt pack, PetscInt npoints,
+  const Lanes H[9], Lanes P[9])
+{
+  return law->stresses ? law->stresses(cell, H, P) : PointsFill(law->stress, 9, cell, pack, npoints, H, P);
 }
 
 PetscBool PointsTangent(const MaterialLaw *law, const MaterialModuli *cell, PetscInt pack, PetscInt npoints,
   const Lanes H[9], Lanes A[81])
 {
-  const MaterialModuli *moduli;
-  MaterialModuli        own;
-  PetscReal             h[9], a[81];
-
-  if (law->tangents) return law->tangents(cell, H, A);
-  for (int i = 0; i < 81; ++i) A[i] = (Lanes){0};
-  for (int l = 0; l < LANES && PointGet(cell, LANES * pack + l, npoints, H, &own, &moduli, h); ++l) {
-    if (!law->tangent(moduli, h, a)) return PETSC_FALSE;
-    for (int i = 0; i < 81; ++i) LANE(A[i], l) = a[i];
-  }
-  return PETSC_TRUE;
+  return law->tangents ? law->tangents(cell, H, A) : PointsFill(law->tangent, 81, cell, pack, npoints, H, A);
 }

@@ -64,6 +64,7 @@ PetscErrorCode LinearSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *
     PetscCall(PathContinue(p->model, p->state, p->time, u));
     resume = PETSC_TRUE;
   }
+  if (resume) PetscCall(StepProblemUntie(p, u));
   if (resume) PetscCall(VecWAXPY(p->w, -1.0, u, p->base));
   PetscCall(KSPSetInitialGuessNonzero(ksp, resume));
   PetscCall(KSPSolve(ksp, p->force, p->w));

@@ -193,6 +193,7 @@ PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u,
 
 /* starting_point.c: the starting point of a solve */
 PETSC_INTERN PetscErrorCode StepProblemStart(StepProblem *, PetscBool resume, Tao, Vec u, PetscBool *valid);
+PETSC_INTERN PetscErrorCode StepProblemUntie(StepProblem *, Vec u);
 
 /* linear.c: the solver for the bodies without contact; solves the systems of contact updates */
 PETSC_INTERN PetscErrorCode MatrixFreeSolve(Vec b, Vec x, void *context, PetscErrorCode (*multiply)(Mat, Vec, Vec),

@@ -188,9 +188,10 @@ static PetscErrorCode StartNonlinear(StepProblem *p, PetscBool moved, PetscReal 
 }
 
 /* Sets the tied nodes of u to where p->base has them, as the quadratic model does. Their motion follows afterwards. */
-static PetscErrorCode StartUntie(StepProblem *p, Vec u)
+PetscErrorCode StepProblemUntie(StepProblem *p, Vec u)
 {
   PetscFunctionBegin;
+  if (!p->model->ties.C) PetscFunctionReturn(0);
   PetscCall(VecWAXPY(p->w, -1.0, p->base, u));
   PetscCall(TiesSet(&p->model->ties, 0.0, p->w));
   PetscCall(VecWAXPY(u, 1.0, p->base, p->w));
@@ -216,13 +217,13 @@ PetscErrorCode StepProblemStart(StepProblem *p, PetscBool resume, Tao tao, Vec u
     PetscCall(StartRecallContact(p, scale, tao, &moved));
   }
   if (p->J) PetscCall(FrictionGive(p, tao, moved ? scale : 0.0));
-  if (resume && p->quadratic) PetscCall(StartUntie(p, u));
+  if (resume && p->quadratic) PetscCall(StepProblemUntie(p, u));
   if (resume) PetscFunctionReturn(0);
   if (!p->J) moved = p->state->control->warm;
   if (!p->model->quadratic) PetscCall(StartNonlinear(p, moved, scale, tao, u, valid));
   else if (moved && !last) {
     PetscCall(PathContinue(p->model, p->state, p->time, u));
-    PetscCall(StartUntie(p, u));
+    PetscCall(StepProblemUntie(p, u));
   } else PetscCall(VecCopy(p->base, u));
   PetscFunctionReturn(0);
 }
