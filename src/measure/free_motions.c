@@ -6,208 +6,35 @@
 #include "measureimpl.h"
 #include "src/mesh/supports/supportsimpl.h"
 
-/*
-   Creates the matrix of all rigid motions at the positions x, six columns per body: translations, and rotations about
-   the mean of the body's nodes by 1/size, with its largest coordinate from there as the size
-*/
-static PetscErrorCode FreeMotionsCreateModes(const Measured *at, Vec places, Mat *modes)
+/* Computes rows of Z: the displacements of the nodes of this rank at the positions x in the free motions, which are
+   combinations of the bodies' modes */
+static PetscErrorCode FreeMotionsSetRows(const Support *support, const PetscInt body[], Vec places, Mat combinations,
+  Mat Z)
 {
-  const PetscInt     nbodies = at->scene->nbodies;
-  const PetscScalar *x;
-  PetscReal         *center, *size;
-  PetscInt           n, N, first;
+  const PetscScalar *x, *values;
+  const PetscInt    *columns;
+  PetscInt           n, ncolumns, first;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc2(3 * nbodies, &center, nbodies, &size));
-  PetscCall(VertexPlacesGetCentres(&at->places, places, nbodies, center));
   PetscCall(VecGetLocalSize(places, &n));
-  PetscCall(VecGetSize(places, &N));
   PetscCall(VecGetOwnershipRange(places, &first, NULL));
   PetscCall(VecGetArrayRead(places, &x));
   for (PetscInt i = 0; i < n; ++i) {
-    const PetscInt b = at->places.body[i / 3];
+    const PetscInt  b = body[i / 3], c = i % 3, row = first + i;
+    const PetscReal at[3]    = {PetscRealPart(x[i - c]), PetscRealPart(x[i - c + 1]), PetscRealPart(x[i - c + 2])};
+    const PetscReal axis[3]  = {c == 0, c == 1, c == 2};
+    PetscReal       moved[6] = {0.0};
 
-    size[b] = PetscMax(size[b], PetscAbsReal(PetscRealPart(x[i]) - center[3 * b + i % 3]));
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, size, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_MAX, at->comm));
-  PetscCall(MatCreateAIJ(at->comm, n, PETSC_DECIDE, N, 6 * nbodies, 3, NULL, 3, NULL, modes));
-  for (PetscInt i = 0; i < n; ++i) {
-    const PetscInt    b = at->places.body[i / 3], c = i % 3, d = (c + 1) % 3, e = (c + 2) % 3, row = first + i;
-    const PetscInt    columns[3] = {6 * b + c, 6 * b + 3 + d, 6 * b + 3 + e};
-    const PetscScalar values[3]  = {1.0, (PetscRealPart(x[i - c + e]) - center[3 * b + e]) / size[b],
-       (center[3 * b + d] - PetscRealPart(x[i - c + d])) / size[b]};
-
-    PetscCall(MatSetValues(*modes, 1, &row, 3, columns, values, INSERT_VALUES));
+    SupportSetRow(support, b, axis, at, 1.0, moved);
+    for (PetscInt m = 0; m < 6; ++m) {
+      if (moved[m] == 0.0) continue;
+      PetscCall(MatGetRow(combinations, 6 * b + m, &ncolumns, &columns, &values));
+      for (PetscInt k = 0; k < ncolumns; ++k)
+        PetscCall(MatSetValue(Z, row, columns[k], moved[m] * values[k], ADD_VALUES));
+      PetscCall(MatRestoreRow(combinations, 6 * b + m, &ncolumns, &columns, &values));
+    }
   }
   PetscCall(VecRestoreArrayRead(places, &x));
-  PetscCall(MatAssemblyBegin(*modes, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(*modes, MAT_FINAL_ASSEMBLY));
-  PetscCall(PetscFree2(center, size));
-  PetscFunctionReturn(0);
-}
-
-/* Creates a vector with 1 in rows that are prescribed or have a spring that is not weak, and 0 in the others */
-static PetscErrorCode FreeMotionsMarkResisted(const VertexPlaces *places, const Springs *springs,
-  const Prescribed *prescribed, Vec *resisted)
-{
-  const PetscScalar *k, *weak = NULL;
-  PetscScalar       *a;
-  PetscInt           n;
-
-  PetscFunctionBegin;
-  PetscCall(VecDuplicate(places->x, resisted));
-  PetscCall(VecZeroEntries(*resisted));
-  PetscCall(PrescribedSet(prescribed, 1.0, *resisted));
-  if (!springs->stiffness) PetscFunctionReturn(0);
-  PetscCall(VecGetLocalSize(*resisted, &n));
-  PetscCall(VecGetArray(*resisted, &a));
-  PetscCall(VecGetArrayRead(springs->stiffness, &k));
-  if (springs->weak) PetscCall(VecGetArrayRead(springs->weak, &weak));
-  for (PetscInt i = 0; i < n; ++i) {
-    if (PetscRealPart(k[i]) > (weak ? PetscRealPart(weak[i]) : 0.0)) a[i] = 1.0;
-  }
-  if (weak) PetscCall(VecRestoreArrayRead(springs->weak, &weak));
-  PetscCall(VecRestoreArrayRead(springs->stiffness, &k));
-  PetscCall(VecRestoreArray(*resisted, &a));
-  PetscFunctionReturn(0);
-}
-
-/* Adds the matrix B, which is then destroyed, to A */
-static PetscErrorCode FreeMotionsAdd(Mat A, PetscReal factor, Mat *B)
-{
-  PetscFunctionBegin;
-  PetscCall(MatAXPY(A, factor, *B, DIFFERENT_NONZERO_PATTERN));
-  PetscCall(MatDestroy(B));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Computes the matrix of the resistance to the modes, with a stiffness of 1 of each prescribed, sprung or tied row,
-   on all ranks
-*/
-static PetscErrorCode FreeMotionsMeasureResistance(Model model, Mat modes, Mat *resistance)
-{
-  Mat       part, more, *all;
-  Vec       resisted;
-  IS        rows;
-  PetscReal size;
-
-  PetscFunctionBegin;
-  PetscCall(FreeMotionsMarkResisted(&model->places, &model->springs, &model->prescribed, &resisted));
-  PetscCall(MatDuplicate(modes, MAT_COPY_VALUES, &part));
-  PetscCall(MatDiagonalScale(part, resisted, NULL));
-  PetscCall(VecDestroy(&resisted));
-  PetscCall(MatTransposeMatMult(part, part, MAT_INITIAL_MATRIX, PETSC_DEFAULT, resistance));
-  PetscCall(MatDestroy(&part));
-  if (model->ties.C) {
-    PetscCall(MatMatMult(model->ties.C, modes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &part));
-    PetscCall(MatAXPY(part, -1.0, modes, DIFFERENT_NONZERO_PATTERN));
-    PetscCall(MatTransposeMatMult(part, part, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &more));
-    PetscCall(MatDestroy(&part));
-    PetscCall(FreeMotionsAdd(*resistance, 1.0, &more));
-  }
-  if (model->springs.between) {
-    PetscCall(MatNorm(model->springs.between, NORM_INFINITY, &size));
-    PetscCall(MatPtAP(model->springs.between, modes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &more));
-    PetscCall(FreeMotionsAdd(*resistance, size > 0.0 ? 1.0 / size : 0.0, &more));
-  }
-  PetscCall(ISCreateStride(PETSC_COMM_SELF, 6 * model->scene->nbodies, 0, 1, &rows));
-  PetscCall(MatCreateSubMatrices(*resistance, 1, &rows, &rows, MAT_INITIAL_MATRIX, &all));
-  PetscCall(ISDestroy(&rows));
-  PetscCall(MatDestroy(resistance));
-  PetscCall(PetscObjectReference((PetscObject)all[0]));
-  *resistance = all[0];
-  PetscCall(MatDestroySubMatrices(1, &all));
-  PetscFunctionReturn(0);
-}
-
-/* Finds groups of bodies that ties or springs connect. group[b]: the first body of the group of body b */
-static PetscErrorCode FreeMotionsGroup(Mat resistance, PetscInt nbodies, PetscInt group[])
-{
-  PetscFunctionBegin;
-  for (PetscInt b = 0; b < nbodies; ++b) group[b] = b;
-  for (PetscInt i = 0; i < 6 * nbodies; ++i) {
-    PetscInt        n;
-    const PetscInt *columns;
-
-    PetscCall(MatGetRow(resistance, i, &n, &columns, NULL));
-    for (PetscInt k = 0; k < n; ++k) {
-      const PetscInt a = group[i / 6], b = group[columns[k] / 6];
-
-      for (PetscInt c = 0; a != b && c < nbodies; ++c)
-        if (group[c] == PetscMax(a, b)) group[c] = PetscMin(a, b);
-    }
-    PetscCall(MatRestoreRow(resistance, i, &n, &columns, NULL));
-  }
-  PetscFunctionReturn(0);
-}
-
-/*
-   Finds the free motions of the group with the given first body as combinations of the modes. member: its bodies;
-   motion: an orthonormal basis, with six numbers per member, one after the other
-*/
-static PetscErrorCode FreeMotionsSolveGroup(Mat resistance, PetscInt nbodies, const PetscInt group[], PetscInt first,
-  PetscInt *nmembers, PetscInt member[], PetscInt *nmotions, PetscReal **motion)
-{
-  PetscInt n, size, *place;
-
-  PetscFunctionBegin;
-  *nmembers = 0;
-  PetscCall(PetscMalloc1(nbodies, &place));
-  for (PetscInt b = 0; b < nbodies; ++b) {
-    place[b] = *nmembers;
-    if (group[b] == first) member[(*nmembers)++] = b;
-  }
-  size = 6 * *nmembers;
-  PetscCall(PetscCalloc1(size * size, motion));
-  for (PetscInt i = 0; i < size; ++i) {
-    const PetscInt     row = 6 * member[i / 6] + i % 6;
-    const PetscInt    *columns;
-    const PetscScalar *values;
-
-    PetscCall(MatGetRow(resistance, row, &n, &columns, &values));
-    for (PetscInt k = 0; k < n; ++k)
-      (*motion)[size * i + 6 * place[columns[k] / 6] + columns[k] % 6] = PetscRealPart(values[k]);
-    PetscCall(MatRestoreRow(resistance, row, &n, &columns, &values));
-  }
-  PetscCall(SupportFindNull(size, *motion, nmotions));
-  PetscCall(PetscFree(place));
-  PetscFunctionReturn(0);
-}
-
-/* Creates the matrix whose columns are the free motions as combinations of the modes */
-static PetscErrorCode FreeMotionsCombine(MPI_Comm comm, Scene scene, Mat modes, Mat resistance, PetscInt *n,
-  Mat *combined)
-{
-  const PetscInt nbodies = scene->nbodies;
-  PetscInt      *group, *member, nmembers, nmotions, local;
-  PetscReal     *motion;
-  PetscMPIInt    rank;
-
-  PetscFunctionBegin;
-  *n = 0;
-  PetscCallMPI(MPI_Comm_rank(comm, &rank));
-  PetscCall(PetscMalloc2(nbodies, &group, nbodies, &member));
-  PetscCall(FreeMotionsGroup(resistance, nbodies, group));
-  PetscCall(MatGetLocalSize(modes, NULL, &local));
-  PetscCall(MatCreate(comm, combined));
-  PetscCall(MatSetSizes(*combined, local, PETSC_DECIDE, PETSC_DETERMINE, 6 * nbodies));
-  PetscCall(MatSetType(*combined, MATAIJ));
-  PetscCall(MatSetUp(*combined));
-  for (PetscInt b = 0; b < nbodies; ++b) {
-    if (group[b] != b) continue;
-    PetscCall(FreeMotionsSolveGroup(resistance, nbodies, group, b, &nmembers, member, &nmotions, &motion));
-    for (PetscInt i = 0; i < 6 * nmembers && !rank; ++i) {
-      for (PetscInt k = 0; k < nmotions; ++k)
-        PetscCall(
-          MatSetValue(*combined, 6 * member[i / 6] + i % 6, *n + k, motion[6 * nmembers * k + i], INSERT_VALUES));
-    }
-    *n += nmotions;
-    PetscCall(PetscFree(motion));
-  }
-  PetscCall(MatAssemblyBegin(*combined, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(*combined, MAT_FINAL_ASSEMBLY));
-  PetscCall(PetscFree2(group, member));
   PetscFunctionReturn(0);
 }
 
@@ -217,25 +44,30 @@ static PetscErrorCode FreeMotionsCombine(MPI_Comm comm, Scene scene, Mat modes, 
 */
 PetscErrorCode FreeMotionsCreate(Model model, State state, FreeMotions *m)
 {
-  const Measured at = MeasuredAt(model, state, NULL);
-  PetscBool      linear;
-  Mat            modes, resistance, combined;
-  Vec            places;
+  PetscBool linear, moved;
+  PetscInt  n;
+  Support   support;
+  Mat       combinations;
+  Vec       places;
 
   PetscFunctionBegin;
+  m->comm = model->comm;
   PetscCall(ElasticityIsLinear(model->elasticity, &linear));
+  moved = (PetscBool)(!linear || model->rigid.turns);
+  PetscCall(SupportCreate(model->dm, model->scene, moved ? state->path->u : NULL, SUPPORT_FIXED, &support));
+  PetscCall(SupportFindFree(&support, &m->n, &combinations));
   PetscCall(VecDuplicate(model->places.x, &places));
   PetscCall(VecCopy(model->places.x, places));
-  if (!linear || model->rigid.turns) PetscCall(VecAXPY(places, 1.0, state->path->u));
-  PetscCall(FreeMotionsCreateModes(&at, places, &modes));
+  if (moved) PetscCall(VecAXPY(places, 1.0, state->path->u));
+  PetscCall(VecGetLocalSize(places, &n));
+  PetscCall(MatCreateAIJ(m->comm, n, PETSC_DECIDE, PETSC_DETERMINE, m->n, 6, NULL, 6, NULL, &m->Z));
+  PetscCall(MatSetOption(m->Z, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
+  PetscCall(FreeMotionsSetRows(&support, model->places.body, places, combinations, m->Z));
+  PetscCall(MatAssemblyBegin(m->Z, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(m->Z, MAT_FINAL_ASSEMBLY));
   PetscCall(VecDestroy(&places));
-  PetscCall(FreeMotionsMeasureResistance(model, modes, &resistance));
-  m->comm = model->comm;
-  PetscCall(FreeMotionsCombine(model->comm, model->scene, modes, resistance, &m->n, &combined));
-  PetscCall(MatMatMult(modes, combined, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &m->Z));
-  PetscCall(MatDestroy(&combined));
-  PetscCall(MatDestroy(&resistance));
-  PetscCall(MatDestroy(&modes));
+  PetscCall(MatDestroy(&combinations));
+  PetscCall(SupportDestroy(&support));
   PetscFunctionReturn(0);
 }
 
@@ -257,40 +89,37 @@ PetscErrorCode FreeMotionsGetRate(Mat A, PetscInt row, const PetscReal motion[],
 /* Computes the displacements w of a combination of the free motions */
 PetscErrorCode FreeMotionsDisplace(const FreeMotions *m, const PetscReal motion[], Vec w)
 {
-  PetscScalar *a;
-  PetscInt     first, end;
+  PetscInt first, end;
+  Vec      c;
 
   PetscFunctionBegin;
-  PetscCall(VecGetOwnershipRange(w, &first, &end));
-  PetscCall(VecGetArrayWrite(w, &a));
-  for (PetscInt i = first; i < end; ++i) {
-    PetscReal value;
-
-    PetscCall(FreeMotionsGetRate(m->Z, i, motion, &value));
-    a[i - first] = value;
-  }
-  PetscCall(VecRestoreArrayWrite(w, &a));
+  PetscCall(MatCreateVecs(m->Z, &c, NULL));
+  PetscCall(VecGetOwnershipRange(c, &first, &end));
+  for (PetscInt k = first; k < end; ++k) PetscCall(VecSetValue(c, k, motion[k], INSERT_VALUES));
+  PetscCall(VecAssemblyBegin(c));
+  PetscCall(VecAssemblyEnd(c));
+  PetscCall(MatMult(m->Z, c, w));
+  PetscCall(VecDestroy(&c));
   PetscFunctionReturn(0);
 }
 
 /* Computes the work of forces on the free motions */
 PetscErrorCode FreeMotionsSum(const FreeMotions *m, Vec force, PetscReal motion[])
 {
-  const PetscScalar *f, *values;
-  const PetscInt    *columns;
-  PetscInt           first, end, n;
+  const PetscScalar *a;
+  PetscInt           first, end;
+  Vec                work;
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(motion, m->n));
-  PetscCall(VecGetOwnershipRange(force, &first, &end));
-  PetscCall(VecGetArrayRead(force, &f));
-  for (PetscInt i = first; i < end; ++i) {
-    PetscCall(MatGetRow(m->Z, i, &n, &columns, &values));
-    for (PetscInt k = 0; k < n; ++k) motion[columns[k]] += PetscRealPart(values[k] * f[i - first]);
-    PetscCall(MatRestoreRow(m->Z, i, &n, &columns, &values));
-  }
-  PetscCall(VecRestoreArrayRead(force, &f));
+  PetscCall(MatCreateVecs(m->Z, &work, NULL));
+  PetscCall(MatMultTranspose(m->Z, force, work));
+  PetscCall(VecGetOwnershipRange(work, &first, &end));
+  PetscCall(VecGetArrayRead(work, &a));
+  for (PetscInt k = first; k < end; ++k) motion[k] = PetscRealPart(a[k - first]);
+  PetscCall(VecRestoreArrayRead(work, &a));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, motion, (PetscMPIInt)m->n, MPIU_REAL, MPIU_SUM, m->comm));
+  PetscCall(VecDestroy(&work));
   PetscFunctionReturn(0);
 }
 

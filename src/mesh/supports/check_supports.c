@@ -64,49 +64,53 @@ static PetscErrorCode SupportRaise(const Support *support, Scene scene, const Pe
   PetscFunctionReturn(0);
 }
 
-/* Collective. Checks that a face has facets. A surface of a Gmsh file has none if it is not on the boundary of the
-   body. */
-static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const void *owner, const char face[])
+/* Collective. Checks that two faces of an entry of the scene, either of which may be NULL, have facets. A surface of a
+   Gmsh file has none if it is not on the boundary of the body. */
+static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const void *owner, const char first[],
+  const char second[])
 {
-  const SceneEntry *entry = owner;
-  IS                facets;
-  PetscInt          n, total;
+  const SceneEntry *entry   = owner;
+  const char *const face[2] = {first, second};
 
   PetscFunctionBegin;
-  PetscCall(MeshGetFacets(dm, face, &facets));
-  PetscCall(ISGetLocalSize(facets, &n));
-  PetscCall(ISDestroy(&facets));
-  PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)dm)));
-  SceneCheck(total, PetscObjectComm((PetscObject)dm), PETSC_ERR_USER_INPUT, entry,
-    "%s \"%s\": the face \"%s\" has no facets, because that surface of the mesh file is not on the boundary of the "
-    "body",
-    what, entry->name, face);
+  for (PetscInt k = 0; k < 2; ++k) {
+    IS       facets;
+    PetscInt n;
+
+    if (!face[k]) continue;
+    PetscCall(MeshGetFacets(dm, face[k], &facets));
+    PetscCall(ISGetLocalSize(facets, &n));
+    PetscCall(ISDestroy(&facets));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)dm)));
+    SceneCheck(n, PetscObjectComm((PetscObject)dm), PETSC_ERR_USER_INPUT, entry,
+      "%s \"%s\": the face \"%s\" has no facets, because that surface of the mesh file is not on the boundary of the "
+      "body",
+      what, entry->name, face[k]);
+  }
   PetscFunctionReturn(0);
 }
 
-/* Collective. Creates the links of everything in the scene that holds bodies. Free with SupportDestroy(). */
-static PetscErrorCode SupportCreate(DM dm, Scene scene, Support *support)
+/* Computes outside[6 b + k], the free part of mode k of body b: the square of its projection onto the free motions */
+static PetscErrorCode SupportGetFree(const Support *support, PetscReal outside[])
 {
-  const PetscInt nlinks =
-    scene->ndisplacements + scene->nsprings + scene->nconnectors + scene->npairs + scene->nties + scene->ncyclic;
+  Mat      motions;
+  PetscInt n;
 
   PetscFunctionBegin;
-  *support = (Support){.dm = dm, .nbodies = scene->nbodies};
-  PetscCall(PetscCalloc5(scene->nbodies, &support->center, scene->nbodies, &support->size, nlinks, &support->links,
-    nlinks, &support->gram, scene->nbodies, &support->contact));
-  PetscCall(SupportMeasureBodies(support));
-  PetscCall(SupportAddScene(support, scene));
+  PetscCall(SupportFindFree(support, &n, &motions));
+  for (PetscInt k = 0; k < 6 * support->nbodies; ++k) {
+    const PetscScalar *values;
+
+    outside[k] = 0;
+    PetscCall(MatGetRow(motions, k, &n, NULL, &values));
+    for (PetscInt m = 0; m < n; ++m) outside[k] += PetscSqr(PetscRealPart(values[m]));
+    PetscCall(MatRestoreRow(motions, k, &n, NULL, &values));
+  }
+  PetscCall(MatDestroy(&motions));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SupportDestroy(Support *support)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree5(support->center, support->size, support->links, support->gram, support->contact));
-  PetscFunctionReturn(0);
-}
-
-/* Collective. Reports the bodies with free modes as an error */
+/* Collective. Reports the bodies with free modes as an error. Contact pairs are assumed closed. */
 static PetscErrorCode SupportCheckBodies(DM dm, Scene scene)
 {
   Support    support;
@@ -114,7 +118,7 @@ static PetscErrorCode SupportCheckBodies(DM dm, Scene scene)
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(6 * scene->nbodies, &outside));
-  PetscCall(SupportCreate(dm, scene, &support));
+  PetscCall(SupportCreate(dm, scene, NULL, SUPPORT_SLIDING, &support));
   PetscCall(SupportGetFree(&support, outside));
   PetscCall(SupportRaise(&support, scene, outside));
   PetscCall(PetscFree(outside));
@@ -149,7 +153,7 @@ PetscErrorCode MeshGetUnsupported(DM dm, Scene scene, PetscBool unsupported[], M
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(6 * scene->nbodies, &outside));
-  PetscCall(SupportCreate(dm, scene, &support));
+  PetscCall(SupportCreate(dm, scene, NULL, SUPPORT_SLIDING, &support));
   PetscCall(SupportFindGliding(&support, unsupported, rotations));
   if (scene->weak_springs) PetscCall(SupportGetFree(&support, outside));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
@@ -183,32 +187,23 @@ PetscErrorCode MeshCheckScene(DM dm, Scene scene)
 {
   PetscFunctionBegin;
   PetscCall(MeshLabelPoints(dm, scene));
-  for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
-    if (scene->displacements[d].at == DISPLACEMENT_FACE)
-      PetscCall(SupportCheckFacets(dm, "Displacement", &scene->displacements[d], scene->displacements[d].face));
-  }
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d)
+    PetscCall(SupportCheckFacets(dm, "Displacement", &scene->displacements[d],
+      scene->displacements[d].at == DISPLACEMENT_FACE ? scene->displacements[d].face : NULL, NULL));
   for (PetscInt p = 0; p < scene->npressures; ++p)
-    PetscCall(SupportCheckFacets(dm, "Pressure", &scene->pressures[p], scene->pressures[p].face));
-  for (PetscInt t = 0; t < scene->ntractions; ++t) {
-    if (!SceneForceIsAtPoint(scene, &scene->tractions[t]))
-      PetscCall(SupportCheckFacets(dm, "Load", &scene->tractions[t], scene->tractions[t].face));
-  }
-  for (PetscInt s = 0; s < scene->nsprings; ++s) {
-    PetscCall(SupportCheckFacets(dm, "Spring", &scene->springs[s], scene->springs[s].face));
-    if (scene->springs[s].to) PetscCall(SupportCheckFacets(dm, "Spring", &scene->springs[s], scene->springs[s].to));
-  }
-  for (PetscInt p = 0; p < scene->npairs; ++p) {
-    PetscCall(SupportCheckFacets(dm, "Contact pair", &scene->pairs[p], scene->pairs[p].mortar));
-    PetscCall(SupportCheckFacets(dm, "Contact pair", &scene->pairs[p], scene->pairs[p].nonmortar));
-  }
-  for (PetscInt t = 0; t < scene->nties; ++t) {
-    PetscCall(SupportCheckFacets(dm, "Tie", &scene->ties[t], scene->ties[t].mortar));
-    PetscCall(SupportCheckFacets(dm, "Tie", &scene->ties[t], scene->ties[t].nonmortar));
-  }
-  for (PetscInt k = 0; k < scene->ncyclic; ++k) {
-    PetscCall(SupportCheckFacets(dm, "Cyclic symmetry", &scene->cyclic[k], scene->cyclic[k].from));
-    PetscCall(SupportCheckFacets(dm, "Cyclic symmetry", &scene->cyclic[k], scene->cyclic[k].to));
-  }
+    PetscCall(SupportCheckFacets(dm, "Pressure", &scene->pressures[p], scene->pressures[p].face, NULL));
+  for (PetscInt t = 0; t < scene->ntractions; ++t)
+    PetscCall(SupportCheckFacets(dm, "Load", &scene->tractions[t],
+      SceneForceIsAtPoint(scene, &scene->tractions[t]) ? NULL : scene->tractions[t].face, NULL));
+  for (PetscInt s = 0; s < scene->nsprings; ++s)
+    PetscCall(SupportCheckFacets(dm, "Spring", &scene->springs[s], scene->springs[s].face, scene->springs[s].to));
+  for (PetscInt p = 0; p < scene->npairs; ++p)
+    PetscCall(
+      SupportCheckFacets(dm, "Contact pair", &scene->pairs[p], scene->pairs[p].mortar, scene->pairs[p].nonmortar));
+  for (PetscInt t = 0; t < scene->nties; ++t)
+    PetscCall(SupportCheckFacets(dm, "Tie", &scene->ties[t], scene->ties[t].mortar, scene->ties[t].nonmortar));
+  for (PetscInt k = 0; k < scene->ncyclic; ++k)
+    PetscCall(SupportCheckFacets(dm, "Cyclic symmetry", &scene->cyclic[k], scene->cyclic[k].from, scene->cyclic[k].to));
   if (!SceneIsDynamic(scene) && !scene->weak_springs) PetscCall(SupportCheckBodies(dm, scene));
   PetscFunctionReturn(0);
 }

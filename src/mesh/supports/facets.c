@@ -31,13 +31,13 @@ PetscErrorCode SupportDestroyFace(SupportFace *face)
 }
 
 /* Gets the vertices of a facet [length] and its unit normal. The third vertex of a triangle is also its fourth. */
-static PetscErrorCode SupportGetFacet(DM dm, PetscInt facet, PetscReal x[4][3], PetscReal normal[3])
+static PetscErrorCode SupportGetFacet(const Support *support, PetscInt facet, PetscReal x[4][3], PetscReal normal[3])
 {
   PetscInt vertices[4];
 
   PetscFunctionBegin;
-  PetscCall(MeshGetFacetVertices(dm, facet, vertices));
-  PetscCall(MeshGetVertexCoordinates(dm, 4, vertices, x));
+  PetscCall(MeshGetFacetVertices(support->dm, facet, vertices));
+  PetscCall(SupportGetPlaces(support, 4, vertices, x));
   MeshComputeFacetArea(x, normal);
   VectorScaleToUnit(normal);
   PetscFunctionReturn(0);
@@ -56,7 +56,7 @@ PetscErrorCode SupportAddFacets(Support *support, const SupportFace *face, Petsc
   for (PetscInt i = 0; i < n; ++i) {
     PetscReal x[4][3], own[3];
 
-    PetscCall(SupportGetFacet(support->dm, f[i], x, own));
+    PetscCall(SupportGetFacet(support, f[i], x, own));
     for (PetscInt k = 0; k < 12; ++k) {
       const PetscReal *direction = along ? axes[k % 3] : normal ? normal : own;
 
@@ -83,7 +83,7 @@ PetscErrorCode SupportMeasureFace(Support *support, const SupportFace *face)
     PetscReal x[4][3], direction[4][3] = {{0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     PetscBool triangle;
 
-    PetscCall(SupportGetFacet(support->dm, f[i], x, direction[0]));
+    PetscCall(SupportGetFacet(support, f[i], x, direction[0]));
     triangle = (PetscBool)(x[3][0] == x[2][0] && x[3][1] == x[2][1] && x[3][2] == x[2][2]);
     /* the normal at the centre of a facet of a round face meets its axis */
     for (PetscInt d = 0; d < 3; ++d)

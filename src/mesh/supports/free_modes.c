@@ -73,45 +73,81 @@ static PetscErrorCode SupportFindHeld(const Support *support, PetscBool held[])
   PetscFunctionReturn(0);
 }
 
-/* Assembles the matrix of the bodies that are not held. place[b]: position of body b in the matrix; -1 if it is left
-   out */
-static void SupportGather(const Support *support, const PetscInt place[], PetscInt n, PetscReal matrix[])
+/* Finds the groups of bodies that are not held and that links connect. group[b]: the first body of the group of body b;
+   -1 if body b is held */
+static PetscErrorCode SupportGroup(const Support *support, PetscInt group[])
+{
+  PetscBool *held;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(support->nbodies, &held));
+  PetscCall(SupportFindHeld(support, held));
+  for (PetscInt b = 0; b < support->nbodies; ++b) group[b] = held[b] ? PETSC_DECIDE : b;
+  for (PetscInt l = 0; l < support->nlinks; ++l) {
+    const PetscInt *body = support->links[l].body;
+    const PetscInt  a = group[body[0]], b = body[1] < 0 ? PETSC_DECIDE : group[body[1]];
+
+    for (PetscInt c = 0; a >= 0 && b >= 0 && a != b && c < support->nbodies; ++c)
+      if (group[c] == PetscMax(a, b)) group[c] = PetscMin(a, b);
+  }
+  PetscCall(PetscFree(held));
+  PetscFunctionReturn(0);
+}
+
+/* Adds the restraints of a group, whose first body is given, to the matrix of its n modes. place[b]: position of body b
+   in its group */
+static void SupportGather(const Support *support, const PetscInt group[], PetscInt first, const PetscInt place[],
+  PetscInt n, PetscReal matrix[])
 {
   for (PetscInt l = 0; l < support->nlinks; ++l) {
     for (PetscInt i = 0; i < SUPPORT_BLOCK; ++i) {
       const PetscInt a = support->links[l].body[i / 6];
 
-      for (PetscInt j = 0; a >= 0 && place[a] >= 0 && j < SUPPORT_BLOCK; ++j) {
+      for (PetscInt j = 0; a >= 0 && group[a] == first && j < SUPPORT_BLOCK; ++j) {
         const PetscInt b = support->links[l].body[j / 6];
 
-        if (b >= 0 && place[b] >= 0)
+        if (b >= 0 && group[b] == first)
           matrix[(6 * place[a] + i % 6) * n + 6 * place[b] + j % 6] += support->gram[l][i * SUPPORT_BLOCK + j];
       }
     }
   }
 }
 
-/* Computes outside[6 b + k], the free part of mode k of body b: the square of its projection onto the free motions */
-PetscErrorCode SupportGetFree(const Support *support, PetscReal outside[])
+/* Creates the n free motions on every rank: row 6 b + k has the coefficients of mode k of body b, one column for each
+   motion, and then zeros. The motions of a group of bodies are orthonormal; those of different groups move different
+   bodies. */
+PetscErrorCode SupportFindFree(const Support *support, PetscInt *nmotions, Mat *motions)
 {
-  PetscBool *held;
-  PetscInt  *place, n = 0, nfree;
-  PetscReal *matrix;
+  const PetscInt nbodies = support->nbodies;
+  PetscInt      *group, *place;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(support->nbodies, &held, support->nbodies, &place));
-  PetscCall(SupportFindHeld(support, held));
-  for (PetscInt b = 0; b < support->nbodies; ++b) place[b] = held[b] ? PETSC_DECIDE : n++;
-  n *= 6;
-  PetscCall(PetscCalloc1(n * n, &matrix));
-  SupportGather(support, place, n, matrix);
-  PetscCall(SupportFindNull(n, matrix, &nfree));
-  for (PetscInt k = 0; k < 6 * support->nbodies; ++k) {
-    outside[k] = 0;
-    for (PetscInt m = 0; m < nfree && !held[k / 6]; ++m)
-      outside[k] += PetscSqr(matrix[m * n + 6 * place[k / 6] + k % 6]);
+  *nmotions = 0;
+  PetscCall(PetscMalloc2(nbodies, &group, nbodies, &place));
+  PetscCall(SupportGroup(support, group));
+  PetscCall(MatCreateSeqAIJ(PETSC_COMM_SELF, 6 * nbodies, 6 * nbodies, 6, NULL, motions));
+  PetscCall(MatSetOption(*motions, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
+  PetscCall(MatSetOption(*motions, MAT_IGNORE_ZERO_ENTRIES, PETSC_TRUE));
+  for (PetscInt first = 0; first < nbodies; ++first) {
+    PetscReal *matrix;
+    PetscInt   n = 0, nfree;
+
+    if (group[first] != first) continue;
+    for (PetscInt b = first; b < nbodies; ++b)
+      if (group[b] == first) place[b] = n++;
+    n *= 6;
+    PetscCall(PetscCalloc1(n * n, &matrix));
+    SupportGather(support, group, first, place, n, matrix);
+    PetscCall(SupportFindNull(n, matrix, &nfree));
+    for (PetscInt i = 6 * first; i < 6 * nbodies; ++i) {
+      for (PetscInt k = 0; k < nfree && group[i / 6] == first; ++k)
+        PetscCall(MatSetValue(*motions, i, *nmotions + k, matrix[k * n + 6 * place[i / 6] + i % 6], INSERT_VALUES));
+    }
+    *nmotions += nfree;
+    PetscCall(PetscFree(matrix));
   }
-  PetscCall(PetscFree(matrix));
-  PetscCall(PetscFree2(held, place));
+  PetscCall(MatAssemblyBegin(*motions, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*motions, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscFree2(group, place));
   PetscFunctionReturn(0);
 }

@@ -2,6 +2,27 @@
 #include "supportsimpl.h"
 #include <vector3.h>
 
+/* Gets the positions of n vertices at the displacement of the nodes [length] */
+PetscErrorCode SupportGetPlaces(const Support *support, PetscInt n, const PetscInt vertices[], PetscReal x[][3])
+{
+  PetscSection       section;
+  const PetscScalar *u;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetVertexCoordinates(support->dm, n, vertices, x));
+  if (!support->u) PetscFunctionReturn(0);
+  PetscCall(DMGetLocalSection(support->dm, &section));
+  PetscCall(VecGetArrayRead(support->u, &u));
+  for (PetscInt i = 0; i < n; ++i) {
+    PetscInt offset;
+
+    PetscCall(PetscSectionGetOffset(section, vertices[i], &offset));
+    for (PetscInt d = 0; d < 3; ++d) x[i][d] += PetscRealPart(u[offset + d]);
+  }
+  PetscCall(VecRestoreArrayRead(support->u, &u));
+  PetscFunctionReturn(0);
+}
+
 /* Collective. Computes the centre, and half of the largest side, of every body's bounding box [length] */
 PetscErrorCode SupportMeasureBodies(Support *support)
 {
@@ -19,7 +40,7 @@ PetscErrorCode SupportMeasureBodies(Support *support)
 
     PetscCall(DMGetLabelValue(support->dm, MESH_BODY_LABEL, c, &b));
     PetscCall(MeshGetCellCorners(support->dm, c, &n, vertices));
-    PetscCall(MeshGetVertexCoordinates(support->dm, n, vertices, x));
+    PetscCall(SupportGetPlaces(support, n, vertices, x));
     for (PetscInt i = 0; i < 3 * n; ++i) {
       bounds[6 * b + i % 3]     = PetscMin(bounds[6 * b + i % 3], x[i / 3][i % 3]);
       bounds[6 * b + 3 + i % 3] = PetscMin(bounds[6 * b + 3 + i % 3], -x[i / 3][i % 3]);
@@ -74,7 +95,7 @@ PetscErrorCode SupportAddRow(Support *support, PetscReal weight)
 }
 
 /* Begins a link between bodies a and b. If b is negative or equal to a, the link is between body a and the ground. */
-void SupportBeginLink(Support *support, PetscInt a, PetscInt b)
+void SupportBeginLink(Support *support, PetscInt a, PetscInt b, SupportKind kind)
 {
-  support->links[support->nlinks++] = (SupportLink){.body = {a, b == a ? PETSC_DECIDE : b}};
+  support->links[support->nlinks++] = (SupportLink){{a, b == a ? PETSC_DECIDE : b}, kind};
 }

@@ -20,12 +20,12 @@ static PetscErrorCode SupportAddPoint(Support *support, const SceneDisplacement 
   PetscCall(ISGetLocalSize(vertices, &n));
   PetscCallMPI(MPI_Allreduce(&n, &total, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)support->dm)));
   PetscCall(ISGetIndices(vertices, &v));
-  SupportBeginLink(support, point->body, PETSC_DECIDE);
+  SupportBeginLink(support, point->body, PETSC_DECIDE, SUPPORT_FIXED);
   for (PetscInt k = 0; k < 3 * n; ++k) {
     PetscReal x[1][3];
 
     if (!point->fixed[k % 3]) continue;
-    PetscCall(MeshGetVertexCoordinates(support->dm, 1, &v[k / 3], x));
+    PetscCall(SupportGetPlaces(support, 1, &v[k / 3], x));
     SupportAddMotion(support, point->body, axes[k % 3], x[0], 1);
     PetscCall(SupportAddRow(support, 1 / (PetscReal)total));
   }
@@ -66,7 +66,7 @@ static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDispla
     PetscFunctionReturn(0);
   }
   PetscCall(SupportGetFace(support, displacement->face, &face));
-  SupportBeginLink(support, face.body, PETSC_DECIDE);
+  SupportBeginLink(support, face.body, PETSC_DECIDE, SUPPORT_FIXED);
   PetscCall(SupportAddRigid(support, displacement, face.body, &released));
   if (displacement->inclined) VectorScaleToUnit(normal);
   if (!released)
@@ -97,29 +97,29 @@ static PetscErrorCode SupportFindPlane(Support *support, const SceneBody *body, 
   PetscFunctionReturn(0);
 }
 
-/* Adds the restraint of the relative motion of two faces at the vertices of the nonmortar one. along: its components,
-   for a tie, springs between faces, or a contact pair with friction; NULL for a pair without friction: the component
-   along the normals of the nonmortar facets, or along that of a plane mortar face */
-static PetscErrorCode SupportAddFaces(Support *support, Scene scene, const char mortar_face[],
-  const char nonmortar_face[], const PetscBool along[3])
+/* Adds the restraint of the motion of the nonmortar face relative to the mortar face, or to the ground if `mortar` is
+   NULL. along: its components; those of a sliding pair are along the normals of the nonmortar facets, or along that of
+   a plane mortar face */
+static PetscErrorCode SupportAddFaces(Support *support, Scene scene, SupportKind kind, const char mortar[],
+  const char nonmortar[], const PetscBool along[3])
 {
-  SupportFace mortar, nonmortar;
+  SupportFace face, other = {.body = PETSC_DECIDE};
   PetscReal   flat[3];
   PetscBool   plane = PETSC_FALSE;
 
   PetscFunctionBegin;
-  PetscCall(SupportGetFace(support, mortar_face, &mortar));
-  PetscCall(SupportGetFace(support, nonmortar_face, &nonmortar));
-  SupportBeginLink(support, nonmortar.body, mortar.body);
-  support->links[support->nlinks - 1].pair = (PetscBool)!along;
-  if (!along) {
-    PetscCall(SupportFindPlane(support, &scene->bodies[mortar.body], mortar.facets, flat, &plane));
-    PetscCall(SupportMeasureFace(support, &mortar));
-    PetscCall(SupportMeasureFace(support, &nonmortar));
+  if (mortar) PetscCall(SupportGetFace(support, mortar, &other));
+  PetscCall(SupportGetFace(support, nonmortar, &face));
+  SupportBeginLink(support, face.body, other.body, kind);
+  if (kind == SUPPORT_SLIDING) {
+    PetscCall(SupportFindPlane(support, &scene->bodies[other.body], other.facets, flat, &plane));
+    PetscCall(SupportMeasureFace(support, &other));
+    PetscCall(SupportMeasureFace(support, &face));
+    along = NULL;
   }
-  PetscCall(SupportAddFacets(support, &nonmortar, mortar.body, along, plane ? flat : NULL));
-  PetscCall(SupportDestroyFace(&mortar));
-  PetscCall(SupportDestroyFace(&nonmortar));
+  PetscCall(SupportAddFacets(support, &face, other.body, along, plane ? flat : NULL));
+  if (mortar) PetscCall(SupportDestroyFace(&other));
+  PetscCall(SupportDestroyFace(&face));
   PetscFunctionReturn(0);
 }
 
@@ -135,7 +135,7 @@ static PetscErrorCode SupportAddCyclic(Support *support, const SceneCyclic *cut)
   PetscFunctionBegin;
   PetscCall(SupportGetFace(support, cut->from, &face));
   PetscCall(SupportDestroyFace(&face));
-  SupportBeginLink(support, face.body, PETSC_DECIDE);
+  SupportBeginLink(support, face.body, PETSC_DECIDE, SUPPORT_FIXED);
   PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)support->dm), &rank));
   if (rank) PetscFunctionReturn(0);
   (void)VectorScaleToUnit(axis);
@@ -158,7 +158,7 @@ static PetscErrorCode SupportAddConnector(Support *support, const SceneConnector
   PetscMPIInt rank;
 
   PetscFunctionBegin;
-  SupportBeginLink(support, connector->body, connector->to);
+  SupportBeginLink(support, connector->body, connector->to, SUPPORT_FIXED);
   PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)support->dm), &rank));
   for (int m = 0; !rank && m < (connector->axial ? 1 : 3); ++m) {
     PetscReal along[3] = {m == 0, m == 1, m == 2};
@@ -173,47 +173,61 @@ static PetscErrorCode SupportAddConnector(Support *support, const SceneConnector
   PetscFunctionReturn(0);
 }
 
-/* Adds the restraints of springs on a face, between the face and the ground or another face */
-static PetscErrorCode SupportAddSpring(Support *support, Scene scene, const SceneSpring *spring)
-{
-  const PetscBool along[3] = {spring->value[0] > 0, spring->value[1] > 0, spring->value[2] > 0};
-  SupportFace     face;
-
-  PetscFunctionBegin;
-  if (spring->to) {
-    PetscCall(SupportAddFaces(support, scene, spring->to, spring->face, along));
-    PetscFunctionReturn(0);
-  }
-  PetscCall(SupportGetFace(support, spring->face, &face));
-  SupportBeginLink(support, face.body, PETSC_DECIDE);
-  PetscCall(SupportAddFacets(support, &face, PETSC_DECIDE, along, NULL));
-  PetscCall(SupportDestroyFace(&face));
-  PetscFunctionReturn(0);
-}
-
-PetscErrorCode SupportAddScene(Support *support, Scene scene)
+/* Adds the links of everything in the scene that holds bodies, up to the kind `most` */
+static PetscErrorCode SupportAddScene(Support *support, Scene scene, SupportKind most)
 {
   static const PetscBool all[3] = {PETSC_TRUE, PETSC_TRUE, PETSC_TRUE};
-  const MPI_Comm         comm   = PetscObjectComm((PetscObject)support->dm);
 
   PetscFunctionBegin;
   for (PetscInt d = 0; d < scene->ndisplacements; ++d)
     PetscCall(SupportAddDisplacement(support, &scene->displacements[d]));
-  for (PetscInt s = 0; s < scene->nsprings; ++s) PetscCall(SupportAddSpring(support, scene, &scene->springs[s]));
+  for (PetscInt s = 0; s < scene->nsprings; ++s) {
+    const SceneSpring *spring   = &scene->springs[s];
+    const PetscBool    along[3] = {spring->value[0] > 0, spring->value[1] > 0, spring->value[2] > 0};
+
+    PetscCall(SupportAddFaces(support, scene, SUPPORT_FIXED, spring->to, spring->face, along));
+  }
   for (PetscInt c = 0; c < scene->nconnectors; ++c) PetscCall(SupportAddConnector(support, &scene->connectors[c]));
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *pair = &scene->pairs[p];
+    const SupportKind       kind = SceneContactPairHasFriction(pair) ? SUPPORT_FRICTION : SUPPORT_SLIDING;
 
-    if (pair->self) continue;
-    PetscCall(
-      SupportAddFaces(support, scene, pair->mortar, pair->nonmortar, SceneContactPairHasFriction(pair) ? all : NULL));
+    if (!pair->self && kind <= most)
+      PetscCall(SupportAddFaces(support, scene, kind, pair->mortar, pair->nonmortar, all));
   }
   for (PetscInt t = 0; t < scene->nties; ++t)
-    PetscCall(SupportAddFaces(support, scene, scene->ties[t].mortar, scene->ties[t].nonmortar, all));
+    PetscCall(SupportAddFaces(support, scene, SUPPORT_FIXED, scene->ties[t].mortar, scene->ties[t].nonmortar, all));
   for (PetscInt k = 0; k < scene->ncyclic; ++k) PetscCall(SupportAddCyclic(support, &scene->cyclic[k]));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SupportCreate(DM dm, Scene scene, Vec u, SupportKind most, Support *support)
+{
+  const MPI_Comm comm = PetscObjectComm((PetscObject)dm);
+  const PetscInt nlinks =
+    scene->ndisplacements + scene->nsprings + scene->nconnectors + scene->npairs + scene->nties + scene->ncyclic;
+
+  PetscFunctionBegin;
+  *support = (Support){.dm = dm, .nbodies = scene->nbodies};
+  if (u) {
+    PetscCall(DMCreateLocalVector(dm, &support->u));
+    PetscCall(DMGlobalToLocal(dm, u, INSERT_VALUES, support->u));
+  }
+  PetscCall(PetscCalloc5(scene->nbodies, &support->center, scene->nbodies, &support->size, nlinks, &support->links,
+    nlinks, &support->gram, scene->nbodies, &support->contact));
+  PetscCall(SupportMeasureBodies(support));
+  PetscCall(SupportAddScene(support, scene, most));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, support->gram,
     (PetscMPIInt)(support->nlinks * SUPPORT_BLOCK * SUPPORT_BLOCK), MPIU_REAL, MPIU_SUM, comm));
   PetscCallMPI(
     MPI_Allreduce(MPI_IN_PLACE, support->contact, (PetscMPIInt)(support->nbodies * 72), MPIU_REAL, MPIU_SUM, comm));
+  PetscFunctionReturn(0);
+}
+
+PetscErrorCode SupportDestroy(Support *support)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&support->u));
+  PetscCall(PetscFree5(support->center, support->size, support->links, support->gram, support->contact));
   PetscFunctionReturn(0);
 }

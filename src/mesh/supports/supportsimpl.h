@@ -1,7 +1,7 @@
 /*
    Private header of mesh/supports. Each body has six rigid body modes: a translation t and a rotation r, which move the
    point x by t + r x (x - center)/size. Links between the bodies restrain them. A mode outside the span of the
-   restraints is free, and the stiffness is singular for it.
+   restraints is free, and the stiffness is singular for it. Weak springs are no restraints.
 */
 #ifndef SUPPORTSIMPL_H
 #define SUPPORTSIMPL_H
@@ -10,10 +10,14 @@
 
 #define SUPPORT_BLOCK 12 /* number of modes of the two bodies of a link */
 
+/* Kinds of links. Displacements, springs, connectors, ties and cyclic symmetry are fixed; contact pairs have friction
+   or slide. */
+typedef enum { SUPPORT_FIXED, SUPPORT_FRICTION, SUPPORT_SLIDING } SupportKind;
+
 /* A link: the restraints, as rows of a matrix, of one displacement, spring, connector, contact pair or tie */
 typedef struct {
-  PetscInt  body[2]; /* The second body is -1 if the link is between the first body and the ground. */
-  PetscBool pair;    /* whether it is a contact pair without friction */
+  PetscInt    body[2]; /* The second body is -1 if the link is between the first body and the ground. */
+  SupportKind kind;
 } SupportLink;
 
 /* The faces of a body in frictionless contact pairs: matrices whose quadratic forms are the mean square velocities of
@@ -24,6 +28,7 @@ typedef struct {
 
 typedef struct {
   DM       dm;
+  Vec      u;                    /* displacements of the nodes of this rank [length]; NULL: none */
   PetscInt nbodies;              /* number of bodies, each with 6 modes */
   PetscReal (*center)[3], *size; /* centre, and half of the largest side, of each body's bounding box [length] */
   PetscInt     nlinks;
@@ -33,9 +38,10 @@ typedef struct {
   PetscReal       row[SUPPORT_BLOCK];               /* row of the last link that is being computed */
 } Support;
 
-/* links.c: sizes of the bodies (collective), and rows of the last link */
+/* links.c: positions of vertices, sizes of the bodies (collective), and rows of the last link */
+PETSC_INTERN PetscErrorCode SupportGetPlaces(const Support *, PetscInt n, const PetscInt vertices[], PetscReal x[][3]);
 PETSC_INTERN PetscErrorCode SupportMeasureBodies(Support *);
-PETSC_INTERN void           SupportBeginLink(Support *, PetscInt a, PetscInt b);
+PETSC_INTERN void           SupportBeginLink(Support *, PetscInt a, PetscInt b, SupportKind);
 PETSC_INTERN void SupportSetRow(const Support *, PetscInt b, const PetscReal direction[3], const PetscReal x[3],
   PetscReal sign, PetscReal row[6]);
 PETSC_INTERN void SupportAddMotion(Support *, PetscInt b, const PetscReal direction[3], const PetscReal x[3],
@@ -61,12 +67,16 @@ PETSC_INTERN PetscErrorCode SupportAddFacets(Support *, const SupportFace *, Pet
   const PetscReal normal[3]);
 PETSC_INTERN PetscErrorCode SupportMeasureFace(Support *, const SupportFace *);
 
-/* restraints.c: the links of everything in the scene that holds bodies, summed over the ranks. Collective. */
-PETSC_INTERN PetscErrorCode SupportAddScene(Support *, Scene);
+/*
+   restraints.c: SupportCreate() creates the links of everything in the scene that holds bodies at the displacement u, a
+   global vector or NULL. most: the last kind of links. Free with SupportDestroy(). Collective.
+*/
+PETSC_INTERN PetscErrorCode SupportCreate(DM, Scene, Vec u, SupportKind most, Support *);
+PETSC_INTERN PetscErrorCode SupportDestroy(Support *);
 
-/* free_modes.c */
+/* free_modes.c: the motions that no link prevents */
 PETSC_INTERN PetscErrorCode SupportFindNull(PetscInt n, PetscReal matrix[], PetscInt *nfree);
-PETSC_INTERN PetscErrorCode SupportGetFree(const Support *, PetscReal outside[]);
+PETSC_INTERN PetscErrorCode SupportFindFree(const Support *, PetscInt *n, Mat *motions);
 
 /* gliding.c: bodies that glide along their contact faces if all others are held */
 PETSC_INTERN PetscErrorCode SupportFindGliding(const Support *, PetscBool glides[], MeshRotation rotations[]);
