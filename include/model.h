@@ -274,6 +274,18 @@ typedef struct {
                             time/length] */
 } SceneConnector;
 
+/* An equation between displacements of one or two points: direction[0] . u(point[0]) + direction[1] . u(point[1]) =
+   value */
+typedef struct {
+  char       *name;
+  const char *place;
+  PetscInt    body, to;        /* to: PETSC_DECIDE: the equation has one point */
+  PetscReal   point[2][3];     /* [length] */
+  PetscReal   direction[2][3]; /* factors of the components along x, y and z */
+  PetscReal   value;           /* at factor 1 [length] */
+  PetscInt    ramp;
+} SceneEquation;
+
 /* Pretension of a bolt: a section through a body, with a force or a shortening */
 typedef struct {
   char       *name;
@@ -412,6 +424,8 @@ typedef struct _n_Scene {
                                    modulus times the cube root of the volume; 0: no weak springs */
   PetscInt           nconnectors;
   SceneConnector    *connectors;
+  PetscInt           nequations;
+  SceneEquation     *equations;
   PetscInt           nbolts;
   SceneBolt         *bolts;
   PetscInt           nforces;

@@ -92,12 +92,14 @@ typedef struct {
 
 /* ties.c: displacements of dependent rows as functions of the others. C is NULL if there are no dependent rows. */
 typedef struct {
-  Mat      C, K;     /* C: u = C x + o; K: stiffness of the bodies, where the stiffness of the simulation is C^T K C */
-  Mat      hanging;  /* the part of C for hanging vertices; NULL if there are none */
-  Mat      joined;   /* the part of C other than rigid bodies if some of these have free motions: C = joined R; NULL if
+  Mat      C, K;    /* C: u = C x + o; K: stiffness of the bodies, where the stiffness of the simulation is C^T K C */
+  Mat      hanging; /* the part of C for hanging vertices; NULL if there are none */
+  Mat      joined;  /* the part of C other than rigid bodies if some of these have free motions: C = joined R; NULL if
                       there is no such part (C = R), or if no rigid body has free motions */
-  Mat      elastic;  /* C with zero rows for rigid bodies, which have no stiffness; NULL if there are no such bodies */
-  Vec      o;        /* displacement due to prescribed motions of rigid bodies [length]; NULL: zero */
+  Mat      elastic; /* C with zero rows for rigid bodies, which have no stiffness; NULL if there are no such bodies */
+  Vec      o;       /* displacement due to prescribed motions of rigid bodies and to equations [length]; NULL: zero */
+  PetscInt nramps;
+  Vec     *given;    /* [nramps] displacements due to the values of equations at factor 1 [length]; NULL: none */
   PetscInt n, *rows; /* number and global rows of the dependent rows of this rank */
   Vec      work;
 } Ties;
@@ -146,10 +148,14 @@ PETSC_INTERN PetscErrorCode JointsExpand(const Constraints *, Mat all, const Pet
 PETSC_INTERN PetscErrorCode JointsCreate(const Constraints *, const PetscBool prescribed[], Mat *C,
   PetscBool follows[]);
 
+/* equations.c: linear equations between displacements */
+PETSC_INTERN PetscErrorCode EquationsCreate(const Constraints *, Mat others, const PetscBool prescribed[], Mat *C,
+  Vec given[], PetscBool follows[]);
+
 /* ties.c: all dependent displacements together */
 PETSC_INTERN PetscErrorCode TiesCreate(const Constraints *);
 PETSC_INTERN PetscErrorCode TiesTurn(const Constraints *, PetscReal time, Vec u_last, Vec u, PetscBool *anew);
-PETSC_INTERN PetscErrorCode TiesStraighten(const Constraints *, Vec u, PetscReal *change);
+PETSC_INTERN PetscErrorCode TiesStraighten(const Constraints *, PetscReal time, Vec u, PetscReal *change);
 PETSC_INTERN PetscErrorCode TiesCreateTangent(const Constraints *, Mat *);
 PETSC_INTERN PetscErrorCode TiesMultiply(Mat C, Mat K, Mat *tied);
 PETSC_INTERN PetscErrorCode TiesTangent(const Constraints *, Vec u, Mat);

@@ -1,9 +1,10 @@
 /*
    Dependent displacements: those of tied faces, inclined symmetry planes, the second faces of cyclic symmetries,
-   hanging vertices, and rigid bodies that forces drive. They are not unknowns but functions of other displacements, u =
-   C x + o. The vector x has the layout of u; its values in dependent rows are not used. Energy, forces and gaps are
-   evaluated at C x + o. Forces f become C^T f, and a stiffness K becomes C^T K C with a diagonal in dependent rows. o
-   comes from prescribed motions of rigid bodies only. Prescribed rows do not become dependent.
+   hanging vertices, equations, and rigid bodies that forces drive. They are not unknowns but functions of other
+   displacements, u = C x + o. The vector x has the layout of u; its values in dependent rows are not used. Energy,
+   forces and gaps are evaluated at C x + o. Forces f become C^T f, and a stiffness K becomes C^T K C with a diagonal in
+   dependent rows. o comes from prescribed motions of rigid bodies and from equations with a value. Prescribed rows do
+   not become dependent.
 */
 #include "constraintsimpl.h"
 
@@ -59,10 +60,10 @@ static PetscErrorCode TiesApplyNext(Mat A, Mat *C)
 }
 
 /*
-   Composes C. Tied nodes may depend on nodes on symmetry planes, on hanging vertices and on nodes of the second face of
-   a cyclic symmetry, and may be such nodes themselves. Hanging vertices may lie between nodes on planes. Therefore x is
-   first multiplied by the matrix of the planes, then by that of hanging vertices, then by that of cyclic symmetries.
-   All three follow once more after the ties.
+   Composes C of all constraints but equations. Tied nodes may depend on nodes on symmetry planes, on hanging vertices
+   and on nodes of the second face of a cyclic symmetry, and may be such nodes themselves. Hanging vertices may lie
+   between nodes on planes. Therefore x is first multiplied by the matrix of the planes, then by that of hanging
+   vertices, then by that of cyclic symmetries. All three follow once more after the ties.
 */
 static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat cyclic, Mat hanging, Mat *C)
 {
@@ -80,6 +81,39 @@ static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat cyclic, Mat hangin
   PetscCall(MatDestroy(&joints));
   PetscCall(MatDestroy(&cyclic));
   PetscCall(MatDestroy(&planes));
+  PetscFunctionReturn(0);
+}
+
+/* Multiplies C by the matrix of the equations from the right. *moves: whether equations have values */
+static PetscErrorCode TiesAddEquations(const Constraints *c, const PetscBool prescribed[], PetscBool follows[], Mat *C,
+  PetscBool *moves)
+{
+  Ties *ties = c->ties;
+  Mat   equations, product;
+  Vec   moved;
+
+  PetscFunctionBegin;
+  *moves       = PETSC_FALSE;
+  ties->nramps = c->bodies.scene->nramps;
+  PetscCall(PetscCalloc1(ties->nramps, &ties->given));
+  if (!c->bodies.scene->nequations) PetscFunctionReturn(0);
+  PetscCall(EquationsCreate(c, *C, prescribed, &equations, ties->given, follows));
+  for (PetscInt r = 0; r < ties->nramps; ++r) {
+    if (!ties->given[r]) continue;
+    *moves = PETSC_TRUE;
+    if (!*C) continue;
+    PetscCall(VecDuplicate(ties->given[r], &moved));
+    PetscCall(MatMult(*C, ties->given[r], moved));
+    PetscCall(VecDestroy(&ties->given[r]));
+    ties->given[r] = moved;
+  }
+  product = equations;
+  PetscCall(PetscObjectReference((PetscObject)product));
+  if (*C) PetscCall(MatDestroy(&product));
+  if (*C) PetscCall(MatMatMult(*C, equations, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
+  PetscCall(MatDestroy(C));
+  PetscCall(MatDestroy(&equations));
+  *C = product;
   PetscFunctionReturn(0);
 }
 
@@ -146,8 +180,8 @@ PetscErrorCode TiesCreate(const Constraints *c)
 {
   Ties      *ties = c->ties;
   PetscInt   n, rstart;
-  PetscBool *prescribed, *follows;
-  Mat        joints, planes, cyclic;
+  PetscBool *prescribed, *follows, moves;
+  Mat        joints, planes, cyclic, all;
 
   PetscFunctionBegin;
   PetscCall(VecGetLocalSize(c->bodies.mass, &n));
@@ -159,30 +193,49 @@ PetscErrorCode TiesCreate(const Constraints *c)
   PetscCall(TiesCreateHanging(c, prescribed, &ties->hanging, follows));
   PetscCall(CyclicCreate(c, prescribed, &cyclic, follows));
   PetscCall(RigidCreate(c, prescribed, follows));
-  if (cyclic || planes || joints || ties->hanging || c->rigid->R || c->springs->between || c->springs->dampers) {
-    PetscCall(TiesCompose(joints, planes, cyclic, ties->hanging, c->rigid->R ? &ties->joined : &ties->C));
+  PetscCall(TiesCompose(joints, planes, cyclic, ties->hanging, &all));
+  PetscCall(TiesAddEquations(c, prescribed, follows, &all, &moves));
+  if (all || c->rigid->R || c->springs->between || c->springs->dampers) {
+    *(c->rigid->R ? &ties->joined : &ties->C) = all;
     PetscCall(TiesJoinRigid(c));
     if (!ties->C) PetscCall(TiesCreateDiagonal(c->bodies.mass, 1.0, &ties->C));
     PetscCall(MatSetBlockSizes(ties->C, 3, 3));
     PetscCall(TiesListRows(c, rstart, follows));
     PetscCall(VecDuplicate(c->bodies.mass, &ties->work));
-    if (c->rigid->R) PetscCall(VecDuplicate(c->bodies.mass, &ties->o));
-    if (c->rigid->R) PetscCall(VecZeroEntries(ties->o));
+    if (c->rigid->R || moves) PetscCall(VecDuplicate(c->bodies.mass, &ties->o));
+    if (c->rigid->R || moves) PetscCall(VecZeroEntries(ties->o));
     PetscCall(ElasticitySetMatType(c->bodies.elasticity, MATAIJ));
   }
   PetscCall(PetscFree2(prescribed, follows));
   PetscFunctionReturn(0);
 }
 
-/* Updates o to the prescribed motions at a time */
+/* Adds to v the displacements due to the values of equations at a time */
+static PetscErrorCode TiesAddGiven(const Constraints *c, PetscReal time, Vec v)
+{
+  PetscFunctionBegin;
+  for (PetscInt r = 0; r < c->ties->nramps; ++r) {
+    PetscReal factor;
+
+    if (!c->ties->given[r]) continue;
+    PetscCall(SceneGetFactor(c->bodies.scene, r, time, &factor));
+    PetscCall(VecAXPY(v, factor, c->ties->given[r]));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Updates o to the prescribed motions and the values of equations at a time */
 static PetscErrorCode TiesMove(const Constraints *c, PetscReal time)
 {
   Ties *ties = c->ties;
 
   PetscFunctionBegin;
   if (!ties->o) PetscFunctionReturn(0);
-  PetscCall(RigidMove(c, time, ties->joined ? ties->work : ties->o));
-  if (ties->joined) PetscCall(MatMult(ties->joined, ties->work, ties->o));
+  if (c->rigid->R) {
+    PetscCall(RigidMove(c, time, ties->joined ? ties->work : ties->o));
+    if (ties->joined) PetscCall(MatMult(ties->joined, ties->work, ties->o));
+  } else PetscCall(VecZeroEntries(ties->o));
+  PetscCall(TiesAddGiven(c, time, ties->o));
   PetscFunctionReturn(0);
 }
 
@@ -211,9 +264,9 @@ PetscErrorCode TiesTurn(const Constraints *c, PetscReal time, Vec u_last, Vec u,
   PetscFunctionReturn(0);
 }
 
-/* Collective. Replaces the linearized motions of rigid bodies in u by the finite motions. *change: the largest change
-   of the displacement [length]; 0 if no body has finite free rotations */
-PetscErrorCode TiesStraighten(const Constraints *c, Vec u, PetscReal *change)
+/* Collective. Replaces the linearized motions of rigid bodies in u by the finite motions at a time. *change: the
+   largest change of the displacement [length]; 0 if no body has finite free rotations */
+PetscErrorCode TiesStraighten(const Constraints *c, PetscReal time, Vec u, PetscReal *change)
 {
   PetscFunctionBegin;
   *change = 0.0;
@@ -222,6 +275,7 @@ PetscErrorCode TiesStraighten(const Constraints *c, Vec u, PetscReal *change)
   if (!c->ties->joined) PetscFunctionReturn(0);
   PetscCall(VecCopy(u, c->ties->work));
   PetscCall(MatMult(c->ties->joined, c->ties->work, u));
+  PetscCall(TiesAddGiven(c, time, u));
   PetscFunctionReturn(0);
 }
 
@@ -377,6 +431,8 @@ PetscErrorCode TiesCreateTangent(const Constraints *c, Mat *K)
 PetscErrorCode TiesDestroy(Ties *ties)
 {
   PetscFunctionBegin;
+  for (PetscInt r = 0; r < ties->nramps; ++r) PetscCall(VecDestroy(&ties->given[r]));
+  PetscCall(PetscFree(ties->given));
   PetscCall(MatDestroy(&ties->C));
   PetscCall(MatDestroy(&ties->K));
   PetscCall(MatDestroy(&ties->hanging));

@@ -63,7 +63,18 @@ static PetscErrorCode DescribeConnector(Scene scene, const SceneConnector *c, Pe
   PetscFunctionReturn(0);
 }
 
-/* Prints springs on faces, springs between points, and bolts */
+static PetscErrorCode DescribeEquation(Scene scene, const SceneEquation *e, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  equation %s: %s", e->name, scene->bodies[e->body].name));
+  PetscCall(DescribeVector(viewer, " times ", e->direction[0]));
+  if (e->to >= 0) PetscCall(PetscViewerASCIIPrintf(viewer, ", %s", scene->bodies[e->to].name));
+  if (e->to >= 0) PetscCall(DescribeVector(viewer, " times ", e->direction[1]));
+  PetscCall(PetscViewerASCIIPrintf(viewer, ", value %.6g, follows %s\n", (double)e->value, scene->ramps[e->ramp].name));
+  PetscFunctionReturn(0);
+}
+
+/* Prints springs on faces, springs between points, equations and bolts */
 static PetscErrorCode DescribeJoints(Scene scene, PetscViewer viewer)
 {
   PetscFunctionBegin;
@@ -76,6 +87,7 @@ static PetscErrorCode DescribeJoints(Scene scene, PetscViewer viewer)
     PetscCall(PetscViewerASCIIPrintf(viewer, " per area\n"));
   }
   for (PetscInt c = 0; c < scene->nconnectors; ++c) PetscCall(DescribeConnector(scene, &scene->connectors[c], viewer));
+  for (PetscInt e = 0; e < scene->nequations; ++e) PetscCall(DescribeEquation(scene, &scene->equations[e], viewer));
   for (PetscInt b = 0; b < scene->nbolts; ++b) {
     const SceneBolt *here = &scene->bolts[b];
 

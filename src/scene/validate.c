@@ -258,6 +258,7 @@ PetscErrorCode SceneValidate(MPI_Comm comm, Scene scene)
   PetscCall(SceneValidateBodyForces(comm, scene));
   PetscCall(SceneValidatePressures(comm, scene));
   PetscCall(SceneValidateSprings(comm, scene));
+  PetscCall(SceneValidateEquations(comm, scene));
   PetscCall(SceneValidateBolts(comm, scene));
   PetscCall(SceneValidateTemperatures(comm, scene));
   PetscCall(SceneValidateDamping(comm, scene));

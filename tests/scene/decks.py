@@ -115,6 +115,22 @@ Up.top, 3, 3, -0.02
 DECKS = {
     # each cube stores 10^2 / (2 E)
     "pressure": (deck(step(PRESS)), {"energy": 0.1, "reaction": 10}),
+    # the force on one corner of the top, which stays level by equations
+    "equation": (deck(step("*CLOAD\n13, 3, -10."), more="*EQUATION\n2\n14, 3, 1., 13, 3, -1.\n2\n15, 3, 1., 13, 3, "
+                      "-1.\n2\n16, 3, 2., 13, 3, -2."), {"energy": 0.1, "reaction": 10}),
+    # the local axes 1, 2, 3 are z, x, y; the cylinder's axes are radial, tangential and along z
+    "transform": (deck(push(-0.02).replace("top, 3, 3", "top, 1, 1"), hold="*BOUNDARY\nfoot, 1, 3\ntop, 2, 3",
+                       more="*TRANSFORM, NSET=top, TYPE=R\n0., 0., 1., 1., 0., 0."), {"reaction": 10}),
+    # the bar is pulled along the axes of its upper end, which are turned about y
+    "oblique": (deck(push(0.02).replace("top, 3, 3", "top, 1, 1"), pair="", mesh=JOINED.replace("500.", "1000."),
+                     hold="*BOUNDARY\nfoot, 1, 3\ntop, 2, 3",
+                     more="*TRANSFORM, NSET=top, TYPE=R\n3., 0., 4., 4., 0., -3."), {"reaction": -8}),
+    "transformed_force": (deck(step("*CLOAD\ntop, 3, -2.5"),
+                               more="*TRANSFORM, NSET=top, TYPE=C\n-1., -1., 0., -1., -1., 2.",
+                               hold="*BOUNDARY\nfoot, 1, 3", law=TIED), {"energy": 0.1, "reaction": 10}),
+    # one corner of the slave surface is listed; the others have its height
+    "slave_point": (deck(step(PRESS), pair="*CONTACT PAIR, INTERACTION=SI, TYPE=NODE TO SURFACE\nslave, under",
+                         mesh=MESH + "\n*SURFACE, NAME=slave, TYPE=NODE\n9"), {"energy": 0.1}),
     "dsload": (deck(step("*DSLOAD\nhead, P, 10."), mesh=MESH + "\n*SURFACE, NAME=head\n2, S2"), {"energy": 0.1}),
     "nodes": (deck(step("*CLOAD\ntop, 3, -1.", "*CLOAD\ntop, 3, -1.5")), {"energy": 0.1, "reaction": 10}),
     "push": (deck(push(-0.01), push(-0.02)), {"reactions": [5, 10]}),
@@ -139,6 +155,16 @@ DECKS = {
     # a gap of 0.005 is closed first; the cubes then have the heights 1 and 0.995
     "too_far": (deck(push(-0.02), mesh=shifted(1.005),
                      pair=PAIR.replace("\n", ", ADJUST=0.001\n")), {"reaction": 15 / 1.995}),
+    # an overlap of 0.01 that the nodes do not have; the ends do not move
+    "clearance": (deck(step(), hold=HOLD + "\ntop, 3, 3",
+                       more="*CLEARANCE, MASTER=under, SLAVE=over, VALUE=-0.01"), {"reaction": 5}),
+    # a cube on top of the others is removed
+    "removed_cube": (deck(step("*MODEL CHANGE, TYPE=ELEMENT, REMOVE\n3", PRESS), mesh=MESH + "\n*NODE, NSET=Nall\n" +
+                          "\n".join(f"{n}, {x}, {y}, 3." for n, (x, y) in enumerate(CORNERS, 17)) +
+                          "\n*ELEMENT, TYPE=C3D8, ELSET=Eall\n3, 13, 14, 15, 16, 17, 18, 19, 20"), {
+                              "energy": 0.1,
+                              "reaction": 10
+                          }),
     # follows the faces of finite strain: the area stays 1 without lateral strain
     "finite": (deck(step(PRESS, nlgeom=", NLGEOM")), {"reaction": 10}),
     # shear force over normal force; the small compression leaves the faces level
@@ -177,13 +203,14 @@ DECKS = {
 }
 
 REFUSED = {
-    "keyword": deck(step(PRESS), more="*EQUATION\n2\n1, 3, 1., 2, 3, -1."),
+    "keyword": deck(step(PRESS), more="*MPC\nPLANE, 1, 2, 3"),
+    "terms": deck(step(PRESS), more="*EQUATION\n3\n1, 3, 1., 2, 3, -1., 3, 3, 2."),
     "shell": deck(step(PRESS), mesh=MESH + "\n*ELEMENT, TYPE=S4\n3, 1, 2, 3, 4"),
     "heat": deck(step(procedure="*HEAT TRANSFER")),
-    "two": deck(step(PRESS), more="*EQUATION\n2\n1, 3, 1., 2, 3, -1.\n*MPC\nPLANE, 1, 2, 3"),
+    "two": deck(step(PRESS), more="*COUPLING\n1, 3\n*MPC\nPLANE, 1, 2, 3"),
     "released": deck(step(PRESS), step("*BOUNDARY, OP=NEW\nfoot, 1, 3")),
-    "edge": deck(step(PRESS), pair="*CONTACT PAIR, INTERACTION=SI\nslave, under",
-                 mesh=MESH + "\n*SURFACE, NAME=slave, TYPE=NODE\n9\n10"),
+    "edge": deck(step(PRESS), pair="*CONTACT PAIR, INTERACTION=SI\nslave, beside",
+                 mesh=MESH + "\n*SURFACE, NAME=beside\n1, S6\n*SURFACE, NAME=slave, TYPE=NODE\n9\n12"),
     "velocity": deck(step("*BOUNDARY, TYPE=VELOCITY\ntop, 3, 3, -0.02")),
     "perturbation": deck(step(PRESS, nlgeom=", PERTURBATION")),
     "no_step": deck(),

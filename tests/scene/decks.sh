@@ -9,12 +9,12 @@ mpiexec --oversubscribe -n 3 "$contact" friction.inp -quiet -summary friction.js
 decks judge
 
 mpiexec --oversubscribe -n 2 "$contact" keyword.inp -quiet 2>&1 | grep "^contact"
-mesh keyword.inp -scene keyword.yaml -deck_ignore equation -quiet
+mesh keyword.inp -scene keyword.yaml -deck_ignore mpc -quiet
 try keyword.yaml -scene_check | grep "contact pair"
 mesh pressure.inp -scene pressure_deck.yaml -deck_ignore EQUATION
 echo "problem: mine" > pressure_deck.yaml
 try pressure.inp
 
-mesh two.inp -scene two.yaml -deck_ignore "EQUATION, *mpc"
+mesh two.inp -scene two.yaml -deck_ignore "COUPLING, *mpc"
 mesh rough_deck.msh -scene two.yaml
 grep -v "^  *#" rough_deck.yaml

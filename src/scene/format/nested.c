@@ -79,8 +79,9 @@ static const char *NestedKindOf(const char list[])
   static const char *const kinds[][2] = {{"bodies", "body"}, {"contact", "contact pair"}, {"cyclic", "cyclic symmetry"},
     {"symmetry", "symmetry plane"}, {"body_forces", "body force"}, {"displacements", "displacement"},
     {"pressures", "pressure"}, {"tractions", "traction"}, {"forces", "force"}, {"springs", "spring"}, {"bolts", "bolt"},
-    {"connectors", "connector"}, {"ties", "tie"}, {"temperatures", "temperature"}, {"refinements", "refinement"},
-    {"ramps", "ramp"}, {"materials", "material"}, {"faces", "face"}, {"probes", "probe"}};
+    {"connectors", "connector"}, {"equations", "equation"}, {"ties", "tie"}, {"temperatures", "temperature"},
+    {"refinements", "refinement"}, {"ramps", "ramp"}, {"materials", "material"}, {"faces", "face"},
+    {"probes", "probe"}};
 
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(kinds); ++k) {
     if (!strcasecmp(list, kinds[k][0])) return kinds[k][1];

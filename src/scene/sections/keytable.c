@@ -49,6 +49,7 @@ static const SceneKey top_rows[] = {
   SECTION("forces", "none", "list of resultant forces and moments on faces and rigid bodies, with fixed direction"),
   SECTION("springs", "none", "list of springs between faces and the ground, or other faces"),
   SECTION("connectors", "none", "list of springs and dampers between points of bodies, or points and the ground"),
+  SECTION("equations", "none", "list of linear equations between displacements of one or two points"),
   SECTION("bolts", "none", "list of bolts with pretension"),
   OWN("weak_springs", NULL, struct _n_Scene, weak_springs, OPTIONAL, SceneOwnWeakSprings, "", "`false`",
     "whether weak springs restrain bodies that have free rigid body motions: `true`, or the stiffness of the "
@@ -178,6 +179,19 @@ static const SceneKey connector_rows[] = {
     "in `dynamics`: force per relative velocity of the points, along the line between them; with `value`: in every "
     "direction"),
   {NULL}};
+
+static const SceneKey equation_rows[] = {NUMBER_OF("body", BODY, SceneEquation, body, "required", "a body"),
+  REALS("point", NULL, 3, SceneEquation, point[0], REQUIRED, ANY, "L", "",
+    "a point of `body`, in undeformed coordinates"),
+  REALS("direction", NULL, 3, SceneEquation, direction[0], REQUIRED, ANY, "", "",
+    "factors of the displacements of `point` along x, y, z"),
+  NUMBER_OF("to", BODY, SceneEquation, to, "one point only", "the body of a second point"),
+  REALS("to_point", NULL, 3, SceneEquation, point[1], SHOWN, ANY, "L", "", "a point of that body"),
+  REALS("to_direction", NULL, 3, SceneEquation, direction[1], SHOWN, ANY, "", "",
+    "factors of the displacements of `to_point`"),
+  REALS("value", NULL, 1, SceneEquation, value, OPTIONAL, ANY, "L", "0",
+    "the sum of all factors times their displacements, at load factor 1"),
+  NUMBER_OF("ramp", RAMP, SceneEquation, ramp, "`load`", "a ramp that the value follows"), {NULL}};
 
 static const SceneKey bolt_rows[] = {NUMBER_OF("body", BODY, SceneBolt, body, "required", "the body that is cut"),
   REALS("point", NULL, 3, SceneBolt, point, REQUIRED, ANY, "L", "",
@@ -323,6 +337,7 @@ static const SceneDisplacement displacement_initial = {.body = PETSC_DECIDE};
 static const SceneTraction     traction_initial     = {.body = PETSC_DECIDE};
 static const SceneTraction     force_initial        = {.body = PETSC_DECIDE, .resultant = PETSC_TRUE};
 static const SceneConnector    connector_initial    = {.body = PETSC_DECIDE, .to = PETSC_DECIDE};
+static const SceneEquation     equation_initial     = {.body = PETSC_DECIDE, .to = PETSC_DECIDE};
 static const SceneBolt         bolt_initial         = {.body = PETSC_DECIDE};
 static const SceneBodyForce    body_force_initial   = {.body = PETSC_DECIDE};
 static const SceneTemperature  temperature_initial  = {.body = PETSC_DECIDE};
@@ -360,6 +375,8 @@ const SceneList SceneLists[] = {
   {"springs", spring_rows, sizeof(SceneSpring), OF_SCENE(nsprings, springs), .finish = SceneFinishSpring},
   {"connectors", connector_rows, sizeof(SceneConnector), OF_SCENE(nconnectors, connectors),
     .initial = &connector_initial, .finish = SceneFinishConnector, .hides = SceneConnectorHides},
+  {"equations", equation_rows, sizeof(SceneEquation), OF_SCENE(nequations, equations), .initial = &equation_initial,
+    .finish = SceneFinishEquation, .hides = SceneEquationHides},
   {"bolts", bolt_rows, sizeof(SceneBolt), OF_SCENE(nbolts, bolts), .initial = &bolt_initial, .finish = SceneFinishBolt,
     .hides = SceneBoltHides},
   {"temperatures", temperature_rows, sizeof(SceneTemperature), OF_SCENE(ntemperatures, temperatures),

@@ -81,9 +81,12 @@ PETSC_INTERN PetscBool      SceneForceHides(const void *entry, const char key[])
 PETSC_INTERN PetscErrorCode SceneFinishForce(SceneKeys, Scene, const char owner[], void *entry);
 PETSC_INTERN PetscErrorCode SceneValidateTemperatures(MPI_Comm, Scene);
 
-/* connectors.c: keys of connectors that depend on one another */
+/* connectors.c: keys of connectors and equations that depend on one another */
 PETSC_INTERN PetscBool      SceneConnectorHides(const void *entry, const char key[]);
 PETSC_INTERN PetscErrorCode SceneFinishConnector(SceneKeys, Scene, const char owner[], void *entry);
+PETSC_INTERN PetscBool      SceneEquationHides(const void *entry, const char key[]);
+PETSC_INTERN PetscErrorCode SceneFinishEquation(SceneKeys, Scene, const char owner[], void *entry);
+PETSC_INTERN PetscErrorCode SceneValidateEquations(MPI_Comm, Scene);
 
 /* bolts.c: keys of bolts that depend on one another */
 PETSC_INTERN PetscBool      SceneBoltHides(const void *entry, const char key[]);

@@ -46,7 +46,7 @@ static PetscErrorCode ContactUpdateMakeRigid(StepProblem *p, Vec u)
   if (!p->model->rigid.turns) PetscFunctionReturn(0);
   PetscCall(StepProblemTurn(p, u));
   PetscCall(TiesFollow(&p->model->ties, u));
-  PetscCall(TiesStraighten(&constraints, u, &change));
+  PetscCall(TiesStraighten(&constraints, p->time, u, &change));
   PetscFunctionReturn(0);
 }
 

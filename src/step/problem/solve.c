@@ -36,7 +36,7 @@ PetscErrorCode StepProblemSolve(StepProblem *p, PetscBool resume, Vec u, StepRep
   PetscCall(WeakSpringsTest(p, u, report));
   PetscCall(RigidTest(&constraints, (PetscBool)(!p->J || p->model->scene->contact_updates > 1), u, report));
   report->straightened = 0.0;
-  if (report->converged) PetscCall(TiesStraighten(&constraints, u, &report->straightened));
+  if (report->converged) PetscCall(TiesStraighten(&constraints, p->time, u, &report->straightened));
   PetscCall(PetscLogEventEnd(SIM_Solve, NULL, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

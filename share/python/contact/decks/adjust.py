@@ -36,6 +36,17 @@ def closest(point, corners):
     return best, normal
 
 
+def distances(geometry, nodes, sides):
+    """Distances of nodes from facets, negative inside"""
+    corners, found = triangles(geometry, sides), []
+    for node in nodes:
+        places, normals = closest(geometry.points[node], corners)
+        off = geometry.points[node] - places
+        k = np.linalg.norm(off, axis=1).argmin()
+        found.append(float(np.dot(off[k], normals[k])))
+    return np.array(found)
+
+
 def adjust(geometry, nodes, sides, distance):
     """Moves the nodes that are nearer than `distance`, or inside by less than the size of a facet, onto the facets.
     Returns how many were moved, and the largest movement"""

@@ -193,6 +193,24 @@ class Bodies:
         held = set().union(*self.body_nodes)
         return (self.add_face(name, sides) if sides else []), points, sorted(inside - held)
 
+    def normal(self, cell, side):
+        """Outward normal of a side, as long as its area"""
+        x = self.geometry.points[self.corners(cell, side)]
+        normal = np.cross(x[2] - x[0], x[-1] - x[1]) / 2
+        outward = x.mean(axis=0) - self.geometry.points[self.geometry.elements[cell][1]].mean(axis=0)
+        return normal if np.dot(normal, outward) > 0 else -normal
+
+    def facets_facing(self, nodes, others):
+        """Boundary sides that have one of the nodes, within 60 degrees opposite to the mean normal of other sides"""
+        mean, inside = sum((self.normal(*side) for side in others), np.zeros(3)), set(nodes)
+        found = []
+        for side in self.boundary:
+            normal = self.normal(*side)
+            if inside.intersection(self.geometry.side_nodes(*side)) and 2 * np.dot(
+                    normal, mean) < -np.linalg.norm(normal) * np.linalg.norm(mean):
+                found.append(side)
+        return found
+
     def mesh(self):
         """A mesh with a volume for each body and the faces that were asked for"""
         mesh, place = Mesh(self.geometry.points), {}
@@ -215,6 +233,19 @@ class Bodies:
         abaqus.merge_facets(mesh)
         mesh.finish()
         return mesh
+
+
+def local_axes(kind, one, two, point):
+    """Rows: the axes of a *TRANSFORM at a point. R: one is on the first axis, two in the plane of the first two. C: the
+    points are on the axis of a cylinder; the axes are radial, tangential and axial"""
+    if kind.startswith("C"):
+        third = (two - one) / np.linalg.norm(two - one)
+        first = point - one - np.dot(point - one, third) * third
+    else:
+        first, third = one, np.cross(one, two)
+    first, third = first / np.linalg.norm(first), third / np.linalg.norm(third)
+    axes = np.array([first, np.cross(third, first), third])
+    return np.where(abs(axes) < 1e-12, 0.0, axes)
 
 
 def plain(name):

@@ -20,6 +20,7 @@ def sections(deck, bodies, mesh_file):
     found["materials"] = [(names[key], law) for key, law in laws.items()]
     found["bodies"] = body_entries(deck, bodies, mesh_file, names, laws)
     contact, ties = contact_entries(deck, bodies)  # first, so that faces have the names of the deck's surfaces
+    found["equations"] = equation_entries(deck, bodies)
     found["displacements"], found["symmetry"] = displacement_entries(deck, bodies)
     found["forces"] = force_entries(deck, bodies)
     found["pressures"] = pressure_entries(deck, bodies, laws)
@@ -75,10 +76,40 @@ def initial_velocities(deck, bodies):
     return found
 
 
+def point_keys(deck, bodies, keyword, where, node, names=("body", "point")):
+    """The keys of a point of a body; empty if no solid element has the node"""
+    body = next((b for b, mine in enumerate(bodies.body_nodes) if node in mine), None)
+    if body is None:
+        deck.notes.refuse(keyword, where, nodes_text(deck, [node]))
+        return {}
+    return {names[0]: bodies.names[body], names[1]: deck.geometry.points[node]}
+
+
+def equation_entries(deck, bodies):
+    """Equations, and displacements along axes of *TRANSFORM"""
+    found = []
+    for where, terms in deck.equations:
+        keys = {}
+        for (node, parts), names in zip(terms.items(),
+                                        (("body", "point", "direction"), ("to", "to_point", "to_direction"))):
+            direction = sum(factor * deck.axis(node, dof) for dof, factor in parts)
+            keys.update({**point_keys(deck, bodies, "EQUATION", where, node, names), names[2]: direction})
+        found.append((f"equation_{len(found) + 1}", keys))
+    for (node, axis), values in deck.displacements.values.items():
+        if isinstance(axis, tuple):
+            value, ramp = deck.ramps.split(values, deck.displacements.starts.get((node, axis), 0.0))
+            keys = point_keys(deck, bodies, "BOUNDARY", deck.displacements.lines[node, axis], node)
+            keys.update(direction=axis, **({"value": value} if value else {}), **({"ramp": ramp} if ramp else {}))
+            found.append((f"equation_{len(found) + 1}", keys))
+    return found
+
+
 def grouped(deck, histories):
-    """[(ramp, {component: value}, keys)]: components with one ramp on the same nodes are together"""
+    """[(ramp, {component: value}, keys)]: components along axes with one ramp on the same nodes are together"""
     sets = {}
     for (node, axis), values in histories.values.items():
+        if isinstance(axis, tuple):
+            continue
         value, ramp = deck.ramps.split(values, histories.starts.get((node, axis), 0.0))
         sets.setdefault((axis, value, ramp), set()).add(node)
     merged = {}
@@ -129,15 +160,10 @@ def force_entries(deck, bodies):
         if not any(values.values()):
             continue
         for node in sorted(nodes):
-            body = next((b for b, mine in enumerate(bodies.body_nodes) if node in mine), None)
-            if body is None:
-                deck.notes.refuse("CLOAD", deck.forces.lines[node, min(values)], nodes_text(deck, [node]))
-                continue
-            keys = {
-                "body": bodies.names[body], "point": deck.geometry.points[node],
-                "value": [values.get(axis, 0.0) for axis in range(3)]
-            }
-            found.append((f"force_{len(found) + 1}", {**keys, **({"ramp": ramp} if ramp else {})}))
+            place = point_keys(deck, bodies, "CLOAD", deck.forces.lines[node, min(values)], node)
+            if place:
+                keys = {**place, "value": [values.get(axis, 0.0) for axis in range(3)]}
+                found.append((f"force_{len(found) + 1}", {**keys, **({"ramp": ramp} if ramp else {})}))
     return found
 
 
@@ -211,11 +237,18 @@ def temperature_entries(deck, laws):
     return [("temperature", {"value": value, **({"ramp": ramp} if ramp else {})})] if value else []
 
 
-def surface_faces(deck, bodies, where, name):
-    """[(body, face)] of a surface of sides or nodes"""
+def surface_faces(deck, bodies, where, name, master=""):
+    """[(body, face)] of a surface of sides or nodes. master: surface that it is in contact with"""
     if name.upper() in deck.geometry.surfaces:
         return bodies.add_face(name, deck.geometry.surfaces[name.upper()])
-    faces, points, _ = bodies.divide_nodes(name, deck.geometry.nodes_of(where, name))
+    nodes = deck.geometry.nodes_of(where, name)
+    faces, points, _ = bodies.divide_nodes(name, nodes)
+    if not faces:
+        faces = bodies.add_face(name, bodies.facets_facing(nodes, deck.geometry.surfaces.get(master.upper(), [])))
+        if faces:
+            deck.notes.approximate(
+                "SURFACE", where, f"\"{name}\" holds no whole facet: contact of all facets at its "
+                f"nodes that face the master surface")
     if not faces:
         deck.notes.refuse(
             "CONTACT PAIR", where, f"the surface \"{name}\" holds no whole facet: contact of points and "
@@ -233,7 +266,7 @@ def contact_entries(deck, bodies):
         if name not in deck.interactions:
             raise MeshError(f"{where}: there is no surface interaction \"{name}\"")
         interaction = deck.interactions[name]
-        for body, face in surface_faces(deck, bodies, where, slave):
+        for body, face in surface_faces(deck, bodies, where, slave, master):
             for other, opposite in surface_faces(deck, bodies, where, master):
                 keys = {"mortar": f"{bodies.names[other]}.{opposite}", "nonmortar": f"{bodies.names[body]}.{face}"}
                 if interaction.law == "TIED":
@@ -270,11 +303,14 @@ def friction_keys(deck, interaction):
 
 
 def activity_keys(deck, bodies, key):
-    """A pair that is removed in some steps is opened there by the size of the model"""
-    if key not in deck.active or min(deck.active[key][1]) == 1.0:
+    """A pair that is removed in some steps is opened there by the size of the model; *CLEARANCE changes its gap. The
+    gap is larger by (1 - factor) times the interference"""
+    steps = sum(step.n for step in deck.steps)
+    active = np.array(deck.active[key][1] if key in deck.active else [1.0] * steps)
+    size, clearance = float(np.ptp(bodies.geometry.points, axis=0).max()), deck.clearances.get(key, 0.0)
+    if active.all() and not clearance:
         return {}
-    size = float(np.ptp(bodies.geometry.points, axis=0).max())
-    table = deck.active[key][1]
+    table = active * (1.0 - clearance / size)
     return {"interference": size, "ramp": deck.ramps.name([table[0], *table]) or "load"}
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from ..meshes import abaqus, gmsh
 from ..meshes.model import KINDS, MeshError
 from . import geometry, loads, materials, scene
-from .adjust import adjust
+from .adjust import adjust, distances
 from .notes import Notes
 from .steps import STICKS, Amplitude, Histories, Ramps, Step
 
@@ -42,6 +42,7 @@ PARAMETERS = {
     "CONTACT PAIR": {"INTERACTION", "TYPE", "ADJUST",
                      "SMALL SLIDING"}, "TIE": {"NAME", "POSITION TOLERANCE", "CYCLIC SYMMETRY",
                                                "ADJUST"}, "CYCLIC SYMMETRY MODEL": {"N", "NGRAPH", "TIE", "ELSET"},
+    "EQUATION": set(), "CLEARANCE": {"MASTER", "SLAVE", "VALUE"}, "TRANSFORM": {"NSET", "TYPE"},
     "AMPLITUDE": {"NAME", "TIME", "DEFINITION"}, "ORIENTATION": {"NAME", "SYSTEM"}, "INITIAL CONDITIONS": {"TYPE"},
     "MODEL CHANGE": {"TYPE", "ADD", "REMOVE"}, "CHANGE FRICTION": {"INTERACTION"}
 }
@@ -73,6 +74,7 @@ class Translator:
         self.materials, self.orientations, self.amplitudes = {}, {}, {}
         self.interactions, self.pairs, self.ties, self.cyclic = {}, [], {}, []
         self.initial, self.velocities, self.transformed, self.temperature_steps = [], [], {}, []
+        self.equations, self.removed, self.clearances = [], set(), {}
         self.displacements, self.forces, self.pressures, self.bodies_loads = (Histories() for _ in range(4))
         self.active, self.steps, self.prints, self.printed = {}, [], {}, {}
         self.material = self.interaction = None
@@ -207,6 +209,18 @@ class Translator:
                                 self.surface(where, master), distance)
         self.notes.approximate("CONTACT PAIR", where, f"ADJUST moved {moved} nodes, by at most {largest:.3g}")
 
+    def read_clearance(self, where, parameters, _):
+        """*CLEARANCE: the distance of two surfaces, instead of the one that the nodes have"""
+        slave, master = parameters.get("SLAVE", ""), parameters.get("MASTER", "")
+        sides = self.surface(where, master)
+        nodes = {node for cell, side in self.surface(where, slave) for node in self.geometry.side_nodes(cell, side)}
+        gaps = distances(self.geometry, nodes, sides)
+        size = float(np.ptp(self.geometry.points, axis=0).max())
+        if np.ptp(gaps) > 1e-4 * size:
+            self.notes.refuse("CLEARANCE", where, "the surfaces are not parallel, so that the distance of the nodes "
+                              "cannot be replaced")
+        self.clearances[slave.upper(), master.upper()] = float(parameters.get("VALUE", 0.0)) - float(np.mean(gaps))
+
     def read_tie(self, where, parameters, data):
         words = [word.strip() for word in (data[0].split(",") if data else [])]
         if len(words) < 2:
@@ -235,9 +249,42 @@ class Translator:
     def read_boundary(self, where, parameters, data):
         self.initial.append((where, parameters, data))
 
-    def read_transform(self, where, parameters, _):
+    def read_transform(self, where, parameters, data):
+        rows = numbers(where, data)
+        if len(rows[0]) < 6:
+            raise MeshError(f"{where}: *TRANSFORM needs the coordinates of two points")
+        one, two = np.array(rows[0][:3]), np.array(rows[0][3:6])
         for node in self.geometry.nodes_of(where, parameters.get("NSET", "")):
-            self.transformed[node] = where
+            self.transformed[node] = geometry.local_axes(parameters.get("TYPE", "R").upper(), one, two,
+                                                         self.geometry.points[node])
+
+    def read_equation(self, where, _, data):
+        """Equations: the number of terms, and then node, component and factor of each term"""
+        rows = numbers(where, data)
+        while rows:
+            count, words = int(rows.pop(0)[0]), []
+            while rows and len(words) < 3 * count:
+                words += [word for word in rows.pop(0) if word is not None]
+            if len(words) < 3 * count:
+                raise MeshError(f"{where}: an equation of {count} terms needs {3 * count} numbers")
+            terms = {}  # {node: [(component, factor)]}, the dependent node first
+            for number, dof, factor in zip(words[0:3 * count:3], words[1:3 * count:3], words[2:3 * count:3]):
+                node = self.geometry.nodes_of(where, str(int(number)))[0]
+                terms.setdefault(node, []).append((int(dof) - 1, factor))
+            if len(terms) > 2:
+                self.notes.refuse("EQUATION", where, f"an equation of {len(terms)} nodes: two at most are supported")
+            else:
+                self.equations.append((where, terms))
+
+    def axis(self, node, dof):
+        """Direction of a displacement component of a node"""
+        return self.transformed.get(node, np.eye(3))[dof]
+
+    def component(self, node, dof):
+        """((node, coordinate axis, or a direction along none), sign) of a displacement component"""
+        axis = self.axis(node, dof)
+        along = np.flatnonzero(axis)
+        return ((node, int(along[0])), float(axis[along[0]])) if len(along) == 1 else ((node, tuple(axis)), 1.0)
 
     def read_initial_conditions(self, where, parameters, data):
         kind = parameters.get("TYPE", "").upper()
@@ -385,12 +432,9 @@ class Translator:
                         self.notes.refuse("BOUNDARY", where, "temperatures are not unknowns here")
                     continue  # rotations: solid elements have none
                 for node in nodes:
-                    if node in self.transformed:
-                        self.notes.refuse("TRANSFORM", self.transformed[node],
-                                          "displacements in rotated systems are not supported")
-                        break
-                    self.displacements.give((node, dof - 1), value, amplitude, where)
-                    given.add((node, dof - 1))
+                    key, sign = self.component(node, dof - 1)
+                    self.displacements.give(key, sign * value, amplitude, where)
+                    given.add(key)
         return given
 
     def load_nodes(self, where, parameters, data, given):
@@ -406,11 +450,9 @@ class Translator:
                 self.notes.refuse("CLOAD", where, "moments on nodes are not supported")
                 continue
             for node in self.geometry.nodes_of(where, words[0]):
-                if node in self.transformed:
-                    self.notes.refuse("TRANSFORM", self.transformed[node],
-                                      "forces in rotated systems are not supported")
-                    break
-                self.add_load(self.forces, (node, dof - 1), value, amplitude, where, given)
+                for axis, factor in enumerate(self.axis(node, dof - 1)):
+                    if factor:
+                        self.add_load(self.forces, (node, axis), value * factor, amplitude, where, given)
 
     def add_load(self, histories, key, value, amplitude, where, given):
         """Loads that are given twice in one step are added. given: keys of the step"""
@@ -448,8 +490,15 @@ class Translator:
                 self.add_load(self.pressures, side, float(words[2]), amplitude, where, given["DLOAD"])
 
     def change_model(self, where, parameters, data):
-        if parameters.get("TYPE", "").upper() != "CONTACT PAIR":
-            self.notes.refuse("MODEL CHANGE", where, "only contact pairs can be removed and added")
+        kind = parameters.get("TYPE", "").upper()
+        if kind == "ELEMENT" and "REMOVE" in parameters and not self.steps:
+            words = [word.strip() for text in data for word in text.split(",") if word.strip()]
+            self.removed.update(cell for word in words for cell in self.geometry.cells_of(where, word))
+            return
+        if kind != "CONTACT PAIR":
+            self.notes.refuse(
+                "MODEL CHANGE", where, "only contact pairs can be removed and added, and elements removed "
+                "in the first step")
             return
         for text in data:
             words = [word.strip().upper() for word in text.split(",")]
@@ -471,9 +520,10 @@ class Translator:
             if material.upper() not in self.materials:
                 raise MeshError(f"{where}: there is no material \"{material}\"")
             cells = self.geometry.cells_of(where, name) if name.upper() in self.geometry.elsets else []
+            cells = [cell for cell in cells if cell not in self.removed]
             sections.append((name, cells, (material.upper(), orientation.upper())))
         bodies = geometry.Bodies(self.geometry, sections)
-        if bodies.left:
+        if set(bodies.left) - self.removed:
             raise MeshError(f"{self.path}: {len(bodies.left)} solid elements have no *SOLID SECTION")
         return bodies
 
