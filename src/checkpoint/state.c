@@ -62,7 +62,6 @@ static PetscErrorCode CheckpointGetMotion(Model model, State state, Checkpoint c
   PetscCall(CheckpointGetVec(checkpoint, "auxiliary_acceleration", d->auxiliary));
   PetscCall(TemperaturesApply(&model->temperatures, state->path->time));
   PetscCall(DynamicsSetRest(&constraints, &model->loads, state->path->time, state->path->u, d));
-  PetscCall(SchemeRelease(state->path->contact, d));
   PetscFunctionReturn(0);
 }
 

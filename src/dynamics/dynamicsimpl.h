@@ -1,6 +1,6 @@
 /*
    Inertia. In a time step this term is added to the energy of the bodies:
-     c/2 (u - centre)^T M (u - centre) + (residual + turn + excess)^T u + viscosity E(u - viscous)
+     c/2 (u - centre)^T M (u - centre) + (residual + turn + excess + turned)^T u + viscosity E(u - viscous)
      + rate/2 (u - viscous)^T D (u - viscous)
    E is the elastic energy, D the matrix of dampers. The gradient of the term is the sum of the inertia and damping
    forces. Each file uses only the files listed before it.
@@ -17,12 +17,12 @@ typedef struct {
   Vec inert;                  /* 1 in rows with mass whose displacement is not prescribed, else 0 */
   Vec residual; /* impact scheme: internal plus damping minus dead forces at the last state [force]; NULL for other
                      schemes */
-  Vec sliding;  /* impact scheme: 1 in free rows of nodes without mass that touch elastic bodies, else 0; NULL for other
-                     schemes and without such nodes */
   Vec turn;     /* impact scheme: forces of turn.c [force]; NULL if no rigid body has finite free rotations */
   Vec excess;   /* impact scheme: twice the excess of the energy-conserving mean internal force of the step over the
                        mean of the forces at its ends (ElasticityExcess()), at the last iterate [force]; NULL if all
                        bodies have a quadratic energy */
+  Vec turned;   /* impact scheme: contact forces along the derivatives of the gaps at the end of the step, less those
+                     along the derivatives at its start [force]; NULL without contact */
   PetscReal inertia;   /* c in the current time step [1/time^2] */
   Vec       centre;    /* displacement at which the mass term of the current time step is zero [length] */
   PetscReal viscosity; /* factor of the elastic energy of u - viscous in the current time step, for damping in
@@ -56,8 +56,6 @@ PETSC_INTERN PetscErrorCode MassGetCentres(const Constraints *, const Dynamics *
 PETSC_INTERN PetscErrorCode MassMeasure(const Constraints *, const Dynamics *, Vec u, PetscReal *kinetic,
   PetscReal momentum[3], PetscReal spin[3]);
 
-PETSC_INTERN PetscErrorCode MassMarkSliding(const Constraints *, Dynamics *);
-
 /* drive.c: velocities and accelerations in rows with prescribed displacements */
 PETSC_INTERN PetscErrorCode DriveStart(const Constraints *, PetscInt order, Vec rate);
 PETSC_INTERN PetscErrorCode DriveBegin(const Constraints *, PetscReal time, PetscReal dt, PetscReal before, Vec u,
@@ -76,10 +74,9 @@ PETSC_INTERN PetscErrorCode SchemeAddForce(const Dynamics *, Vec u, PetscReal *e
 PETSC_INTERN PetscErrorCode SchemeGetDamping(const SceneDynamics *, const Dynamics *, Vec velocity, Vec force);
 PETSC_INTERN PetscErrorCode SchemeEstimate(const SceneDynamics *, PetscReal dt, PetscReal before, PetscBool smooth,
   Vec from, Vec u, Dynamics *, PetscReal *error);
-PETSC_INTERN PetscErrorCode SchemeRelease(Vec contact, Dynamics *);
 PETSC_INTERN PetscErrorCode SchemeAdvance(const SceneDynamics *, PetscReal dt, Vec before, Vec u, Dynamics *);
 
 /* turn.c: forces that conserve the energy of rotating rigid bodies */
-PETSC_INTERN PetscErrorCode TurnSetForce(const Constraints *, Vec before, Vec u, Vec load, Dynamics *);
+PETSC_INTERN PetscErrorCode TurnSetForce(const Constraints *, Vec before, Vec u, Vec load, Vec contact, Dynamics *);
 
 #endif

@@ -149,7 +149,6 @@ PetscErrorCode DynamicsCreate(const Constraints *c, const DeadLoads *loads, Spri
   d->springs    = springs;
   if (scene->damping_stiffness > 0.0 || springs->dampers) PetscCall(VecDuplicate(c->bodies.mass, &d->viscous));
   if (scene->scheme == SCHEME_IMPACT) PetscCall(VecDuplicate(c->bodies.mass, &d->residual));
-  PetscCall(MassMarkSliding(c, d));
   PetscCall(StartVelocity(c, d));
   PetscCall(StartAcceleration(c, loads, d));
   if (d->residual) PetscCall(VecZeroEntries(d->auxiliary));
@@ -175,8 +174,8 @@ PetscErrorCode DynamicsDestroy(Dynamics *d)
   PetscCall(VecDestroy(&d->driven));
   PetscCall(VecDestroy(&d->viscous));
   PetscCall(VecDestroy(&d->residual));
-  PetscCall(VecDestroy(&d->sliding));
   PetscCall(VecDestroy(&d->turn));
   PetscCall(VecDestroy(&d->excess));
+  PetscCall(VecDestroy(&d->turned));
   PetscFunctionReturn(0);
 }

@@ -9,21 +9,8 @@ static PetscBool MassFaceIsLight(Scene scene, const SceneContactPair *pair, cons
   return (PetscBool)(!SceneContactPairHasFriction(pair) && SceneFaceBody(scene, face)->material.type != MATERIAL_RIGID);
 }
 
-/* Returns whether both faces of a contact pair are light, and none of their bodies yields */
-static PetscBool MassPairSlides(Scene scene, const SceneContactPair *pair)
-{
-  const char *faces[2] = {pair->nonmortar, pair->mortar};
-  PetscBool   slides   = PETSC_TRUE;
-
-  for (int k = 0; k < 2; ++k)
-    slides = (PetscBool)(slides && MassFaceIsLight(scene, pair, faces[k]) &&
-                         !MaterialYields(&SceneFaceBody(scene, faces[k])->material));
-  return slides;
-}
-
-/* Sets `mark` to 1 at the light nodes of contact pairs, or only of those that slide (MassPairSlides()), and to 0
-   elsewhere */
-static PetscErrorCode MassMarkLight(const Constraints *c, PetscBool slide, Vec mark)
+/* Sets `mark` to 1 at the light nodes of contact pairs, and to 0 elsewhere */
+static PetscErrorCode MassMarkLight(const Constraints *c, Vec mark)
 {
   Scene scene = c->bodies.scene;
 
@@ -36,12 +23,11 @@ static PetscErrorCode MassMarkLight(const Constraints *c, PetscBool slide, Vec m
     PetscInt                n;
     IS                      is;
 
-    if (!MassFaceIsLight(scene, pair, face) || (slide && !MassPairSlides(scene, pair))) continue;
+    if (!MassFaceIsLight(scene, pair, face)) continue;
     PetscCall(MeshGetFaceDofs(c->bodies.dm, face, 0, &is));
     PetscCall(ISGetLocalSize(is, &n));
     PetscCall(ISGetIndices(is, &rows));
-    for (PetscInt i = 0; i < n; ++i)
-      for (PetscInt j = 0; j < (slide ? 3 : 1); ++j) PetscCall(VecSetValue(mark, rows[i] + j, 1.0, INSERT_VALUES));
+    for (PetscInt i = 0; i < n; ++i) PetscCall(VecSetValue(mark, rows[i], 1.0, INSERT_VALUES));
     PetscCall(ISRestoreIndices(is, &rows));
     PetscCall(ISDestroy(&is));
   }
@@ -89,58 +75,13 @@ PetscErrorCode MassCreate(const Constraints *c, Dynamics *d)
   for (PetscInt b = 0; b < scene->nbodies; ++b) density[b] = MassGetDensity(&scene->bodies[b]);
   if (type == MASS_REDISTRIBUTED && scene->npairs) {
     PetscCall(VecDuplicate(c->bodies.mass, &light));
-    PetscCall(MassMarkLight(c, PETSC_FALSE, light));
+    PetscCall(MassMarkLight(c, light));
   }
   PetscCall(ElasticitySetMass(c->bodies.elasticity, density, (PetscBool)(type == MASS_CONSISTENT), light));
   PetscCall(ElasticityCreateMass(c->bodies.elasticity, &d->mass));
   PetscCall(VecDestroy(&light));
   PetscCall(PetscFree(density));
   PetscCall(MassMarkInert(c, d));
-  PetscFunctionReturn(0);
-}
-
-/* Sets `mark` to 0 in dependent rows and in the rows that they depend on */
-static PetscErrorCode MassUnmarkTied(const Ties *ties, Vec mark)
-{
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < ties->n; ++k) {
-    const PetscInt *columns;
-    PetscInt        n;
-
-    PetscCall(VecSetValue(mark, ties->rows[k], 0.0, INSERT_VALUES));
-    PetscCall(MatGetRow(ties->C, ties->rows[k], &n, &columns, NULL));
-    for (PetscInt i = 0; i < n; ++i) PetscCall(VecSetValue(mark, columns[i], 0.0, INSERT_VALUES));
-    PetscCall(MatRestoreRow(ties->C, ties->rows[k], &n, &columns, NULL));
-  }
-  PetscCall(VecAssemblyBegin(mark));
-  PetscCall(VecAssemblyEnd(mark));
-  PetscFunctionReturn(0);
-}
-
-/* Creates d->sliding for SchemeRelease(). d->residual and the ties must have been created. */
-PetscErrorCode MassMarkSliding(const Constraints *c, Dynamics *d)
-{
-  Scene       scene = c->bodies.scene;
-  PetscScalar count, *a;
-  PetscInt    n;
-  Vec         diagonal;
-
-  PetscFunctionBegin;
-  if (!d->residual || scene->dynamics.mass != MASS_REDISTRIBUTED || !scene->npairs) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(d->inert, &d->sliding));
-  PetscCall(MassMarkLight(c, PETSC_TRUE, d->sliding));
-  PetscCall(VecDuplicate(d->inert, &diagonal));
-  PetscCall(MatGetDiagonal(d->mass, diagonal));
-  PetscCall(VecGetLocalSize(diagonal, &n));
-  PetscCall(VecGetArray(diagonal, &a));
-  for (PetscInt i = 0; i < n; ++i) a[i] = PetscRealPart(a[i]) > 0.0 ? 0.0 : 1.0;
-  PetscCall(VecRestoreArray(diagonal, &a));
-  PetscCall(VecPointwiseMult(d->sliding, d->sliding, diagonal));
-  PetscCall(VecDestroy(&diagonal));
-  PetscCall(PrescribedSet(c->prescribed, 0.0, d->sliding));
-  PetscCall(MassUnmarkTied(c->ties, d->sliding));
-  PetscCall(VecSum(d->sliding, &count));
-  if (PetscRealPart(count) == 0.0) PetscCall(VecDestroy(&d->sliding));
   PetscFunctionReturn(0);
 }
 

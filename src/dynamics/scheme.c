@@ -113,7 +113,7 @@ static PetscErrorCode SchemeAddViscous(const Dynamics *d, Vec u, PetscReal *ener
 /* Adds the term of this time step at u to the energy, and its gradient to `force`, which may be NULL */
 PetscErrorCode SchemeAddForce(const Dynamics *d, Vec u, PetscReal *energy, Vec force)
 {
-  const Vec constant[] = {d->residual, d->turn, d->excess};
+  const Vec constant[] = {d->residual, d->turn, d->excess, d->turned};
 
   PetscFunctionBegin;
   if (d->mass) PetscCall(CentredAdd(d->inertia, d->mass, NULL, d->centre, u, energy, force));
@@ -235,45 +235,6 @@ PetscErrorCode SchemeAdvance(const SceneDynamics *scene, PetscReal dt, Vec befor
   PetscCall(VecDestroy(&d->auxiliary));
   d->velocity  = v;
   d->auxiliary = a;
-  PetscFunctionReturn(0);
-}
-
-/*
-   Nodes without mass obey r + r' = 2 q', with the contact force q'. This rule does not damp the part of r
-   perpendicular to q': its sign changes in each time step. The nodes then slide to and fro along the other body, and
-   the change of the gap feeds energy to this motion if that body has no mass there either. Therefore this part, which
-   is zero in equilibrium, is removed from d->residual at such nodes (d->sliding) that touch. contact: contact forces at
-   the end of the time step, with any sign; NULL: there are none
-*/
-PetscErrorCode SchemeRelease(Vec contact, Dynamics *d)
-{
-  const PetscReal    open = 1e-6; /* part of the largest contact force below which a node is regarded as open */
-  const PetscScalar *q, *sliding;
-  PetscScalar       *r;
-  PetscReal          largest;
-  PetscInt           n;
-
-  PetscFunctionBegin;
-  if (!d->sliding || !contact) PetscFunctionReturn(0);
-  PetscCall(VecNorm(contact, NORM_INFINITY, &largest));
-  PetscCall(VecGetLocalSize(contact, &n));
-  PetscCall(VecGetArrayRead(contact, &q));
-  PetscCall(VecGetArrayRead(d->sliding, &sliding));
-  PetscCall(VecGetArray(d->residual, &r));
-  for (PetscInt i = 0; i < n; i += 3) {
-    PetscReal square = 0.0, product = 0.0;
-
-    for (PetscInt k = i; k < i + 3; ++k) {
-      square += PetscRealPart(sliding[k] * q[k] * q[k]);
-      product += PetscRealPart(sliding[k] * q[k] * r[k]);
-    }
-    if (!(square > PetscSqr(open * largest))) continue;
-    for (PetscInt k = i; k < i + 3; ++k)
-      if (PetscRealPart(sliding[k]) > 0.0) r[k] = product / square * q[k];
-  }
-  PetscCall(VecRestoreArray(d->residual, &r));
-  PetscCall(VecRestoreArrayRead(d->sliding, &sliding));
-  PetscCall(VecRestoreArrayRead(contact, &q));
   PetscFunctionReturn(0);
 }
 

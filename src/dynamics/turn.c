@@ -108,8 +108,8 @@ static PetscErrorCode TurnSpread(const Constraints *c, Vec u, const BodyPose pos
 }
 
 /* Collective. Sets d->turn for a time step from the displacement `before` to u, with the rigid bodies at their
-   positions in u. load: dead loads at the end of the step; NULL if there are none */
-PetscErrorCode TurnSetForce(const Constraints *c, Vec before, Vec u, Vec load, Dynamics *d)
+   positions in u. load: dead loads at the end of the step; contact: contact forces. NULL if there are none */
+PetscErrorCode TurnSetForce(const Constraints *c, Vec before, Vec u, Vec load, Vec contact, Dynamics *d)
 {
   const PetscInt nbodies = c->bodies.scene->nbodies;
   PetscReal      energy  = 0.0, *sums, inertia[3][3];
@@ -126,6 +126,7 @@ PetscErrorCode TurnSetForce(const Constraints *c, Vec before, Vec u, Vec load, D
   PetscCall(VecZeroEntries(force));
   PetscCall(SchemeAddForce(d, u, &energy, force));
   if (load) PetscCall(VecAXPY(force, -1.0, load));
+  if (contact) PetscCall(VecAXPY(force, -1.0 / SchemeShare(&c->bodies.scene->dynamics), contact));
   PetscCall(PosesFind(&c->bodies, before, u, poses));
   TurnFind(c, poses, bodies);
   PetscCall(TurnSum(c, before, u, force, poses, bodies));

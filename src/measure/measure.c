@@ -219,6 +219,7 @@ static PetscErrorCode MeasureForces(Simulation sim, PetscReal time, Vec load, Ve
     PetscCall(MeasureContact(sim->model, sim->state, time, u, sol, report, &weighted, &contact, &late));
     PetscCall(VecAXPY(force, -1.0, contact));
     if (inertia) PetscCall(MeasureAddMultipliers(&at, contact, force, applied));
+    if (sim->model->dynamics.turned) PetscCall(VecAXPY(contact, -0.5, sim->model->dynamics.turned));
     if (!sim->state->history->frictional && !inertia) PetscCall(VecDestroy(&contact));
   }
   PetscCall(TiesGetForces(&constraints, force, &ties, &rigid));

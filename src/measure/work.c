@@ -140,6 +140,8 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   if (*contact)
     PetscCall(VecScale(*contact, -1.0)); /* the forces on the contacts are opposite to those on the
                                                         bodies */
+  /* in the impact scheme contact forces act with the mean arms of the step (turn.c): chords instead of arcs */
+  if (SchemeIsImpact(&sim->model->scene->dynamics)) PetscCall(VecWAXPY(increment[1], -1.0, path->u, u));
   PetscCall(WorkAddForce(increment, SchemeIsImpact(&sim->model->scene->dynamics) ? 1.0 : 0.5, &path->contact, contact,
     &path->contact_work));
   if (!sim->model->scene->ntemperatures) path->work += late;

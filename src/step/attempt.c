@@ -162,8 +162,6 @@ static PetscErrorCode AttemptAccept(StepProblem *p, Vec *u, ContactSolution *sol
   PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscCall(MeasureState(sim, p->time, p->load, inertia, *u, sol, report));
   PetscCall(VecDestroy(&inertia));
-  PetscCall(
-    SchemeRelease(p->state->path->contact, &p->model->dynamics)); /* MeasureState() has set these contact forces */
   if (p->model->contact) PetscCall(AttemptKeepSurface(p->state, sol));
   if (p->model->contact) PetscCall(FrictionSettle(p->model, p->state, p->time, *u, sol));
   PetscCall(PathAdvance(p->state->path, p->time, u));

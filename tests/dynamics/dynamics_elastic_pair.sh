@@ -1,5 +1,5 @@
 # Contact of two elastic bodies without friction gives them no energy: one rests on the other; two meet head on, with
-# either face as the nonmortar one; the same after a restart. A law that may yield: the run warns of the energy
+# either face as the nonmortar one; the same after a restart; also with a law that may yield
 contact=$AMGF_DIR/bin/contact
 cat > rests.yaml <<'YAML'
 bodies:
@@ -28,12 +28,12 @@ for scene in rests turned; do run $scene.yaml -summary $scene.json; done
 run meet.yaml -checkpoint_every 35 -checkpoint meet.h5 -summary meet.json
 run meet.yaml -restart meet.h5 -summary again.json
 sed 's/young/material: j2, yield: 1e12, hardening: 1, young/' rests.yaml > yields.yaml
-"$contact" yields.yaml -quiet -error_estimate 0 2>&1 | grep -o "normal forces of contact have given"
+run yields.yaml -summary yields.json
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'CHECK'
 from summaries import load, say, within
 
 total = lambda step: step["motions"][0]["total_energy"]
-for name, start in ("rests", 0), ("meet", 0.5 * 2000 * 0.6**3 * 9), ("turned", 0.5 * 2000 * 0.6**3 * 9):
+for name, start in ("rests", 0), ("yields", 0), ("meet", 0.5 * 2000 * 0.6**3 * 9), ("turned", 0.5 * 2000 * 0.6**3 * 9):
     steps = load(name)["steps"]
     gained = [total(step) - step["work"] - start for step in steps]
     limit = 2e-3 * max(map(total, steps))

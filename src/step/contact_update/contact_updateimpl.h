@@ -32,6 +32,11 @@ PETSC_INTERN PetscErrorCode ContactUpdateBegin(StepProblem *, PetscBool foreseen
 PETSC_INTERN PetscErrorCode ContactUpdateNext(StepProblem *, Anderson *, const ContactSolution *, Vec u,
   Vec u_linearized, StepReport *, ContactLinearization *at_u);
 
+/* mean_direction.c: directions of the contact forces in time steps */
+PETSC_INTERN PetscErrorCode ContactUpdateKeepDirections(StepProblem *);
+PETSC_INTERN PetscErrorCode ContactUpdateSetDirections(StepProblem *);
+PETSC_INTERN PetscErrorCode ContactUpdateKeepForces(StepProblem *, const ContactSolution *);
+
 /* tolerance.c: tolerances of the solves */
 PETSC_INTERN PetscErrorCode ContactUpdateSetTolerance(StepProblem *, PetscBool foreseen, PetscBool again, PetscBool end,
   Vec u, const StepReport *);

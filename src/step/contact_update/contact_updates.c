@@ -75,8 +75,9 @@ static PetscErrorCode ContactUpdatesSolveLinearized(StepProblem *p, PetscBool re
 
   PetscFunctionBegin;
   PetscCall(ContactGetReach(p->model->contact, &reach, &depth));
-  PetscCall(StepProblemTurn(p, u_linearized));
   do {
+    PetscCall(ContactUpdateSetDirections(p));
+    PetscCall(StepProblemTurn(p, u_linearized));
     PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
     PetscCall(StepProblemSetContact(p, p->state->solved->linearization, u_linearized));
     PetscCall(ProximalLinearize(p, u_linearized));
@@ -84,6 +85,7 @@ static PetscErrorCode ContactUpdatesSolveLinearized(StepProblem *p, PetscBool re
     if (resume && !p->by_newton) PetscCall(ContactUpdateAnticipate(p, p->state->solved->linearization));
     PetscCall(StepProblemSolve(p, (PetscBool)(resume && !missed), u, report, sol));
     PetscCall(ContactUpdateReportDriven(p, report));
+    if (report->converged) PetscCall(ContactUpdateKeepForces(p, sol));
     PetscCall(PetscLogEventBegin(CONTACT_Linearize, NULL, NULL, NULL, NULL));
     if (report->converged) PetscCall(MissedFind(p, u_linearized, u, sol->gap, &reach, &missed));
     PetscCall(PetscLogEventEnd(CONTACT_Linearize, NULL, NULL, NULL, NULL));

@@ -109,6 +109,7 @@ PetscErrorCode ContactUpdateBegin(StepProblem *p, PetscBool foreseen, Vec u, con
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, u_linearized));
   PetscCall(VecCopy(foreseen ? u : p->state->path->u, *u_linearized));
+  PetscCall(ContactUpdateKeepDirections(p));
   if (continues && !foreseen) PetscCall(ContactUpdateContinue(p, *u_linearized, &continues));
   if (foreseen || continues) {
     PetscCall(ContactUpdateMakeRigid(p, *u_linearized));

@@ -35,12 +35,12 @@ static PetscErrorCode StepProblemSetBase(StepProblem *p, Vec u, PetscBool *anew)
   PetscCall(VecDestroy(&p->load));
   PetscCall(DeadLoadsGet(&p->model->loads, p->time, &p->load));
   PetscCall(RigidTurnLoads(&constraints, 1.0, p->time, p->load));
-  PetscCall(TurnSetForce(&constraints, p->state->path->u, u, p->load, &p->model->dynamics));
+  PetscCall(TurnSetForce(&constraints, p->state->path->u, u, p->load, p->pressed, &p->model->dynamics));
   PetscFunctionReturn(0);
 }
 
 /* Computes energy and gradient of the quadratic model at p->base, and its tangent if `anew` is true. */
-static PetscErrorCode StepProblemSetQuadratic(StepProblem *p, PetscBool anew)
+PetscErrorCode StepProblemSetQuadratic(StepProblem *p, PetscBool anew)
 {
   const Constraints constraints = ModelConstraints(p->model);
   PetscScalar       work        = 0.0;
@@ -216,6 +216,9 @@ PetscErrorCode StepProblemDestroy(StepProblem *p)
   PetscCall(VecDestroy(&p->upper));
   PetscCall(VecDestroy(&p->w));
   PetscCall(VecDestroy(&p->Kw));
+  PetscCall(MatDestroy(&p->directions));
+  PetscCall(PetscFree(p->direction));
+  PetscCall(VecDestroy(&p->pressed));
   PetscCall(FrictionDestroy(&p->friction));
   PetscFunctionReturn(0);
 }

@@ -97,6 +97,10 @@ typedef struct {
   const char *flowing;      /* name of the body that flows, so that there is no equilibrium; NULL: none */
   Vec         w, Kw;
 
+  Mat       directions; /* impact scheme: derivatives of the gaps at the last state; NULL without contact */
+  PetscInt *direction;  /* row of `directions` at each index of the contact history; negative: none */
+  Vec       pressed;    /* impact scheme, if rigid bodies turn: contact forces of the last solve [force]; NULL: none */
+
   StepFriction friction;
 } StepProblem;
 
@@ -107,6 +111,7 @@ static inline PetscReal StepProblemShare(const StepProblem *p)
 }
 
 PETSC_INTERN PetscErrorCode StepProblemCreate(Simulation, PetscReal time, StepProblem *);
+PETSC_INTERN PetscErrorCode StepProblemSetQuadratic(StepProblem *, PetscBool anew);
 PETSC_INTERN PetscErrorCode StepProblemTurn(StepProblem *, Vec u);
 PETSC_INTERN PetscErrorCode StepProblemSetContact(StepProblem *, ContactLinearization, Vec u_linearized);
 PETSC_INTERN PetscErrorCode StepProblemSetBounds(StepProblem *, PetscReal increment);
