@@ -73,7 +73,7 @@ typedef struct {
   PetscInt  failures;       /* systems that no remedy solved */
   PetscReal backward_error; /* largest backward error of a direction that was used: ||b - A d|| / (||diag(A) d|| +
                                ||b||) */
-  PetscInt  subspaces;      /* changes from the filtered subspace method to the interior point method */
+  PetscInt  subspaces;      /* changes from the subspace method to the interior point method */
 } TaoIPFilterFallbacks;
 
 PETSC_EXTERN PetscErrorCode PetscAMGFInitializePackage(void);

@@ -119,15 +119,15 @@ static PetscErrorCode SolverCreate(Tao tao)
 . -tao_ipfilter_forcing <adaptive> (adaptive,fixed)         - Krylov tolerance from the KKT error, or the KSP's own
 . -tao_ipfilter_filter_switch <10>                          - `PCAMGF` uses the filter if (J^T D J)_ii exceeds this
                                                               multiple of H_ii for some i; 0: always
-. -tao_ipfilter_subspace <auto> (false,true,auto)           - use the filtered subspace method, for linear constraints
+. -tao_ipfilter_subspace <auto> (false,true,auto)           - use the subspace method, for linear constraints
                                                               that involve few unknowns
 . -tao_ipfilter_subspace_max <0>                            - largest number of its directions, which are stored in
                                                               single precision; 0: 80, or 48 if the objective is not
                                                               quadratic
 . -tao_ipfilter_ksp_max_it <10000>                          - largest number of Krylov iterations in a linear solve, and
-                                                              of directions of the filtered subspace method in a
+                                                              of directions of the subspace method in a
                                                               `TaoSolve()`
-. -tao_ipfilter_pc_amgf_factor <auto> (false,true,auto)     - filtered subspace method: use a factorization of the
+. -tao_ipfilter_pc_amgf_factor <auto> (false,true,auto)     - subspace method: use a factorization of the
                                                               Hessian instead of the AMG
 . -tao_ipfilter_direct                                      - MUMPS on the whole matrix, with inertia correction, from
                                                               the first system on
@@ -193,7 +193,7 @@ static PetscErrorCode SolverCreate(Tao tao)
   `-tao_ipfilter_direct_memory` (its options have the prefix `-tao_ipfilter_direct_`); otherwise the solve ends.
   `TaoIPFilterGetFallbacks()` counts the remedies.
 
-  The filtered subspace method, `-tao_ipfilter_subspace`, is for linear inequalities that involve few unknowns, the set
+  The subspace method, `-tao_ipfilter_subspace`, is for linear inequalities that involve few unknowns, the set
   W. A quadratic objective is minimized exactly over span{e_i, i in W} + span(P), by an active set method on the first
   rank. The `PC` of the Krylov method for H is applied to the remaining residual, which gives the next direction in P.
   With `-tao_ipfilter_pc_amgf_factor` auto a factorization replaces the AMG there if H is small, see
@@ -279,7 +279,7 @@ static PetscErrorCode SolverCreate(Tao tao)
 . * - M. L. Parks, E. de Sturler, G. Mackey, D. D. Johnson and S. Maiti, "Recycling Krylov subspaces for sequences of
         linear systems", SIAM Journal on Scientific Computing 28, 2006.
 - * - C. Graeser and R. Kornhuber, "Multigrid methods for obstacle problems", Journal of Computational Mathematics 27,
-        2009: truncated nonsmooth Newton multigrid, the published method most similar to the filtered subspace method.
+        2009: truncated nonsmooth Newton multigrid, the published method most similar to the subspace method.
 
 .seealso: `TaoIPFilterSetSlackMass()`, `TaoIPFilterSetPrimalMass()`, `TaoIPFilterSetWarmStart()`,
           `TaoIPFilterSetNormTerms()`, `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`,

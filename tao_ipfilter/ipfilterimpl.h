@@ -16,7 +16,7 @@
      linear    linear systems: Krylov methods, MUMPS, equality constraints
      step      one step: filter, barrier, direction, line search, restoration
      driver    the iteration: set-up, solve, convergence, reasons
-     subspace  the filtered subspace method: directions, the reduced problem, its active sets
+     subspace  the subspace method: directions, the reduced problem, its active sets
      friction  the friction laws of the norm terms in the subspace
    The driver calls subspace, and subspace calls friction, only through tables of functions, which register.c stores in
    the solver. The rest compiles without these two folders if their lines in register.c are removed.

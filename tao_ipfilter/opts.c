@@ -8,7 +8,7 @@ const char *const        IPKKTMeasures[]     = {"relative", "mass", "IPKKTMeasur
 const char *const        IPForcings[]        = {"adaptive", "fixed", "IPForcing", "IP_FORCING_", NULL};
 static const char *const IPEqualityMethods[] = {"auto", "augmented", "condensed", "IPEqualityMethod", "IP_EQUALITY_",
   NULL};
-static const char *const IPSubspaceUses[]    = {"false", "true", "auto", "IPSubspaceUse", "IP_SUBSPACE_", NULL};
+static const char *const IPConstrainedUses[] = {"false", "true", "auto", "IPConstrainedUse", "IP_SUBSPACE_", NULL};
 static const char *const IPScalings[]        = {"problem", "gradient", "none", "IPScaling", "IP_SCALING_", NULL};
 
 /* The values that an option may have. A number that is not between the ends is refused, and NaN always. */
@@ -154,11 +154,10 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
   PetscCall(PetscOptionsBool("-tao_ipfilter_direct",
     "Factor the whole matrix by MUMPS and use its inertia, instead of a Krylov method", TAOIPFILTER, opt->direct_always,
     &opt->direct_always, NULL));
-  PetscCall(
-    PetscOptionsEnum("-tao_ipfilter_subspace", "Use the filtered subspace method instead of the interior point method",
-      TAOIPFILTER, IPSubspaceUses, (PetscEnum)opt->subspace, (PetscEnum *)&opt->subspace, NULL));
+  PetscCall(PetscOptionsEnum("-tao_ipfilter_subspace", "Use the subspace method instead of the interior point method",
+    TAOIPFILTER, IPConstrainedUses, (PetscEnum)opt->subspace, (PetscEnum *)&opt->subspace, NULL));
   PetscCall(PetscOptionsInt("-tao_ipfilter_subspace_max",
-    "Largest number of directions of the filtered subspace method; 0: 80, or 48 with Newton's method", TAOIPFILTER,
+    "Largest number of directions of the subspace method; 0: 80, or 48 with Newton's method", TAOIPFILTER,
     opt->subspace_max, &opt->subspace_max, NULL));
   PetscCheck(!opt->subspace_max || opt->subspace_max >= fewest, PetscObjectComm((PetscObject)tao),
     PETSC_ERR_ARG_OUTOFRANGE, "-tao_ipfilter_subspace_max must be 0 or at least %" PetscInt_FMT ", not %" PetscInt_FMT,

@@ -1,5 +1,5 @@
 /*
-   Registers the filtered subspace method and the friction laws of norm terms. No other file refers to their folders.
+   Registers the subspace method and the friction laws of norm terms. No other file refers to their folders.
 */
 #include "ipfilterimpl.h"
 #include "tao_ipfilter/subspace/subspaceimpl.h"

@@ -31,7 +31,7 @@ static PetscErrorCode ViewLinearSolves(const TAO_IPFILTER *ip, PetscViewer viewe
   PetscFunctionBegin;
   if (ip->rec->nreduced)
     PetscCall(PetscViewerASCIIPrintf(viewer,
-      "filtered subspace%s: preconditioner applied %" PetscInt_FMT " times, reduced problems %" PetscInt_FMT
+      "subspace%s: preconditioner applied %" PetscInt_FMT " times, reduced problems %" PetscInt_FMT
       ", active sets %" PetscInt_FMT "\n",
       f->subspaces ? ", then interior point" : "", ip->rec->napplications, ip->rec->nreduced, ip->rec->npivots));
   PetscCall(

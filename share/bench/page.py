@@ -181,7 +181,7 @@ def head(title, data, rows):
         "| errors | relative to Hertz's formula, or to the references of the front page |"
     ]
     lines += [
-        "| Newton steps | of the optimizer; with the filtered subspace method its directions |",
+        "| Newton steps | of the optimizer; with the subspace method its directions |",
         "| AMG applications | with MUMPS the solves with its factors |"
     ]
     return "\n".join(lines) + "\n"

@@ -198,7 +198,7 @@ def solver_page(size):
     three = ("two_block", "hertz_sphere", "beam_sphere_linear")
     ways = [("chosen", ()), ("AMG", BY_AMG), ("MUMPS", (IP + "pc_amgf_factor", "true")), ("interior point", INTERIOR)]
     costs = ("time", "applications", "memory")
-    yield Study("method", "Filtered subspace method with AMG or MUMPS, and interior point method", "method",
+    yield Study("method", "Subspace method with AMG or MUMPS, and interior point method", "method",
                 turn(size, three, ways), costs=costs)
     end = ("-contact_update_tol", "1e-10")  # so that nothing but the solver is left
     yield Study(
@@ -206,7 +206,7 @@ def solver_page(size):
         turn(size, three, values(IP + "tol", "1e-2", "1e-4", "1e-6", "1e-8", "1e-10"),
              careful=(IP + "tol", "1e-12", *end), always=end))
     directions = values(IP + "subspace_max", "20", "80", "320")
-    yield Study("directions", "Largest number of directions of the filtered subspace method", "directions",
+    yield Study("directions", "Largest number of directions of the subspace method", "directions",
                 turn(size, three, directions, always=BY_AMG), costs=costs)
     amg = [("built in", ()), ("BoomerAMG's V-cycle", (AMG + "pc_type", "hypre")),
            ("GAMG", (AMG + "pc_type", "gamg", *AIJ)), ("ML", (AMG + "pc_type", "ml", *AIJ))]

@@ -115,7 +115,7 @@ static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
     }
     if (linear->subspaces)
       PetscCall(PetscViewerASCIIPrintf(viewer,
-        "; the filtered subspace method failed %" PetscInt_FMT " times; the interior point method replaced it",
+        "; the subspace method failed %" PetscInt_FMT " times; the interior point method replaced it",
         linear->subspaces));
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   }

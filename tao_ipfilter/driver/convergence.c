@@ -49,8 +49,8 @@ static PetscBool Violated(const TAO_IPFILTER *ip)
 }
 
 /*
-   Returns whether the violation is also at most `limit` relative to the constraints' own terms (own.c). A relaxation
-   violates constraints whose terms vanish by more.
+   Returns whether the violation is also at most `limit` relative to the constraints' own terms (row_violation.c). A
+   relaxation violates constraints whose terms vanish by more.
 */
 static PetscBool OwnMet(const TAO_IPFILTER *ip, PetscReal limit)
 {

@@ -5,7 +5,7 @@
 #ifndef IPFILTER_DRIVERIMPL_H
 #define IPFILTER_DRIVERIMPL_H
 
-#include "tao_ipfilter/step/stepimpl.h"
+#include "tao_ipfilter/iteration/iterationimpl.h"
 
 /* reason.c */
 PETSC_INTERN PetscErrorCode IPSetReason(Tao, TaoConvergedReason, const char[], ...) PETSC_ATTRIBUTE_FORMAT(3, 4);

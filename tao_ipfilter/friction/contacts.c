@@ -3,7 +3,7 @@
    the laws
 */
 #include "frictionimpl.h"
-#include "tao_ipfilter/measure/measureimpl.h"
+#include "tao_ipfilter/residuals/residualsimpl.h"
 
 PetscErrorCode ContactsDestroy(Contacts *c)
 {

@@ -127,9 +127,9 @@ static PetscErrorCode LawsBegin(IPLaws laws, Vec g, Vec c, Vec values, Vec force
   contacts->least    = accuracy * IPErrorBoundForceUnit(ip);
   PetscCall(LawsCopy(laws, c, values, contacts->u, PETSC_FALSE));
   PetscCall(LawsCopy(laws, force, terms, contacts->f, PETSC_FALSE));
-  PetscCall(LawsCopy(laws, IPFilteredOf(laws->tao)->start_c, IPFilteredOf(laws->tao)->start_values, contacts->u_start,
+  PetscCall(LawsCopy(laws, IPSubspaceOf(laws->tao)->start_c, IPSubspaceOf(laws->tao)->start_values, contacts->u_start,
     PETSC_FALSE));
-  PetscCall(LawsCopy(laws, IPFilteredOf(laws->tao)->start_force, terms, contacts->f_start, PETSC_FALSE));
+  PetscCall(LawsCopy(laws, IPSubspaceOf(laws->tao)->start_force, terms, contacts->f_start, PETSC_FALSE));
   for (PetscInt i = 0; i < contacts->n; i++) {
     ContactsRemoveRigid(contacts, i, &contacts->u[3 * i]);
     ContactsRemoveRigid(contacts, i, &contacts->f[3 * i]);
@@ -137,7 +137,7 @@ static PetscErrorCode LawsBegin(IPLaws laws, Vec g, Vec c, Vec values, Vec force
     if (contacts->law[i] == CONTACT_SMOOTH) contacts->f[3 * i + 1] = contacts->f[3 * i + 2] = 0.0;
   }
   PetscCall(ContactIterationBegin(contacts, SubspaceBodiesInterface(laws->bodies),
-    (PetscBool)!IPFilteredOf(laws->tao)->newton, &laws->iteration));
+    (PetscBool)!IPSubspaceOf(laws->tao)->newton, &laws->iteration));
   PetscFunctionReturn(0);
 }
 

@@ -5,7 +5,7 @@
    steps, since it knows which contacts are open, stick and slip.
 */
 #include "frictionimpl.h"
-#include "tao_ipfilter/measure/measureimpl.h"
+#include "tao_ipfilter/residuals/residualsimpl.h"
 
 /*
    Returns the largest tangential force of a closed contact at its present normal force. A limit alone does not

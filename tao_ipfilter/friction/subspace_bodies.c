@@ -1,5 +1,5 @@
 /*
-   Bodies with the equations K x + g = R^T f, whose systems with A = K + R^T D R are solved in a filtered subspace: the
+   Bodies with the equations K x + g = R^T f, whose systems with A = K + R^T D R are solved in a subspace: the
    unknowns W that contacts touch, and the directions P, which are zero on W. With x = w + P y and Q = K_WP
      [A_WW Q; Q^T P^T K P] (dw, dy) = (R^T s - r)
    is solved by a factorization of A_WW and a dense Schur complement. The residual that is left is zero on W. A
@@ -589,7 +589,7 @@ static PetscErrorCode BodiesMakeRoom(SubspaceBodies b, Vec left)
   for (PetscInt j = 0; j < basis->n; j++)
     for (PetscInt i = 0; i < basis->n; i++)
       E[i + j * max] = basis->gram[i + j * max] - 0.5 * (b->S[i + j * max] + b->S[j + i * max]);
-  PetscCall(IPFilteredCompress(b->tao, basis, E));
+  PetscCall(IPSubspaceCompress(b->tao, basis, E));
   PetscCall(PetscFree(E));
   PetscCall(VecCopy(b->dx, b->base));
   PetscCall(VecCopy(left, b->rhs));
@@ -604,11 +604,11 @@ static PetscErrorCode BodiesExtend(SubspaceBodies b, Vec left, PetscBool *added)
   Vec d;
 
   PetscFunctionBegin;
-  PetscCall(IPFilteredAllows(b->tao, added));
+  PetscCall(IPSubspaceAllows(b->tao, added));
   if (!*added) PetscFunctionReturn(0);
   if (b->recycle->basis.n == b->recycle->basis.max) PetscCall(BodiesMakeRoom(b, left));
   PetscCall(IPGetWork(b->tao, IP_UNKNOWNS, &d));
-  PetscCall(IPFilteredPrecondition(b->tao, b->recycle, left, d, added));
+  PetscCall(IPSubspacePrecondition(b->tao, b->recycle, left, d, added));
   PetscCall(VecISSet(d, b->W, 0.0));
   PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, b->tao, d, NULL, NULL));
   if (*added) PetscCall(IPBasisAppend(&b->recycle->basis, b->K, d, added));
@@ -637,14 +637,14 @@ static PetscErrorCode BodiesAreSlow(SubspaceBodies b, PetscInt nadded, PetscBool
 /* Extends W to all unknowns, in this solve and in later ones, and factors the matrix again */
 static PetscErrorCode BodiesWiden(SubspaceBodies b, PetscBool *prepared)
 {
-  IPFiltered *f = IPFilteredOf(b->tao);
+  IPSubspace *f = IPSubspaceOf(b->tao);
   PetscInt    n;
   PetscReal  *D;
 
   PetscFunctionBegin;
   PetscCall(PetscInfo(b->tao, "W is extended to all unknowns, since directions are slow\n"));
   PetscCall(VecGetLocalSize(b->rows, &n));
-  PetscCall(IPFilteredTakeAll(b->tao));
+  PetscCall(IPSubspaceTakeAll(b->tao));
   b->recycle->whole = PETSC_TRUE;
   PetscCall(IPBasisDropOldest(&b->recycle->basis, b->recycle->basis.n));
   PetscCall(IPBasisUpdate(&b->recycle->basis, b->K, PETSC_FALSE, ((TAO_IPFILTER *)b->tao->data)->fixed, f->W));
@@ -771,7 +771,7 @@ static PetscErrorCode BodiesMakeRoomNormal(SubspaceBodies b, const PetscReal D[]
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(basis->max * basis->max, &E));
   PetscCall(IPReducedCoupling(&b->normal, basis, E));
-  PetscCall(IPFilteredCompress(b->tao, basis, E));
+  PetscCall(IPSubspaceCompress(b->tao, basis, E));
   PetscCall(PetscFree(E));
   PetscCall(IPReducedForget(&b->normal, basis));
   PetscCall(VecGetLocalSize(gaps, &n));

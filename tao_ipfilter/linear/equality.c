@@ -31,7 +31,7 @@ static PetscErrorCode EqualityFitsFilter(Tao tao, PetscBool *fits)
   PetscCall(VecGetSize(tao->solution, &n));
   *fits = (PetscBool)(*fits && !ip->opt->direct_always && n >= many);
   if (!*fits) PetscFunctionReturn(0);
-  PetscCall(IPSubspaceOf(ip->jac->equality, &touched));
+  PetscCall(IPConstrainedOf(ip->jac->equality, &touched));
   PetscCall(ISGetSize(touched, &ntouched));
   PetscCall(ISDestroy(&touched));
   *fits = (PetscBool)(ntouched <= fraction * n);

@@ -47,7 +47,7 @@ static PetscErrorCode SwitchFilterOn(Tao tao, PetscBool *done)
 
   PetscFunctionBegin;
   PetscCall(GetAMGF(tao, &pc));
-  *done = (PetscBool)(pc && ip->cond->filter && !ip->lin->filtered);
+  *done = (PetscBool)(pc && ip->cond->constrained && !ip->lin->filtered);
   if (!*done) PetscFunctionReturn(0);
   PetscCall(PCAMGFSetFilterActive(pc, PETSC_TRUE));
   ip->lin->filter_forced = ip->lin->filtered = PETSC_TRUE;
@@ -71,9 +71,9 @@ static PetscErrorCode EnlargeFilter(Tao tao, PetscBool *done)
   PetscFunctionBegin;
   PetscCall(GetAMGF(tao, &pc));
   *done = PETSC_FALSE;
-  if (!pc || !ip->cond->filter || !ip->lin->filtered) PetscFunctionReturn(0);
-  PetscCall(IPSubspaceGrow(tao, ip->cond->A, ip->cond->filter, &wide));
-  PetscCall(ISGetSize(ip->cond->filter, &before));
+  if (!pc || !ip->cond->constrained || !ip->lin->filtered) PetscFunctionReturn(0);
+  PetscCall(IPConstrainedGrow(tao, ip->cond->A, ip->cond->constrained, &wide));
+  PetscCall(ISGetSize(ip->cond->constrained, &before));
   PetscCall(ISGetSize(wide, &after));
   PetscCall(VecGetSize(tao->solution, &n));
   *done = (PetscBool)(after > before && after <= fraction * n);

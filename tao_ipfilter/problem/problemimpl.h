@@ -18,7 +18,7 @@ PETSC_INTERN PetscErrorCode IPRestoreWork(Tao, IPSpace, Vec *);
 PETSC_INTERN PetscErrorCode IPWorkTrim(IPWork *);
 PETSC_INTERN PetscErrorCode IPWorkDestroy(IPWork *);
 
-/* given.c */
+/* layouts.c */
 PETSC_INTERN PetscErrorCode IPGivenCheck(Tao);
 
 /* pairs.c */
@@ -68,7 +68,7 @@ PETSC_INTERN PetscErrorCode IPBoundsAddForces(Tao, Vec);
 PETSC_INTERN PetscErrorCode IPBoundsCenter(Tao);
 PETSC_INTERN PetscErrorCode IPBoundsMultipliers(Tao, Vec, Vec);
 
-/* sides.c */
+/* constraint_bounds.c */
 PETSC_INTERN PetscErrorCode IPSidesSetUp(Tao);
 PETSC_INTERN PetscErrorCode IPSidesSetUpPairs(Tao);
 PETSC_INTERN PetscErrorCode IPSidesUpdateWidth(Tao);

@@ -28,11 +28,11 @@ struct _n_IPCondensed {
   PetscObjectState H_state, H_nonzero; /* states of that H: values; nonzero pattern */
   PetscObjectId    J_id;               /* object id of the Jacobian from which the pattern of J^T D J was computed */
   PetscObjectState J_nonzero;          /* state of its nonzero pattern */
-  PetscObjectId    filter_id;          /* object id of the Jacobian from which the filter was computed */
-  PetscObjectState filter_state;       /* state of its values */
+  PetscObjectId    constrained_id;     /* object id of the Jacobian from which `constrained` was computed */
+  PetscObjectState constrained_state;  /* state of its values */
   PetscInt         ntouched;           /* number of local rows with entries of J^T D J, and these rows */
   PetscInt        *touched;
-  IS               filter; /* filtered unknowns, which are attached to A with the key PCAMGF_FILTER_KEY */
+  IS constrained; /* unknowns that constraints touch, which are attached to A with the key PCAMGF_FILTER_KEY */
 };
 
 #endif

@@ -13,7 +13,7 @@ struct _n_IPKKT {
                                               to the allowed error */
   PetscReal work_dual;                     /* contribution of the stationarity residual to `work` */
   PetscReal bound;                         /* the same bound, in the unit of the objective */
-  PetscReal own;       /* largest violation relative to the terms of its own constraint (own.c); computed only near
+  PetscReal own; /* largest violation relative to the terms of its own constraint (row_violation.c); computed only near
                           convergence */
   PetscReal violation; /* violation of the constraints, without their slacks, relative to its first size */
   PetscReal unscaled;  /* largest absolute value of all residuals for mu = 0 */

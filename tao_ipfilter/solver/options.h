@@ -10,7 +10,7 @@ typedef enum { IP_FORCING_ADAPTIVE, IP_FORCING_FIXED } IPForcing;
 typedef enum { IP_SCALING_PROBLEM, IP_SCALING_GRADIENT, IP_SCALING_NONE } IPScaling;
 typedef enum { IP_EQUALITY_AUTO, IP_EQUALITY_AUGMENTED, IP_EQUALITY_CONDENSED } IPEqualityMethod;
 
-typedef enum { IP_SUBSPACE_FALSE, IP_SUBSPACE_TRUE, IP_SUBSPACE_AUTO } IPSubspaceUse;
+typedef enum { IP_SUBSPACE_FALSE, IP_SUBSPACE_TRUE, IP_SUBSPACE_AUTO } IPConstrainedUse;
 
 /* Parameters that the user may set. opts.c has the options of the same names. */
 struct _n_IPOptions {
@@ -27,7 +27,7 @@ struct _n_IPOptions {
                                                                     the chosen scaling */
   PetscReal        direct_memory;
   PetscBool        direct_always;
-  IPSubspaceUse    subspace;
+  IPConstrainedUse subspace;
   PetscInt         subspace_max;
   IPEqualityMethod equality;
   PetscReal        proximal;

@@ -26,14 +26,14 @@ struct _n_IPRecord {
   PetscInt             nidle;                  /* convergence.c: number of consecutive steps that did not lower the
                                                   objective, but do not show that it cannot fall */
   PetscInt             nacceptable;            /* number of consecutive acceptable iterates */
-  PetscInt             napplications;     /* filtered subspace method: number of applications of the preconditioner */
-  PetscInt             nreduced, npivots; /* filtered subspace method: number of reduced problems; number of active
+  PetscInt             napplications;          /* subspace method: number of applications of the preconditioner */
+  PetscInt             nreduced, npivots;      /* subspace method: number of reduced problems; number of active
                                              sets tried in them */
-  PetscInt             ndirections;       /* filtered subspace method: number of iterations that added a direction,
+  PetscInt             ndirections;            /* subspace method: number of iterations that added a direction,
                                              without Newton steps */
-  PetscReal            best_error;        /* KKT error of the best iterate */
-  PetscReal            best_violation;    /* constraint violation of the best iterate */
-  PetscBool            best_falls;        /* `falls` of the best iterate */
+  PetscReal            best_error;             /* KKT error of the best iterate */
+  PetscReal            best_violation;         /* constraint violation of the best iterate */
+  PetscBool            best_falls;             /* `falls` of the best iterate */
   char                 reason[256];
 };
 

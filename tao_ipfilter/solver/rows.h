@@ -3,7 +3,7 @@
 
 #include "tao_ipfilter/solver/solverimpl.h"
 
-/* sides.c: kinds of the rows of c_I, by the bounds of TaoSetInequalityBounds() */
+/* constraint_bounds.c: kinds of the rows of c_I, by the bounds of TaoSetInequalityBounds() */
 struct _n_IPSides {
   Vec       sign;         /* per row: +1; -1: only an upper bound; 0: the row is no inequality. NULL: all rows have
                              +1. */

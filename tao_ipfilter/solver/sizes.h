@@ -9,7 +9,7 @@ struct _n_IPFirst {
   PetscReal unit;             /* scale of the objective for scaling by gradients; otherwise 1 */
   PetscReal length, equality; /* size of c_I, without rows out of reach; size of c_E */
   PetscReal x;
-  PetscReal reach;             /* expected change of the unknowns during the solve (reach.c); 0: unknown */
+  PetscReal reach;             /* expected change of the unknowns during the solve (far_rows.c); 0: unknown */
   PetscReal jacobian;          /* largest row sum of |J| */
   PetscReal equality_jacobian; /* largest row sum of |J_E| */
   PetscReal energy;            /* sum of the magnitudes of the objective's terms */

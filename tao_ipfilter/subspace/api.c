@@ -1,4 +1,4 @@
-/* Public functions of the filtered subspace method */
+/* Public functions of the subspace method */
 #include "subspaceimpl.h"
 #include "pc_amgf/functions.h"
 #include "tao_ipfilter/solver/options.h"
@@ -9,7 +9,7 @@ static PetscErrorCode TaoIPFilterGetSubspace_IPFilter(Tao tao, PetscContainer *s
 
   PetscFunctionBegin;
   PetscCall(IPRecycleGet(tao, &recycle));
-  *space = IPFilteredOf(tao)->recycle;
+  *space = IPSubspaceOf(tao)->recycle;
   PetscFunctionReturn(0);
 }
 
@@ -29,7 +29,7 @@ static PetscErrorCode RecycleOf(PetscContainer space, IPRecycle **recycle)
 */
 static PetscErrorCode TaoIPFilterSetSubspace_IPFilter(Tao tao, PetscContainer space)
 {
-  IPFiltered *f = IPFilteredOf(tao);
+  IPSubspace *f = IPSubspaceOf(tao);
   IPRecycle  *recycle;
   const char *own, *theirs;
   PC          pc;
@@ -88,7 +88,7 @@ PetscErrorCode IPSubspaceCompose(Tao tao, PetscBool attach)
 }
 
 /*@C
-  TaoIPFilterSetSubspace - Sets the preconditioner and the directions of the filtered subspace method to those of
+  TaoIPFilterSetSubspace - Sets the preconditioner and the directions of the subspace method to those of
   another solver
 
   Logically Collective
@@ -120,7 +120,7 @@ PetscErrorCode TaoIPFilterSetSubspace(Tao tao, PetscContainer space)
 }
 
 /*@C
-  TaoIPFilterGetSubspace - Gets the preconditioner and the directions that the filtered subspace method reuses in later
+  TaoIPFilterGetSubspace - Gets the preconditioner and the directions that the subspace method reuses in later
   solves
 
   Collective
@@ -132,7 +132,7 @@ PetscErrorCode TaoIPFilterSetSubspace(Tao tao, PetscContainer space)
 . space - preconditioner and directions, owned by `tao`; call `PetscObjectReference()` if it must outlive the solver
 
   Options Database Keys:
-+ -tao_ipfilter_subspace <auto> (false,true,auto) - use the filtered subspace method instead of the interior point
++ -tao_ipfilter_subspace <auto> (false,true,auto) - use the subspace method instead of the interior point
                                                     method
 - -tao_ipfilter_subspace_max <0>                   - largest number of directions, which are stored in single precision;
                                                      0: 80, or 48 if the objective is not quadratic
@@ -162,7 +162,7 @@ PetscErrorCode TaoIPFilterGetSubspace(Tao tao, PetscContainer *space)
   Level: advanced
 
   Notes:
-  Multigrid converges slowly for such motions. The filtered subspace method adds them to its search space, unless its
+  Multigrid converges slowly for such motions. The subspace method adds them to its search space, unless its
   preconditioner is a factorization or the objective is not quadratic. The other methods ignore them.
 
   Each motion takes a product with the Hessian and as much memory as a direction.
@@ -226,7 +226,7 @@ static PetscErrorCode RecycleForceLeft(const IPRecycle *recycle, Mat K, Vec v, V
 
 /*@C
   TaoIPFilterSolveActive - Solves a system with the Hessian and the active constraints of the last solution, by the
-  filtered subspace method
+  subspace method
 
   Collective
 
@@ -242,7 +242,7 @@ static PetscErrorCode RecycleForceLeft(const IPRecycle *recycle, Mat K, Vec v, V
 + x      - solution of H x - J^T lambda = f, J_A x = c_A on the subspace
 . lambda - multipliers; zero in constraints that are not active
 . n      - number of applications of the preconditioner
-- solved - `PETSC_FALSE`: no constraint is active, or the last solve did not end with the filtered subspace method; x
+- solved - `PETSC_FALSE`: no constraint is active, or the last solve did not end with the subspace method; x
            and lambda are not set
 
   Level: developer

@@ -1,5 +1,5 @@
 /*
-   The directions P of the filtered subspace, which later solves reuse. They are zero on the constraints' unknowns W.
+   The directions P of the subspace, which later solves reuse. They are zero on the constraints' unknowns W.
    Directions are stored in single precision. The Gram matrix P^T K P and the rows W of K P are computed in double
    precision from the rounded directions. The reduced problem is therefore exact for the rounded directions.
 

@@ -139,7 +139,7 @@ PetscErrorCode IPReducedBroadcast(const IPReduced *r, PetscErrorCode error, Pets
   PetscCallMPI(MPI_Bcast(said, 2, MPI_INT, 0, PetscObjectComm((PetscObject)r->on_W)));
   PetscCall(error);
   PetscCheck(!said[0], PETSC_COMM_SELF, (PetscErrorCode)said[0],
-    "The reduced problem of the filtered subspace failed on the first rank, with error %d", said[0]);
+    "The reduced problem of the subspace failed on the first rank, with error %d", said[0]);
   *verdict = (PetscBool)said[1];
   PetscFunctionReturn(0);
 }

@@ -1,5 +1,5 @@
 /*
-   The filtered subspace method for min f(x), c_I(x) >= 0 with quadratic f, linear c_I, and constraints that involve few
+   The subspace method for min f(x), c_I(x) >= 0 with quadratic f, linear c_I, and constraints that involve few
    unknowns W. The search space is V = span{e_i : i in W} + span(P). One iteration:
      1. Solve the contact problem exactly in V (reduced.c).
      2. Compute the residual r = J^T lambda - grad f from the caller's gradient. It is zero on W.
@@ -24,7 +24,7 @@
    Finds whether the Krylov method's preconditioner can be one for K alone: PCAMGF, whose filter is switched off (*amg),
    or a factorization, which is computed once for all solves (*factored)
 */
-static PetscErrorCode FilteredIsServed(Tao tao, PetscBool *amg, PetscBool *factored)
+static PetscErrorCode SubspaceIsServed(Tao tao, PetscBool *amg, PetscBool *factored)
 {
   PC pc;
 
@@ -39,11 +39,11 @@ static PetscErrorCode FilteredIsServed(Tao tao, PetscBool *amg, PetscBool *facto
    Finds whether the method may be used for this problem. With -tao_ipfilter_subspace auto it is used only if the
    problem certainly has the required form and no option concerns Newton systems, e.g. a tolerance of the Krylov method.
 */
-static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
+static PetscErrorCode SubspaceApplies(Tao tao, PetscBool *applies)
 {
   TAO_IPFILTER    *ip  = (TAO_IPFILTER *)tao->data;
   const IPOptions *opt = ip->opt;
-  IPFiltered      *f   = IPFilteredOf(tao);
+  IPSubspace      *f   = IPSubspaceOf(tao);
   PetscBool        amg, factored;
 
   PetscFunctionBegin;
@@ -52,7 +52,7 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
     (PetscBool)((opt->subspace != IP_SUBSPACE_FALSE || ip->terms->n) && ip->mi && !ip->me && !ip->pair[IP_CEILING].n &&
                 !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->qn->B && !ip->hess->products);
   if (!*applies || opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n) PetscFunctionReturn(0);
-  PetscCall(FilteredIsServed(tao, &amg, &factored));
+  PetscCall(SubspaceIsServed(tao, &amg, &factored));
   *applies = (PetscBool)(factored || (amg && opt->forcing == IP_FORCING_ADAPTIVE));
   if (!ip->method->linear || opt->direct_always || opt->measure != IP_KKT_RELATIVE || opt->start != IP_START_WARM)
     *applies = PETSC_FALSE;
@@ -60,7 +60,7 @@ static PetscErrorCode FilteredApplies(Tao tao, PetscBool *applies)
 }
 
 /* Adds the neighbours of the unknowns `filter`, and the neighbours of these as well if W remains small */
-static PetscErrorCode FilteredAddNeighbours(Tao tao, IS filter, IS *W)
+static PetscErrorCode SubspaceAddNeighbours(Tao tao, IS filter, IS *W)
 {
   const Mat       K        = ((TAO_IPFILTER *)tao->data)->hess->H;
   const PetscReal fraction = 0.1;
@@ -68,8 +68,8 @@ static PetscErrorCode FilteredAddNeighbours(Tao tao, IS filter, IS *W)
   IS              more;
 
   PetscFunctionBegin;
-  PetscCall(IPSubspaceGrow(tao, K, filter, W));
-  PetscCall(IPSubspaceGrow(tao, K, *W, &more));
+  PetscCall(IPConstrainedGrow(tao, K, filter, W));
+  PetscCall(IPConstrainedGrow(tao, K, *W, &more));
   PetscCall(ISGetSize(more, &n));
   PetscCall(VecGetSize(tao->solution, &all));
   if (n > fraction * all) PetscCall(ISDestroy(&more));
@@ -85,10 +85,10 @@ static PetscErrorCode FilteredAddNeighbours(Tao tao, IS filter, IS *W)
    With the neighbours, W need not change when the contact area moves, and fewer directions are needed. They are left
    out in Newton's method, where K changes anyway, or if W would have more than `most` unknowns.
 */
-static PetscErrorCode FilteredChooseW(Tao tao, const IPRecycle *recycle, PetscInt most, IS *W)
+static PetscErrorCode SubspaceChooseW(Tao tao, const IPRecycle *recycle, PetscInt most, IS *W)
 {
   const TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
-  const IS            filter = ip->cond->filter, before = recycle->basis.W;
+  const IS            filter = ip->cond->constrained, before = recycle->basis.W;
   PetscBool           same = PETSC_FALSE;
   PetscInt            n    = 1;
   IS                  rest, all;
@@ -96,7 +96,7 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPRecycle *recycle, PetscIn
   PetscFunctionBegin;
   PetscCall(PetscObjectReference((PetscObject)filter));
   *W = filter;
-  if (IPFilteredOf(tao)->newton) PetscFunctionReturn(0);
+  if (IPSubspaceOf(tao)->newton) PetscFunctionReturn(0);
   if (before) PetscCall(IPRecycleIsOf(recycle, ip->hess->H, &same));
   if (same) {
     PetscCall(ISDifference(filter, before, &rest));
@@ -109,7 +109,7 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPRecycle *recycle, PetscIn
     *W = before;
     PetscFunctionReturn(0);
   }
-  PetscCall(FilteredAddNeighbours(tao, filter, W));
+  PetscCall(SubspaceAddNeighbours(tao, filter, W));
   if (same) {
     PetscCall(ISExpand(*W, before, &all));
     PetscCall(ISSort(all));
@@ -131,7 +131,7 @@ static PetscErrorCode FilteredChooseW(Tao tao, const IPRecycle *recycle, PetscIn
    unknowns are very few, directions were slow, or contacts stick, since the residual that directions leave would decide
    which contacts are held. most: whether constraints touch most unknowns
 */
-static PetscErrorCode FilteredTakesAll(Tao tao, const IPRecycle *recycle, PetscInt n, PetscBool most, PetscBool *all)
+static PetscErrorCode SubspaceTakesAll(Tao tao, const IPRecycle *recycle, PetscInt n, PetscBool most, PetscBool *all)
 {
   const IPTerms *terms   = ((TAO_IPFILTER *)tao->data)->terms;
   PetscReal      largest = 0.0;
@@ -147,7 +147,7 @@ static PetscErrorCode FilteredTakesAll(Tao tao, const IPRecycle *recycle, PetscI
    Sets W. *few: whether there are constraints, and they involve few unknowns or are few themselves. What is few is
    decided only with -tao_ipfilter_subspace auto and without norm terms.
 */
-static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
+static PetscErrorCode SubspaceTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal fraction = 0.5, rows = 0.25;
@@ -157,24 +157,24 @@ static PetscErrorCode FilteredTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
 
   PetscFunctionBegin;
   PetscCall(IPRowsTake(tao));
-  PetscCall(IPSubspaceUpdate(tao));
+  PetscCall(IPConstrainedUpdate(tao));
   PetscCall(VecGetSize(tao->solution, &n));
-  PetscCall(ISGetSize(ip->cond->filter, &touched));
+  PetscCall(ISGetSize(ip->cond->constrained, &touched));
   PetscCall(VecGetSize(ip->at.c, &m));
   *few = (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n || touched <= fraction * n ||
                                       (n <= IP_WHOLE && m <= rows * n)));
-  PetscCall(ISDestroy(&IPFilteredOf(tao)->W));
+  PetscCall(ISDestroy(&IPSubspaceOf(tao)->W));
   if (!*few) PetscFunctionReturn(0);
   most = (PetscInt)(fraction * n);
-  PetscCall(FilteredTakesAll(tao, recycle, n, (PetscBool)(touched > most), &all));
+  PetscCall(SubspaceTakesAll(tao, recycle, n, (PetscBool)(touched > most), &all));
   if (ip->terms->n) most = PetscMin(most, largest);
-  if (all) PetscCall(IPFilteredTakeAll(tao));
-  else PetscCall(FilteredChooseW(tao, recycle, most, &IPFilteredOf(tao)->W));
+  if (all) PetscCall(IPSubspaceTakeAll(tao));
+  else PetscCall(SubspaceChooseW(tao, recycle, most, &IPSubspaceOf(tao)->W));
   PetscFunctionReturn(0);
 }
 
 /* Evaluates objective, constraints and derivatives at tao->solution */
-static PetscErrorCode FilteredEvaluate(Tao tao)
+static PetscErrorCode SubspaceEvaluate(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   PetscBool     alone;
@@ -188,7 +188,7 @@ static PetscErrorCode FilteredEvaluate(Tao tao)
 }
 
 /* Estimates the rounding error of f at tao->solution, where f may be a difference of much larger terms */
-static PetscErrorCode FilteredRounding(Tao tao, PetscReal *rounding)
+static PetscErrorCode SubspaceRounding(Tao tao, PetscReal *rounding)
 {
   TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
   const PetscReal eps = 1e4 * PETSC_MACHINE_EPSILON;
@@ -208,7 +208,7 @@ static PetscErrorCode FilteredRounding(Tao tao, PetscReal *rounding)
    Estimates the rounding error of c_I, whose terms may be much larger than their sum. The error matters if the start is
    already the solution, since the values of all closed rows are then almost zero before and after a step.
 */
-static PetscErrorCode FilteredConstraintRounding(Tao tao, PetscReal *rounding)
+static PetscErrorCode SubspaceConstraintRounding(Tao tao, PetscReal *rounding)
 {
   const PetscReal eps = 1e3 * PETSC_MACHINE_EPSILON;
   PetscReal       row, size;
@@ -223,7 +223,7 @@ static PetscErrorCode FilteredConstraintRounding(Tao tao, PetscReal *rounding)
 /*
    Finds whether the problem is quadratic along v: f changes by 1/2 v^T (grad f + grad f at the centre), and c_I by J v
 */
-static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Vec c_centre, PetscBool *quadratic)
+static PetscErrorCode SubspaceIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Vec c_centre, PetscBool *quadratic)
 {
   TAO_IPFILTER   *ip        = (TAO_IPFILTER *)tao->data;
   const PetscReal tolerance = 1e-6;
@@ -232,9 +232,9 @@ static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Ve
   Vec             expected;
 
   PetscFunctionBegin;
-  PetscCall(VecDot(v, IPFilteredOf(tao)->gradient, &work[0]));
+  PetscCall(VecDot(v, IPSubspaceOf(tao)->gradient, &work[0]));
   PetscCall(VecDot(v, tao->gradient, &work[1]));
-  PetscCall(FilteredRounding(tao, &rounding));
+  PetscCall(SubspaceRounding(tao, &rounding));
   error      = PetscAbsReal(ip->at.f - f_centre - 0.5 * PetscRealPart(work[0] + work[1]));
   *quadratic = (PetscBool)(error <= tolerance * (PetscAbsScalar(work[0]) + PetscAbsScalar(work[1])) + rounding);
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &expected));
@@ -244,7 +244,7 @@ static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Ve
   PetscCall(VecAXPY(expected, -1.0, ip->at.c));
   PetscCall(VecNorm(expected, NORM_INFINITY, &error));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &expected));
-  PetscCall(FilteredConstraintRounding(tao, &rounding));
+  PetscCall(SubspaceConstraintRounding(tao, &rounding));
   *quadratic = (PetscBool)(*quadratic && error <= tolerance * (size[0] + size[1]) + rounding);
   PetscFunctionReturn(0);
 }
@@ -253,52 +253,52 @@ static PetscErrorCode FilteredIsQuadratic(Tao tao, Vec v, PetscReal f_centre, Ve
    Moves to x = centre + v and sets the multipliers to `force` / M. If the problem proves not to be quadratic, moves
    back; *moved is then false.
 */
-static PetscErrorCode FilteredMove(Tao tao, Vec v, Vec force, PetscBool *moved)
+static PetscErrorCode SubspaceMove(Tao tao, Vec v, Vec force, PetscBool *moved)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f  = IPFilteredOf(tao);
+  IPSubspace   *f  = IPSubspaceOf(tao);
   Vec           x;
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &x));
   PetscCall(VecCopy(tao->solution, x));
   PetscCall(VecWAXPY(tao->solution, 1.0, f->centre, v));
-  PetscCall(FilteredEvaluate(tao));
-  PetscCall(FilteredIsQuadratic(tao, v, f->f, f->c, moved));
+  PetscCall(SubspaceEvaluate(tao));
+  PetscCall(SubspaceIsQuadratic(tao, v, f->f, f->c, moved));
   if (*moved) {
-    PetscCall(IPFilteredSetPairs(tao, force));
+    PetscCall(IPSubspaceSetPairs(tao, force));
     PetscCall(VecAXPY(x, -1.0, tao->solution));
     PetscCall(VecNorm(x, NORM_INFINITY, &ip->dir.norm));
   } else {
     PetscCall(PetscInfo(tao, "The objective is not quadratic, or the constraints are not linear\n"));
     PetscCall(VecCopy(x, tao->solution));
-    PetscCall(FilteredEvaluate(tao));
+    PetscCall(SubspaceEvaluate(tao));
   }
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &x));
   PetscFunctionReturn(0);
 }
 
 /* Centres the reduced problem at the present point */
-static PetscErrorCode FilteredCentreHere(Tao tao, const IPBasis *basis)
+static PetscErrorCode SubspaceCentreHere(Tao tao, const IPBasis *basis)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  IPFilteredOf(tao)->f = ip->at.f;
-  PetscCall(IPFilteredCentre(tao, basis, tao->solution, tao->gradient, ip->at.c));
+  IPSubspaceOf(tao)->f = ip->at.f;
+  PetscCall(IPSubspaceCentre(tao, basis, tao->solution, tao->gradient, ip->at.c));
   PetscFunctionReturn(0);
 }
 
 /* Solves the reduced problem and moves to its solution */
-static PetscErrorCode FilteredSolveReduced(Tao tao, IPRecycle *recycle, PetscBool *solved)
+static PetscErrorCode SubspaceSolveReduced(Tao tao, IPRecycle *recycle, PetscBool *solved)
 {
   Vec v, force;
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-  PetscCall(IPFilteredSolve(tao, &recycle->basis, v, force, solved));
-  if (*solved) PetscCall(FilteredMove(tao, v, force, solved));
+  PetscCall(IPSubspaceSolve(tao, &recycle->basis, v, force, solved));
+  if (*solved) PetscCall(SubspaceMove(tao, v, force, solved));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &v));
   PetscFunctionReturn(0);
@@ -306,14 +306,14 @@ static PetscErrorCode FilteredSolveReduced(Tao tao, IPRecycle *recycle, PetscBoo
 
 /* Removes all directions except the given motions, and keeps the present point. New directions are then not limited by
    rounding errors of the others. */
-static PetscErrorCode FilteredRenew(Tao tao, IPRecycle *recycle)
+static PetscErrorCode SubspaceRenew(Tao tao, IPRecycle *recycle)
 {
   PetscFunctionBegin;
   PetscCall(PetscInfo(tao, "Directions were removed, since the residual depends on them up to rounding\n"));
   PetscCall(IPBasisDropOldest(&recycle->basis, recycle->basis.n));
   PetscCall(IPModesAppend(tao, recycle));
   PetscCall(IPReducedForget(&recycle->reduced, &recycle->basis));
-  PetscCall(FilteredCentreHere(tao, &recycle->basis));
+  PetscCall(SubspaceCentreHere(tao, &recycle->basis));
   PetscFunctionReturn(0);
 }
 
@@ -321,18 +321,18 @@ static PetscErrorCode FilteredRenew(Tao tao, IPRecycle *recycle)
    Adds a direction computed from the residual r. If the basis is full, it is compressed first. If the direction depends
    on the present ones, these are removed, at most once in a solve.
 */
-static PetscErrorCode FilteredAddDirection(Tao tao, IPRecycle *recycle, Vec r, PetscBool *added)
+static PetscErrorCode SubspaceAddDirection(Tao tao, IPRecycle *recycle, Vec r, PetscBool *added)
 {
   PetscFunctionBegin;
   if (recycle->basis.n == recycle->basis.max) {
-    PetscCall(IPFilteredMakeRoom(tao, &recycle->basis));
-    PetscCall(FilteredCentreHere(tao, &recycle->basis));
+    PetscCall(IPSubspaceMakeRoom(tao, &recycle->basis));
+    PetscCall(SubspaceCentreHere(tao, &recycle->basis));
   }
-  PetscCall(IPFilteredExtend(tao, recycle, r, added));
-  if (*added || !recycle->basis.n || IPFilteredOf(tao)->renewed) PetscFunctionReturn(0);
-  IPFilteredOf(tao)->renewed = PETSC_TRUE;
-  PetscCall(FilteredRenew(tao, recycle));
-  PetscCall(IPFilteredExtend(tao, recycle, r, added));
+  PetscCall(IPSubspaceExtend(tao, recycle, r, added));
+  if (*added || !recycle->basis.n || IPSubspaceOf(tao)->renewed) PetscFunctionReturn(0);
+  IPSubspaceOf(tao)->renewed = PETSC_TRUE;
+  PetscCall(SubspaceRenew(tao, recycle));
+  PetscCall(IPSubspaceExtend(tao, recycle, r, added));
   PetscFunctionReturn(0);
 }
 
@@ -342,10 +342,10 @@ static PetscErrorCode FilteredAddDirection(Tao tao, IPRecycle *recycle, Vec r, P
    not quadratic. Violations that remain after the problem was centred again are ignored: a body that rests on a rigid
    one does not move before there are directions, so that its violations have no scale.
 */
-static PetscErrorCode FilteredResidual(Tao tao, const IPBasis *basis, Vec r, PetscBool *exact)
+static PetscErrorCode SubspaceResidual(Tao tao, const IPBasis *basis, Vec r, PetscBool *exact)
 {
   TAO_IPFILTER     *ip       = (TAO_IPFILTER *)tao->data;
-  const IPFiltered *f        = IPFilteredOf(tao);
+  const IPSubspace *f        = IPSubspaceOf(tao);
   const PetscInt    for_long = 8;
   PetscReal         all, off;
 
@@ -365,10 +365,10 @@ static PetscErrorCode FilteredResidual(Tao tao, const IPBasis *basis, Vec r, Pet
    Makes one iteration: adds a direction and solves the reduced problem. If the last reduced problem was not solved
    exactly, it is solved again from the present point without a new direction. *done: false if no progress is possible.
 */
-static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
+static PetscErrorCode SubspaceStep(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
-  IPFiltered    *f        = IPFilteredOf(tao);
+  IPSubspace    *f        = IPSubspaceOf(tao);
   const PetscInt in_a_row = 3, patience = 60;
   PetscBool      exact = PETSC_TRUE;
   IPRecycle     *recycle;
@@ -377,17 +377,17 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
   PetscFunctionBegin;
   tao->ksp_its         = 0;
   ip->rec->nacceptable = ip->rec->ntiny = 0; /* many small steps are normal for this method */
-  PetscCall(IPFilteredAllows(tao, done));
-  *done = (PetscBool)(IPFilteredProgresses(f, IPBothErrors(ip), patience) && *done);
+  PetscCall(IPSubspaceAllows(tao, done));
+  *done = (PetscBool)(IPSubspaceProgresses(f, IPBothErrors(ip), patience) && *done);
   PetscCall(IPRecycleGet(tao, &recycle));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
-  PetscCall(FilteredResidual(tao, &recycle->basis, r, &exact));
-  if (*done && exact) PetscCall(FilteredAddDirection(tao, recycle, r, done));
+  PetscCall(SubspaceResidual(tao, &recycle->basis, r, &exact));
+  if (*done && exact) PetscCall(SubspaceAddDirection(tao, recycle, r, done));
   f->ncentred = exact ? 0 : f->ncentred + 1;
   if (f->ncentred > in_a_row) *done = PETSC_FALSE;
-  if (*done && !exact) PetscCall(FilteredCentreHere(tao, &recycle->basis));
+  if (*done && !exact) PetscCall(SubspaceCentreHere(tao, &recycle->basis));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &r));
-  if (*done) PetscCall(FilteredSolveReduced(tao, recycle, done));
+  if (*done) PetscCall(SubspaceSolveReduced(tao, recycle, done));
   if (*done) {
     tao->niter++;
     ip->rec->ndirections++;
@@ -400,7 +400,7 @@ static PetscErrorCode FilteredStep(Tao tao, PetscBool *done)
    before the state of each contact is known: later solves would take a point inside the cones for one where all
    contacts are closed.
 */
-static PetscErrorCode FilteredStepTerms(Tao tao, PetscBool *done)
+static PetscErrorCode SubspaceStepTerms(Tao tao, PetscBool *done)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
   const PetscInt patience = 60;
@@ -412,11 +412,11 @@ static PetscErrorCode FilteredStepTerms(Tao tao, PetscBool *done)
   tao->ksp_its = 0;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-  PetscCall(IPFilteredStepLaws(tao, enough, v, force, &violation, done));
+  PetscCall(IPSubspaceStepLaws(tao, enough, v, force, &violation, done));
   if (violation == PETSC_INFINITY) ip->rec->nacceptable = ip->rec->ntiny = 0; /* the point did not move */
   else {
-    moved = IPFilteredProgresses(IPFilteredOf(tao), IPBothErrors(ip), patience);
-    if (moved) PetscCall(FilteredMove(tao, v, force, &moved));
+    moved = IPSubspaceProgresses(IPSubspaceOf(tao), IPBothErrors(ip), patience);
+    if (moved) PetscCall(SubspaceMove(tao, v, force, &moved));
   }
   *done = (PetscBool)(*done && moved);
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
@@ -429,10 +429,10 @@ static PetscErrorCode FilteredStepTerms(Tao tao, PetscBool *done)
    Computes the first point: for a quadratic program the solution of the first reduced problem, otherwise the start with
    its multipliers
 */
-static PetscErrorCode FilteredFirst(Tao tao, IPRecycle *recycle, PetscBool *found)
+static PetscErrorCode SubspaceFirst(Tao tao, IPRecycle *recycle, PetscBool *found)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f  = IPFilteredOf(tao);
+  IPSubspace   *f  = IPSubspaceOf(tao);
 
   PetscFunctionBegin;
   f->nfutile = f->ncentred = 0;
@@ -440,21 +440,21 @@ static PetscErrorCode FilteredFirst(Tao tao, IPRecycle *recycle, PetscBool *foun
   f->residual              = 0.0;
   ip->mu                   = 0.0;
   if (f->newton || ip->terms->n) PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
-  if (!f->newton && ip->terms->n) PetscCall(IPFilteredBeginLaws(tao));
+  if (!f->newton && ip->terms->n) PetscCall(IPSubspaceBeginLaws(tao));
   else if (!f->newton) {
-    PetscCall(FilteredCentreHere(tao, &recycle->basis));
-    PetscCall(FilteredSolveReduced(tao, recycle, found));
+    PetscCall(SubspaceCentreHere(tao, &recycle->basis));
+    PetscCall(SubspaceSolveReduced(tao, recycle, found));
   }
   PetscFunctionReturn(0);
 }
 
 /* Destroys the data that later solves would reuse */
-static PetscErrorCode FilteredForget(Tao tao)
+static PetscErrorCode SubspaceForget(Tao tao)
 {
   IPRecycle *recycle;
 
   PetscFunctionBegin;
-  if (!IPFilteredOf(tao)->recycle) PetscFunctionReturn(0);
+  if (!IPSubspaceOf(tao)->recycle) PetscFunctionReturn(0);
   PetscCall(IPRecycleGet(tao, &recycle));
   PetscCall(IPRecycleReset(recycle));
   PetscFunctionReturn(0);
@@ -464,29 +464,29 @@ static PetscErrorCode FilteredForget(Tao tao)
    Begins the method if the constraints involve few unknowns. Newton's method also begins where the Hessian is
    indefinite; its first step then shifts the Hessian.
 */
-static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
+static PetscErrorCode SubspaceBegin(Tao tao, PetscBool *begun)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f  = IPFilteredOf(tao);
+  IPSubspace   *f  = IPSubspaceOf(tao);
   IPRecycle    *recycle;
 
   PetscFunctionBegin;
   f->renewed = PETSC_FALSE;
   PetscCall(IPRecycleGet(tao, &recycle));
-  PetscCall(FilteredTakeW(tao, recycle, begun));
+  PetscCall(SubspaceTakeW(tao, recycle, begun));
   if (!*begun) {
-    PetscCall(FilteredForget(tao));
+    PetscCall(SubspaceForget(tao));
     PetscFunctionReturn(0);
   }
   PetscCall(IPRecycleUpdate(tao, recycle, begun));
-  if (*begun) PetscCall(IPFilteredSetUp(tao, recycle, &f->ready));
+  if (*begun) PetscCall(IPSubspaceSetUp(tao, recycle, &f->ready));
   *begun = (PetscBool)(*begun && (f->ready || f->newton));
-  if (*begun) PetscCall(FilteredFirst(tao, recycle, begun));
+  if (*begun) PetscCall(SubspaceFirst(tao, recycle, begun));
   ip->method->multipliers = (PetscBool)!f->newton;
   if (*begun) PetscCall(IPKrylovRecord(tao, 0));
   else {
     PetscCall(IPRecycleReset(recycle));
-    PetscCall(IPFilteredDestroy(f));
+    PetscCall(IPSubspaceDestroy(f));
     ip->rec->fallbacks.subspaces++;
   }
   PetscFunctionReturn(0);
@@ -496,7 +496,7 @@ static PetscErrorCode FilteredBegin(Tao tao, PetscBool *begun)
    Ends the method, at the end of a solve or if it makes no progress. Directions remain for later solves. Without norm
    terms the constraints remain as well, for TaoIPFilterSolveActive().
 */
-static PetscErrorCode FilteredEnd(Tao tao)
+static PetscErrorCode SubspaceEnd(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   IPRecycle    *recycle;
@@ -506,24 +506,24 @@ static PetscErrorCode FilteredEnd(Tao tao)
     PetscCall(IPRecycleGet(tao, &recycle));
     if (!ip->terms->n) PetscCall(IPReducedScale(&recycle->reduced, ip->rows->inequality));
   }
-  PetscCall(IPFilteredDestroy(IPFilteredOf(tao)));
+  PetscCall(IPSubspaceDestroy(IPSubspaceOf(tao)));
   PetscFunctionReturn(0);
 }
 
 /* Takes one step: a Newton step if the objective is not quadratic, otherwise one iteration */
-static PetscErrorCode FilteredStepOfKind(Tao tao, PetscBool *done)
+static PetscErrorCode SubspaceStepOfKind(Tao tao, PetscBool *done)
 {
   PetscFunctionBegin;
-  if (IPFilteredOf(tao)->newton) PetscCall(IPNewtonSubspaceStep(tao, done));
-  else if (((TAO_IPFILTER *)tao->data)->terms->n) PetscCall(FilteredStepTerms(tao, done));
-  else PetscCall(FilteredStep(tao, done));
+  if (IPSubspaceOf(tao)->newton) PetscCall(IPNewtonSubspaceStep(tao, done));
+  else if (((TAO_IPFILTER *)tao->data)->terms->n) PetscCall(SubspaceStepTerms(tao, done));
+  else PetscCall(SubspaceStep(tao, done));
   if (*done) ((TAO_IPFILTER *)tao->data)->method->multipliers = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode FilteredCreateData(Tao tao)
+static PetscErrorCode SubspaceCreateData(Tao tao)
 {
-  IPFiltered *f;
+  IPSubspace *f;
 
   PetscFunctionBegin;
   PetscCall(PetscNew(&f));
@@ -531,24 +531,24 @@ static PetscErrorCode FilteredCreateData(Tao tao)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode FilteredDestroyData(Tao tao)
+static PetscErrorCode SubspaceDestroyData(Tao tao)
 {
   PetscFunctionBegin;
-  PetscCall(IPFilteredDestroy(IPFilteredOf(tao)));
-  PetscCall(PetscContainerDestroy(&IPFilteredOf(tao)->recycle));
+  PetscCall(IPSubspaceDestroy(IPSubspaceOf(tao)));
+  PetscCall(PetscContainerDestroy(&IPSubspaceOf(tao)->recycle));
   PetscCall(PetscFree(((TAO_IPFILTER *)tao->data)->method->data));
   PetscFunctionReturn(0);
 }
 
 const IPMethodOps IPMethodSubspace = {
-  .name    = "filtered subspace",
-  .create  = FilteredCreateData,
+  .name    = "subspace",
+  .create  = SubspaceCreateData,
   .compose = IPSubspaceCompose,
-  .applies = FilteredApplies,
-  .begin   = FilteredBegin,
-  .step    = FilteredStepOfKind,
-  .end     = FilteredEnd,
-  .forget  = FilteredForget,
-  .monitor = IPFilteredMonitor,
-  .destroy = FilteredDestroyData,
+  .applies = SubspaceApplies,
+  .begin   = SubspaceBegin,
+  .step    = SubspaceStepOfKind,
+  .end     = SubspaceEnd,
+  .forget  = SubspaceForget,
+  .monitor = IPSubspaceMonitor,
+  .destroy = SubspaceDestroyData,
 };

@@ -9,7 +9,7 @@
 /* Gets the motions that the search space should contain; NULL: none */
 static Mat ModesGet(Tao tao)
 {
-  return IPFilteredOf(tao)->newton ? NULL : ((TAO_IPFILTER *)tao->data)->given->modes;
+  return IPSubspaceOf(tao)->newton ? NULL : ((TAO_IPFILTER *)tao->data)->given->modes;
 }
 
 PetscErrorCode IPModesGetNumber(Tao tao, PetscInt *n)

@@ -1,14 +1,14 @@
-/* Prints one line per iteration of the filtered subspace method */
+/* Prints one line per iteration of the subspace method */
 #include "subspaceimpl.h"
 #include "tao_ipfilter/solver/kkt.h"
 #include "tao_ipfilter/solver/record.h"
 
 /* Prints a line per reduced problem: iteration, objective, infeasibilities, ||d||, applications of the preconditioner
    so far, directions, active sets tried, active constraints. Newton's method prints the columns of the driver. */
-PetscErrorCode IPFilteredMonitor(Tao tao, PetscBool *monitored)
+PetscErrorCode IPSubspaceMonitor(Tao tao, PetscBool *monitored)
 {
   TAO_IPFILTER     *ip   = (TAO_IPFILTER *)tao->data;
-  const IPFiltered *f    = IPFilteredOf(tao);
+  const IPSubspace *f    = IPSubspaceOf(tao);
   MPI_Comm          comm = PetscObjectComm((PetscObject)tao);
   IPRecycle        *recycle;
 

@@ -1,5 +1,5 @@
 /*
-   Newton's method with the filtered subspace, for min f(x), c_I(x) >= 0 with linear c_I and an f that is not quadratic,
+   Newton's method with the subspace, for min f(x), c_I(x) >= 0 with linear c_I and an f that is not quadratic,
    such as the strain energy of bodies at finite strain. At each iterate the model
      min 1/2 d^T H d + grad f^T d,  c_I + J d >= 0
    is solved in V as in method.c, until its residual is a given fraction of that of the iterate.
@@ -31,7 +31,7 @@ static PetscErrorCode NewtonModelResidual(Tao tao, Vec d, Vec force, Vec r, Pets
   PetscCall(VecScale(r, -1.0));
   PetscCall(MatMultTransposeAdd(ip->jac->inequality, force, r, r));
   PetscCall(IPFixedZero(tao, r));
-  PetscCall(VecISSet(r, IPFilteredOf(tao)->W, 0.0));
+  PetscCall(VecISSet(r, IPSubspaceOf(tao)->W, 0.0));
   PetscCall(VecNorm(r, NORM_2, norm));
   PetscFunctionReturn(0);
 }
@@ -48,7 +48,7 @@ static PetscErrorCode NewtonCentreModel(Tao tao, const IPBasis *basis, Vec d)
   PetscCall(MatMultAdd(ip->hess->H, d, tao->gradient, gradient));
   PetscCall(IPFixedZero(tao, gradient));
   PetscCall(MatMultAdd(ip->jac->inequality, d, ip->at.c, c));
-  PetscCall(IPFilteredCentre(tao, basis, d, gradient, c));
+  PetscCall(IPSubspaceCentre(tao, basis, d, gradient, c));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &c));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &gradient));
   PetscFunctionReturn(0);
@@ -58,8 +58,8 @@ static PetscErrorCode NewtonCentreModel(Tao tao, const IPBasis *basis, Vec d)
 static PetscErrorCode NewtonMinimizeModel(Tao tao, IPRecycle *recycle, Vec d, Vec force, PetscBool *solved)
 {
   PetscFunctionBegin;
-  PetscCall(IPFilteredSolve(tao, &recycle->basis, d, force, solved));
-  if (*solved) PetscCall(VecAXPY(d, 1.0, IPFilteredOf(tao)->centre));
+  PetscCall(IPSubspaceSolve(tao, &recycle->basis, d, force, solved));
+  if (*solved) PetscCall(VecAXPY(d, 1.0, IPSubspaceOf(tao)->centre));
   PetscFunctionReturn(0);
 }
 
@@ -70,13 +70,13 @@ static PetscErrorCode NewtonMinimizeModel(Tao tao, IPRecycle *recycle, Vec d, Ve
 static PetscErrorCode NewtonAddDirection(Tao tao, IPRecycle *recycle, Vec d, Vec r, PetscBool *added)
 {
   PetscFunctionBegin;
-  PetscCall(IPFilteredAllows(tao, added));
+  PetscCall(IPSubspaceAllows(tao, added));
   if (!*added) PetscFunctionReturn(0);
   if (recycle->basis.n == recycle->basis.max) {
-    PetscCall(IPFilteredMakeRoom(tao, &recycle->basis));
+    PetscCall(IPSubspaceMakeRoom(tao, &recycle->basis));
     PetscCall(NewtonCentreModel(tao, &recycle->basis, d));
   }
-  PetscCall(IPFilteredExtend(tao, recycle, r, added));
+  PetscCall(IPSubspaceExtend(tao, recycle, r, added));
   PetscFunctionReturn(0);
 }
 
@@ -104,7 +104,7 @@ static PetscErrorCode NewtonSolveModel(Tao tao, IPRecycle *recycle, PetscReal ta
     PetscCall(NewtonAddDirection(tao, recycle, d, r, &added));
     *solved = (PetscBool)(added || norm <= enough);
   } while (added);
-  if (*solved) IPFilteredOf(tao)->promised = norm;
+  if (*solved) IPSubspaceOf(tao)->promised = norm;
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &r));
   PetscFunctionReturn(0);
 }
@@ -119,15 +119,15 @@ static PetscErrorCode NewtonSolveLaws(Tao tao, PetscReal target, Vec d, Vec forc
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
-  PetscCall(IPFilteredBeginLaws(tao));
+  PetscCall(IPSubspaceBeginLaws(tao));
   PetscCall(VecZeroEntries(d));
   PetscCall(VecZeroEntries(force));
   while (done && !(norm <= target && violation <= enough)) {
-    PetscCall(IPFilteredStepLaws(tao, 0.5 * target, d, force, &violation, &done));
+    PetscCall(IPSubspaceStepLaws(tao, 0.5 * target, d, force, &violation, &done));
     PetscCall(NewtonModelResidual(tao, d, force, r, &norm));
   }
   *solved                     = done;
-  IPFilteredOf(tao)->promised = norm;
+  IPSubspaceOf(tao)->promised = norm;
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &r));
   PetscFunctionReturn(0);
 }
@@ -327,7 +327,7 @@ static PetscErrorCode NewtonAccept(Tao tao, Vec d, Vec force)
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &old));
   if (ip->terms->n) PetscCall(VecAXPBY(ip->terms->force, 1.0 - ip->search->alpha, ip->search->alpha, ip->terms->last));
   PetscCall(IPIterateCopyPoint(&ip->trial, &ip->at));
-  PetscCall(IPFilteredSetPairs(tao, force));
+  PetscCall(IPSubspaceSetPairs(tao, force));
   PetscCall(VecNorm(d, NORM_INFINITY, &ip->dir.norm));
   ip->search->tag = 'f';
   PetscCall(IPEvaluateDerivatives(tao));
@@ -340,7 +340,7 @@ static PetscErrorCode NewtonAccept(Tao tao, Vec d, Vec force)
    metal begins to yield, the fraction is the relative error of that prediction (Eisenstat and Walker 1996). The
    tolerance is never smaller than convergence requires.
 */
-static PetscReal NewtonTarget(const TAO_IPFILTER *ip, const IPFiltered *f)
+static PetscReal NewtonTarget(const TAO_IPFILTER *ip, const IPSubspace *f)
 {
   const PetscReal largest = 0.1, smallest = 1e-3, loose = 0.3;
   const PetscReal alpha    = ip->search->alpha;
@@ -384,10 +384,10 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPRecycle *recycle, Vec d, Vec for
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
   const PetscInt  shifts = 6;
-  const PetscReal target = NewtonTarget(ip, IPFilteredOf(tao));
+  const PetscReal target = NewtonTarget(ip, IPSubspaceOf(tao));
 
   PetscFunctionBegin;
-  *found           = (PetscBool)(tao->niter || IPFilteredOf(tao)->ready);
+  *found           = (PetscBool)(tao->niter || IPSubspaceOf(tao)->ready);
   ip->shift->delta = 0.0;
   if (ip->terms->n) PetscCall(VecCopy(ip->terms->force, ip->terms->last));
   for (PetscInt k = 0; k <= shifts; k++) {
@@ -398,7 +398,7 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPRecycle *recycle, Vec d, Vec for
       if (k && ip->terms->n) PetscCall(VecCopy(ip->terms->last, ip->terms->force));
       PetscCall(NewtonEvaluateHessian(tao));
       PetscCall(IPRecycleUpdate(tao, recycle, &convex));
-      if (convex) PetscCall(IPFilteredSetUp(tao, recycle, &convex));
+      if (convex) PetscCall(IPSubspaceSetUp(tao, recycle, &convex));
     }
     if (convex && ip->terms->n) PetscCall(NewtonSolveLaws(tao, target, d, force, &convex));
     else if (convex) PetscCall(NewtonSolveModel(tao, recycle, target, d, force, &convex));
@@ -408,7 +408,7 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPRecycle *recycle, Vec d, Vec for
     if (downhill || !ip->terms->n) break;
   }
   if (*found) IPRegularized(ip);
-  if (*found) IPFilteredOf(tao)->residual = ip->kkt->dual_norm;
+  if (*found) IPSubspaceOf(tao)->residual = ip->kkt->dual_norm;
   PetscFunctionReturn(0);
 }
 
@@ -426,7 +426,7 @@ PetscErrorCode IPNewtonSubspaceStep(Tao tao, PetscBool *done)
   PetscCall(IPRecycleGet(tao, &recycle));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &d));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
-  *done = IPFilteredProgresses(IPFilteredOf(tao), IPBothErrors(ip), patience);
+  *done = IPSubspaceProgresses(IPSubspaceOf(tao), IPBothErrors(ip), patience);
   if (*done) PetscCall(NewtonFindStep(tao, recycle, d, force, done));
   if (*done) PetscCall(NewtonAccept(tao, d, force));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));

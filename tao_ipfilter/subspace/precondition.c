@@ -56,7 +56,7 @@ static PetscErrorCode PreconditionFindSingular(Tao tao, Vec d, PetscBool *singul
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Kd));
   *singular = (PetscBool) !(PetscRealPart(energy) > rounding * PetscRealPart(size));
   *negative = (PetscBool)(PetscRealPart(energy) < -rounding * PetscRealPart(size));
-  if (*negative && IPFilteredOf(tao)->newton && !ip->terms->n) *singular = PETSC_FALSE;
+  if (*negative && IPSubspaceOf(tao)->newton && !ip->terms->n) *singular = PETSC_FALSE;
   PetscFunctionReturn(0);
 }
 
@@ -118,7 +118,7 @@ static PetscErrorCode PreconditionMayImprove(Tao tao, const IPRecycle *recycle, 
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)recycle->pc, PCAMGF, &amgf));
   if (amgf) PetscCall(PCAMGFGetFactored(recycle->pc, &factored));
-  *may = (PetscBool)(!factored && !recycle->held && !IPFilteredOf(tao)->newton);
+  *may = (PetscBool)(!factored && !recycle->held && !IPSubspaceOf(tao)->newton);
   PetscFunctionReturn(0);
 }
 
@@ -127,7 +127,7 @@ static PetscErrorCode PreconditionMayImprove(Tao tao, const IPRecycle *recycle, 
    again with the constraints. This is checked once per solve, and whenever B fails. *definite: false if r^T B r is not
    positive.
 */
-PetscErrorCode IPFilteredPrecondition(Tao tao, IPRecycle *recycle, Vec r, Vec d, PetscBool *definite)
+PetscErrorCode IPSubspacePrecondition(Tao tao, IPRecycle *recycle, Vec r, Vec d, PetscBool *definite)
 {
   const PetscInt before   = ((TAO_IPFILTER *)tao->data)->rec->napplications;
   PetscBool      singular = PETSC_FALSE, negative = PETSC_FALSE, possible = PETSC_TRUE, improve = PETSC_FALSE;

@@ -1,5 +1,5 @@
 /*
-   Data of the filtered subspace method that later solves, of the same Tao or of another, reuse: the preconditioner of
+   Data of the subspace method that later solves, of the same Tao or of another, reuse: the preconditioner of
    the Hessian K, and the directions
 */
 #include "subspaceimpl.h"
@@ -39,7 +39,7 @@ static PetscErrorCode RecycleDestroy(void *argument)
 /* Gets the data of the Tao, and creates them at the first call */
 PetscErrorCode IPRecycleGet(Tao tao, IPRecycle **recycle)
 {
-  IPFiltered *f = IPFilteredOf(tao);
+  IPSubspace *f = IPSubspaceOf(tao);
 
   PetscFunctionBegin;
   if (!f->recycle) {
@@ -103,7 +103,7 @@ static PetscErrorCode RecycleSayChoice(Tao tao, PC pc)
 
   PetscFunctionBegin;
   PetscCall(PCAMGFGetFactored(pc, &factored));
-  if (!ip->opt->monitor || (IPFilteredOf(tao)->newton && (tao->niter || ip->shift->delta > 0.0)))
+  if (!ip->opt->monitor || (IPSubspaceOf(tao)->newton && (tao->niter || ip->shift->delta > 0.0)))
     PetscFunctionReturn(0);
   PetscCall(PetscPrintf(PetscObjectComm((PetscObject)tao), "Linear solver: %s\n",
     factored ? "direct (Cholesky)" : "CG with AMG"));
@@ -257,7 +257,7 @@ static PetscErrorCode RecycleGetRoom(Tao tao, PetscInt *room)
 
   PetscFunctionBegin;
   PetscCall(IPModesGetNumber(tao, &nmodes));
-  *room = nmodes + (given ? given : IPFilteredOf(tao)->newton ? newton : usual);
+  *room = nmodes + (given ? given : IPSubspaceOf(tao)->newton ? newton : usual);
   PetscFunctionReturn(0);
 }
 
@@ -321,7 +321,7 @@ PetscErrorCode IPRecycleUpdate(Tao tao, IPRecycle *recycle, PetscBool *possible)
   recycle->K_id    = ((PetscObject)K)->id;
   recycle->K_state = state;
   PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
-  PetscCall(IPBasisUpdate(&recycle->basis, K, (PetscBool)!same, ip->fixed, IPFilteredOf(tao)->W));
+  PetscCall(IPBasisUpdate(&recycle->basis, K, (PetscBool)!same, ip->fixed, IPSubspaceOf(tao)->W));
   PetscCall(IPModesAppend(tao, recycle));
   PetscCall(PetscLogEventEnd(TAO_IPFilterDirections, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);

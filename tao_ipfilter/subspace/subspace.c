@@ -12,7 +12,7 @@
 #include "tao_ipfilter/solver/stiffness.h"
 #include "tao_ipfilter/solver/terms.h"
 
-PetscErrorCode IPFilteredDestroy(IPFiltered *f)
+PetscErrorCode IPSubspaceDestroy(IPSubspace *f)
 {
   PetscFunctionBegin;
   if (f->laws) PetscCall(f->lawsops->destroy(&f->laws));
@@ -32,7 +32,7 @@ PetscErrorCode IPFilteredDestroy(IPFiltered *f)
 /*
    Sets the initial slacks and multipliers: those given by the caller, or those of a penalty as stiff as the objective
 */
-static PetscErrorCode FilteredStartPairs(Tao tao)
+static PetscErrorCode SubspaceStartPairs(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPPair       *slack = &ip->pair[IP_SLACK];
@@ -52,7 +52,7 @@ static PetscErrorCode FilteredStartPairs(Tao tao)
 }
 
 /* Chooses the initial active set: rows whose multiplier, divided by their stiffness, exceeds their slack */
-static PetscErrorCode FilteredGuess(Tao tao)
+static PetscErrorCode SubspaceGuess(Tao tao)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPPair       *slack = &ip->pair[IP_SLACK];
@@ -62,15 +62,15 @@ static PetscErrorCode FilteredGuess(Tao tao)
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &closer));
   PetscCall(VecPointwiseDivide(closer, slack->z, ip->stiff->rho));
   PetscCall(VecAXPY(closer, -1.0, slack->t));
-  PetscCall(IPReducedGuess(IPFilteredOf(tao)->reduced, closer));
+  PetscCall(IPReducedGuess(IPSubspaceOf(tao)->reduced, closer));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &closer));
   PetscFunctionReturn(0);
 }
 
 /* Centres the reduced problem at `centre`, with the gradient and the constraint values there, for all directions */
-PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec centre, Vec gradient, Vec c)
+PetscErrorCode IPSubspaceCentre(Tao tao, const IPBasis *basis, Vec centre, Vec gradient, Vec c)
 {
-  IPFiltered *f = IPFilteredOf(tao);
+  IPSubspace *f = IPSubspaceOf(tao);
 
   PetscFunctionBegin;
   PetscCall(VecCopy(centre, f->centre));
@@ -88,10 +88,10 @@ PetscErrorCode IPFilteredCentre(Tao tao, const IPBasis *basis, Vec centre, Vec g
    Keeps the state of constraints and norm terms at the begin of a solve. Contacts that stick move the offsets of terms;
    each model of Newton's method begins with those of the solve.
 */
-static PetscErrorCode FilteredKeepStart(Tao tao, Vec values, Vec force)
+static PetscErrorCode SubspaceKeepStart(Tao tao, Vec values, Vec force)
 {
   TAO_IPFILTER *ip     = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f      = IPFilteredOf(tao);
+  IPSubspace   *f      = IPSubspaceOf(tao);
   const Vec     now[]  = {ip->terms->t, ip->at.c, values, force};
   Vec *const    kept[] = {&f->start_t, &f->start_c, &f->start_values, &f->start_force};
 
@@ -104,10 +104,10 @@ static PetscErrorCode FilteredKeepStart(Tao tao, Vec values, Vec force)
 }
 
 /* Begins the laws of norm terms at the present point */
-PetscErrorCode IPFilteredBeginLaws(Tao tao)
+PetscErrorCode IPSubspaceBeginLaws(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f  = IPFilteredOf(tao);
+  IPSubspace   *f  = IPSubspaceOf(tao);
   Vec           values, force;
 
   PetscFunctionBegin;
@@ -120,7 +120,7 @@ PetscErrorCode IPFilteredBeginLaws(Tao tao)
   PetscCall(IPTermsValue(tao, tao->solution, values));
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &force));
   PetscCall(VecPointwiseMult(force, ip->pair[IP_SLACK].z, ip->pair[IP_SLACK].w));
-  if (!f->start_t) PetscCall(FilteredKeepStart(tao, values, force));
+  if (!f->start_t) PetscCall(SubspaceKeepStart(tao, values, force));
   PetscCall(ip->laws->begin(f->laws, f->gradient, f->c, values, force, ip->terms->force));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &force));
   PetscCall(VecDestroy(&values));
@@ -129,10 +129,10 @@ PetscErrorCode IPFilteredBeginLaws(Tao tao)
 
 /* Takes a step of the laws of norm terms. enough: residual [2-norm] that may be left; x: the point relative to the
    begin; force: forces of the constraints */
-PetscErrorCode IPFilteredStepLaws(Tao tao, PetscReal enough, Vec x, Vec force, PetscReal *violation, PetscBool *done)
+PetscErrorCode IPSubspaceStepLaws(Tao tao, PetscReal enough, Vec x, Vec force, PetscReal *violation, PetscBool *done)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f  = IPFilteredOf(tao);
+  IPSubspace   *f  = IPSubspaceOf(tao);
 
   PetscFunctionBegin;
   PetscCall(ip->laws->step(f->laws, enough, x, force, ip->terms->force, violation, &f->nclosed, done));
@@ -142,10 +142,10 @@ PetscErrorCode IPFilteredStepLaws(Tao tao, PetscReal enough, Vec x, Vec force, P
 }
 
 /* Solves the reduced problem. v: solution relative to the centre; force: forces of the constraints. */
-PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, PetscBool *solved)
+PetscErrorCode IPSubspaceSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, PetscBool *solved)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f  = IPFilteredOf(tao);
+  IPSubspace   *f  = IPSubspaceOf(tao);
 
   PetscFunctionBegin;
   PetscCall(VecSet(v, 0.0));
@@ -162,7 +162,7 @@ PetscErrorCode IPFilteredSolve(Tao tao, const IPBasis *basis, Vec v, Vec force, 
 }
 
 /* Estimates the rounding errors of forces: they are differences of terms as large as H_ii x_i. Those of x are given. */
-static PetscErrorCode FilteredForceRounding(Tao tao, PetscReal *rounding)
+static PetscErrorCode SubspaceForceRounding(Tao tao, PetscReal *rounding)
 {
   const TAO_IPFILTER *ip  = (TAO_IPFILTER *)tao->data;
   const PetscReal     eps = 100.0 * PETSC_MACHINE_EPSILON;
@@ -183,7 +183,7 @@ static PetscErrorCode FilteredForceRounding(Tao tao, PetscReal *rounding)
    Sets the multipliers to `force` / M, and the slacks to the constraint values. Forces within rounding errors count as
    zero: later solves would take them for those of closed contacts.
 */
-PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
+PetscErrorCode IPSubspaceSetPairs(Tao tao, Vec force)
 {
   TAO_IPFILTER *ip       = (TAO_IPFILTER *)tao->data;
   IPPair       *slack    = &ip->pair[IP_SLACK];
@@ -192,7 +192,7 @@ PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
   PetscInt      n;
 
   PetscFunctionBegin;
-  PetscCall(FilteredForceRounding(tao, &rounding));
+  PetscCall(SubspaceForceRounding(tao, &rounding));
   PetscCall(VecChop(force, rounding));
   PetscCall(VecPointwiseDivide(slack->z, force, slack->w));
   PetscCall(VecCopy(slack->z, ip->at.lambda));
@@ -215,7 +215,7 @@ PetscErrorCode IPFilteredSetPairs(Tao tao, Vec force)
    errors of combinations exceed the stiffness of these motions, so that the products with K are then computed again.
    E: Q_W^T A^-1 Q_W for the matrix A on W, in columns of the basis's maximal length; overwritten
 */
-PetscErrorCode IPFilteredCompress(Tao tao, IPBasis *basis, PetscReal E[])
+PetscErrorCode IPSubspaceCompress(Tao tao, IPBasis *basis, PetscReal E[])
 {
   PetscInt nmodes, room;
 
@@ -230,22 +230,22 @@ PetscErrorCode IPFilteredCompress(Tao tao, IPBasis *basis, PetscReal E[])
 }
 
 /* Reduces the number of directions. The reduced problem must afterwards be centred at its solution to remain exact. */
-PetscErrorCode IPFilteredMakeRoom(Tao tao, IPBasis *basis)
+PetscErrorCode IPSubspaceMakeRoom(Tao tao, IPBasis *basis)
 {
-  IPFiltered *f = IPFilteredOf(tao);
+  IPSubspace *f = IPSubspaceOf(tao);
   PetscReal  *E;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(basis->max * basis->max, &E));
   PetscCall(IPReducedCoupling(f->reduced, basis, E));
-  PetscCall(IPFilteredCompress(tao, basis, E));
+  PetscCall(IPSubspaceCompress(tao, basis, E));
   PetscCall(PetscFree(E));
   PetscCall(IPReducedForget(f->reduced, basis));
   PetscFunctionReturn(0);
 }
 
 /* Counts a step and returns whether the KKT error was halved within the last `patience` steps */
-PetscBool IPFilteredProgresses(IPFiltered *f, PetscReal error, PetscInt patience)
+PetscBool IPSubspaceProgresses(IPSubspace *f, PetscReal error, PetscInt patience)
 {
   f->nfutile++;
   if (error <= 0.5 * f->halved) {
@@ -256,9 +256,9 @@ PetscBool IPFilteredProgresses(IPFiltered *f, PetscReal error, PetscInt patience
 }
 
 /* Sets W to all unknowns */
-PetscErrorCode IPFilteredTakeAll(Tao tao)
+PetscErrorCode IPSubspaceTakeAll(Tao tao)
 {
-  IPFiltered *f = IPFilteredOf(tao);
+  IPSubspace *f = IPSubspaceOf(tao);
   PetscInt    start, end;
 
   PetscFunctionBegin;
@@ -269,7 +269,7 @@ PetscErrorCode IPFilteredTakeAll(Tao tao)
 }
 
 /* Finds whether the iteration limit of the Krylov method allows another direction */
-PetscErrorCode IPFilteredAllows(Tao tao, PetscBool *allows)
+PetscErrorCode IPSubspaceAllows(Tao tao, PetscBool *allows)
 {
   PetscInt limit;
 
@@ -280,16 +280,16 @@ PetscErrorCode IPFilteredAllows(Tao tao, PetscBool *allows)
 }
 
 /* Adds a direction computed from the residual r, which is zero on W. The basis must not be full. */
-PetscErrorCode IPFilteredExtend(Tao tao, IPRecycle *recycle, Vec r, PetscBool *extended)
+PetscErrorCode IPSubspaceExtend(Tao tao, IPRecycle *recycle, Vec r, PetscBool *extended)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f     = IPFilteredOf(tao);
+  IPSubspace   *f     = IPSubspaceOf(tao);
   IPBasis      *basis = &recycle->basis;
   Vec           d;
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &d));
-  PetscCall(IPFilteredPrecondition(tao, recycle, r, d, extended));
+  PetscCall(IPSubspacePrecondition(tao, recycle, r, d, extended));
   PetscCall(VecISSet(d, f->W, 0.0));
   if (*extended) {
     PetscCall(PetscLogEventBegin(TAO_IPFilterDirections, tao, d, NULL, NULL));
@@ -305,24 +305,24 @@ PetscErrorCode IPFilteredExtend(Tao tao, IPRecycle *recycle, Vec r, PetscBool *e
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode FilteredCreate(Tao tao, const IPBasis *basis)
+static PetscErrorCode SubspaceCreate(Tao tao, const IPBasis *basis)
 {
-  IPFiltered *f = IPFilteredOf(tao);
+  IPSubspace *f = IPSubspaceOf(tao);
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(tao->solution, &f->centre));
   PetscCall(VecDuplicate(tao->solution, &f->gradient));
   PetscCall(VecDuplicate(((TAO_IPFILTER *)tao->data)->at.c, &f->c));
   PetscCall(PetscMalloc2(basis->max, &f->pg, basis->max, &f->y));
-  PetscCall(FilteredStartPairs(tao));
+  PetscCall(SubspaceStartPairs(tao));
   PetscFunctionReturn(0);
 }
 
 /* Sets up the reduced problem for a Hessian K */
-static PetscErrorCode FilteredSetUpReduced(Tao tao, const IPBasis *basis, Mat K, PetscBool *possible)
+static PetscErrorCode SubspaceSetUpReduced(Tao tao, const IPBasis *basis, Mat K, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f  = IPFilteredOf(tao);
+  IPSubspace   *f  = IPSubspaceOf(tao);
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
@@ -335,13 +335,13 @@ static PetscErrorCode FilteredSetUpReduced(Tao tao, const IPBasis *basis, Mat K,
    Sets up the method for the present Hessian. The initially active rows follow from slacks and multipliers. *possible:
    false if K_WW is not positive definite.
 */
-PetscErrorCode IPFilteredSetUp(Tao tao, IPRecycle *recycle, PetscBool *possible)
+PetscErrorCode IPSubspaceSetUp(Tao tao, IPRecycle *recycle, PetscBool *possible)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  IPFiltered   *f  = IPFilteredOf(tao);
+  IPSubspace   *f  = IPSubspaceOf(tao);
 
   PetscFunctionBegin;
-  if (!f->centre) PetscCall(FilteredCreate(tao, &recycle->basis));
+  if (!f->centre) PetscCall(SubspaceCreate(tao, &recycle->basis));
   *possible = PETSC_TRUE;
   if (ip->terms->n) {
     if (f->laws) PetscCall(ip->laws->destroy(&f->laws));
@@ -350,7 +350,7 @@ PetscErrorCode IPFilteredSetUp(Tao tao, IPRecycle *recycle, PetscBool *possible)
     PetscFunctionReturn(0);
   }
   f->reduced = &recycle->reduced;
-  PetscCall(FilteredSetUpReduced(tao, &recycle->basis, ip->hess->H, possible));
-  if (*possible) PetscCall(FilteredGuess(tao));
+  PetscCall(SubspaceSetUpReduced(tao, &recycle->basis, ip->hess->H, possible));
+  if (*possible) PetscCall(SubspaceGuess(tao));
   PetscFunctionReturn(0);
 }

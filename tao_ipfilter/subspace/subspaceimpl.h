@@ -1,14 +1,14 @@
 /*
-   tao_ipfilter/subspace: the filtered subspace method, with its directions, the reduced problem, its active set, and
+   tao_ipfilter/subspace: the subspace method, with its directions, the reduced problem, its active set, and
    the interface to the laws of norm terms. The files are listed such that each depends only on those before it.
 */
 #ifndef IPFILTER_SUBSPACEIMPL_H
 #define IPFILTER_SUBSPACEIMPL_H
 
-#include "tao_ipfilter/step/stepimpl.h"
+#include "tao_ipfilter/iteration/iterationimpl.h"
 #include "tao_ipfilter/solver/method.h"
 
-/* Directions P of the filtered subspace, the oldest first. They are zero on the constraints' unknowns W. */
+/* Directions P of the subspace, the oldest first. They are zero on the constraints' unknowns W. */
 typedef struct {
   PetscInt      n, max;
   PetscInt      nlocal; /* number of unknowns of this rank */
@@ -95,7 +95,7 @@ typedef struct {
   PetscInt         nsteps, nactive;
 } IPReduced;
 
-/* Data of the filtered subspace method that later solves reuse */
+/* Data of the subspace method that later solves reuse */
 typedef struct {
   PC               pc;       /* the Krylov method's preconditioner, set up for K alone */
   PetscBool        held;     /* whether the preconditioner was set up for K + J^T D J instead, for bodies that
@@ -123,7 +123,7 @@ typedef struct _n_IPLawsOps {
   PetscErrorCode (*destroy)(IPLaws *);
 } IPLawsOps;
 
-/* State of the filtered subspace method during a solve */
+/* State of the subspace method during a solve */
 typedef struct {
   PetscBool        newton;  /* whether Newton's method is used, since the objective is not quadratic */
   PetscContainer   recycle; /* contains an IPRecycle */
@@ -143,11 +143,11 @@ typedef struct {
   PetscInt   nfutile;            /* number of steps since the KKT error was last halved */
   PetscReal  halved;             /* KKT error when it was last halved */
   PetscReal  residual, promised; /* Newton's method: residual before the last step, 0: none; and of its model */
-} IPFiltered;
+} IPSubspace;
 
-#define IPFilteredOf(tao) ((IPFiltered *)((TAO_IPFILTER *)(tao)->data)->method->data)
+#define IPSubspaceOf(tao) ((IPSubspace *)((TAO_IPFILTER *)(tao)->data)->method->data)
 
-/* single.c */
+/* single_precision.c */
 PETSC_INTERN void IPSingleRound(PetscInt n, const PetscScalar *v, PetscReal size, float *p);
 PETSC_INTERN void IPSingleDots(PetscInt n, PetscInt k, float *const p[], const PetscScalar *v, PetscReal s[]);
 PETSC_INTERN void IPSingleCombine(PetscInt n, PetscInt k, const PetscReal a[], float *const p[], PetscScalar *v);
@@ -234,26 +234,26 @@ PETSC_INTERN PetscErrorCode IPRecycleIsOf(const IPRecycle *, Mat K, PetscBool *s
 PETSC_INTERN PetscErrorCode IPRecycleUpdate(Tao, IPRecycle *, PetscBool *possible);
 
 /* precondition.c */
-PETSC_INTERN PetscErrorCode IPFilteredPrecondition(Tao, IPRecycle *, Vec r, Vec d, PetscBool *definite);
+PETSC_INTERN PetscErrorCode IPSubspacePrecondition(Tao, IPRecycle *, Vec r, Vec d, PetscBool *definite);
 
 /* subspace.c */
-PETSC_INTERN PetscErrorCode IPFilteredSetUp(Tao, IPRecycle *, PetscBool *possible);
-PETSC_INTERN PetscErrorCode IPFilteredDestroy(IPFiltered *);
-PETSC_INTERN PetscErrorCode IPFilteredCentre(Tao, const IPBasis *, Vec centre, Vec gradient, Vec c);
-PETSC_INTERN PetscErrorCode IPFilteredBeginLaws(Tao);
-PETSC_INTERN PetscErrorCode IPFilteredStepLaws(Tao, PetscReal enough, Vec x, Vec force, PetscReal *violation,
+PETSC_INTERN PetscErrorCode IPSubspaceSetUp(Tao, IPRecycle *, PetscBool *possible);
+PETSC_INTERN PetscErrorCode IPSubspaceDestroy(IPSubspace *);
+PETSC_INTERN PetscErrorCode IPSubspaceCentre(Tao, const IPBasis *, Vec centre, Vec gradient, Vec c);
+PETSC_INTERN PetscErrorCode IPSubspaceBeginLaws(Tao);
+PETSC_INTERN PetscErrorCode IPSubspaceStepLaws(Tao, PetscReal enough, Vec x, Vec force, PetscReal *violation,
   PetscBool *done);
-PETSC_INTERN PetscErrorCode IPFilteredSolve(Tao, const IPBasis *, Vec v, Vec force, PetscBool *solved);
-PETSC_INTERN PetscErrorCode IPFilteredSetPairs(Tao, Vec force);
-PETSC_INTERN PetscErrorCode IPFilteredCompress(Tao, IPBasis *, PetscReal E[]);
-PETSC_INTERN PetscErrorCode IPFilteredMakeRoom(Tao, IPBasis *);
-PETSC_INTERN PetscBool      IPFilteredProgresses(IPFiltered *, PetscReal error, PetscInt patience);
-PETSC_INTERN PetscErrorCode IPFilteredAllows(Tao, PetscBool *);
-PETSC_INTERN PetscErrorCode IPFilteredTakeAll(Tao);
-PETSC_INTERN PetscErrorCode IPFilteredExtend(Tao, IPRecycle *, Vec r, PetscBool *extended);
+PETSC_INTERN PetscErrorCode IPSubspaceSolve(Tao, const IPBasis *, Vec v, Vec force, PetscBool *solved);
+PETSC_INTERN PetscErrorCode IPSubspaceSetPairs(Tao, Vec force);
+PETSC_INTERN PetscErrorCode IPSubspaceCompress(Tao, IPBasis *, PetscReal E[]);
+PETSC_INTERN PetscErrorCode IPSubspaceMakeRoom(Tao, IPBasis *);
+PETSC_INTERN PetscBool      IPSubspaceProgresses(IPSubspace *, PetscReal error, PetscInt patience);
+PETSC_INTERN PetscErrorCode IPSubspaceAllows(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPSubspaceTakeAll(Tao);
+PETSC_INTERN PetscErrorCode IPSubspaceExtend(Tao, IPRecycle *, Vec r, PetscBool *extended);
 
 /* monitor.c */
-PETSC_INTERN PetscErrorCode IPFilteredMonitor(Tao, PetscBool *monitored);
+PETSC_INTERN PetscErrorCode IPSubspaceMonitor(Tao, PetscBool *monitored);
 
 /* newton.c */
 PETSC_INTERN PetscErrorCode IPNewtonSubspaceStep(Tao, PetscBool *done);
@@ -261,7 +261,7 @@ PETSC_INTERN PetscErrorCode IPNewtonSubspaceStep(Tao, PetscBool *done);
 /* api.c, beside the public functions */
 PETSC_INTERN PetscErrorCode IPSubspaceCompose(Tao, PetscBool attach);
 
-/* method.c: min f(x), c_I(x) >= 0 on the filtered subspace */
+/* method.c: min f(x), c_I(x) >= 0 on the subspace */
 PETSC_INTERN const IPMethodOps IPMethodSubspace;
 
 #endif

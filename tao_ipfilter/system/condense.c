@@ -19,7 +19,7 @@ PetscErrorCode IPCondensedDestroy(IPCondensed *c)
   PetscCall(MatDestroy(&c->JtDJ));
   PetscCall(VecDestroy(&c->shift));
   PetscCall(VecDestroy(&c->hdiag));
-  PetscCall(ISDestroy(&c->filter));
+  PetscCall(ISDestroy(&c->constrained));
   PetscCall(PetscFree(c->touched));
   PetscCall(IPRowsDestroy(&c->rows));
   PetscCall(PetscMemzero(c, sizeof(*c)));
@@ -81,7 +81,7 @@ static PetscErrorCode DropProduct(IPCondensed *cond)
   PetscCall(MatDestroy(&cond->DJ));
   PetscCall(MatDestroy(&cond->JtDJ));
   PetscCall(MatDestroy(&cond->A));
-  PetscCall(ISDestroy(&cond->filter));
+  PetscCall(ISDestroy(&cond->constrained));
   cond->ntouched = 0;
   PetscFunctionReturn(0);
 }
@@ -169,8 +169,8 @@ static PetscErrorCode WriteSum(Tao tao)
   PetscCall(MatGetNonzeroState(H, &nonzero));
   if (cond->rows.J) {
     PetscCall(UpdateProduct(cond, &pattern));
-    PetscCall(IPSubspaceUpdate(tao));
-    PetscCall(IPSubspaceSwitch(tao));
+    PetscCall(IPConstrainedUpdate(tao));
+    PetscCall(IPConstrainedSwitch(tao));
   }
   pattern = (PetscBool)(pattern || !cond->A || cond->A == H || nonzero != cond->H_nonzero ||
                         cond->H_id != ((PetscObject)H)->id);
@@ -185,7 +185,8 @@ static PetscErrorCode WriteSum(Tao tao)
   PetscCall(MatAssemblyBegin(cond->A, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(cond->A, MAT_FINAL_ASSEMBLY));
   PetscCall(IPFixedMatrix(tao, cond->A));
-  if (cond->filter) PetscCall(PetscObjectCompose((PetscObject)cond->A, PCAMGF_FILTER_KEY, (PetscObject)cond->filter));
+  if (cond->constrained)
+    PetscCall(PetscObjectCompose((PetscObject)cond->A, PCAMGF_FILTER_KEY, (PetscObject)cond->constrained));
   PetscFunctionReturn(0);
 }
 

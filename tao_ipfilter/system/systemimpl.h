@@ -5,7 +5,7 @@
 #ifndef IPFILTER_SYSTEMIMPL_H
 #define IPFILTER_SYSTEMIMPL_H
 
-#include "tao_ipfilter/measure/measureimpl.h"
+#include "tao_ipfilter/residuals/residualsimpl.h"
 
 /* rows.c */
 PETSC_INTERN PetscErrorCode IPRowsTake(Tao);
@@ -19,11 +19,11 @@ PETSC_INTERN PetscErrorCode IPOperatorUpdate(Tao);
 PETSC_INTERN PetscErrorCode IPCondensedWriteHessian(Tao, PetscBool pattern, PetscBool values);
 PETSC_INTERN PetscErrorCode IPCondensedAddProduct(IPCondensed *);
 
-/* subspace.c */
-PETSC_INTERN PetscErrorCode IPSubspaceOf(Mat, IS *);
-PETSC_INTERN PetscErrorCode IPSubspaceUpdate(Tao);
-PETSC_INTERN PetscErrorCode IPSubspaceSwitch(Tao);
-PETSC_INTERN PetscErrorCode IPSubspaceGrow(Tao, Mat, IS, IS *);
+/* constrained.c */
+PETSC_INTERN PetscErrorCode IPConstrainedOf(Mat, IS *);
+PETSC_INTERN PetscErrorCode IPConstrainedUpdate(Tao);
+PETSC_INTERN PetscErrorCode IPConstrainedSwitch(Tao);
+PETSC_INTERN PetscErrorCode IPConstrainedGrow(Tao, Mat, IS, IS *);
 
 /* condense.c */
 PETSC_INTERN PetscErrorCode IPCondenseMatrix(Tao, Vec);

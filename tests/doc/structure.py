@@ -14,8 +14,8 @@ FILES = 20  # of a folder, C sources
 # The lowest first: a file calls files of its own folder and of those before it, and includes their headers alone
 LAYERS = """
 pc_amgf pc_amgf/blockamg
-tao_ipfilter/solver tao_ipfilter/problem tao_ipfilter/measure tao_ipfilter/system tao_ipfilter/linear
-tao_ipfilter/step tao_ipfilter/driver
+tao_ipfilter/solver tao_ipfilter/problem tao_ipfilter/residuals tao_ipfilter/system tao_ipfilter/linear
+tao_ipfilter/iteration tao_ipfilter/driver
 tao_ipfilter/subspace tao_ipfilter/friction tao_ipfilter
 src/plugin
 src/error src/options src/files src/material src/model src/report

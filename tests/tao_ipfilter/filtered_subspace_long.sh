@@ -1,3 +1,3 @@
-# filtered_subspace on more numbers of ranks
+# subspace_method on more numbers of ranks
 set -- long
-. "$AMGF_DIR/tests/tao_ipfilter/filtered_subspace.sh"
+. "$AMGF_DIR/tests/tao_ipfilter/subspace_method.sh"

@@ -1,9 +1,8 @@
-static char help[] =
-  "The directions of the filtered subspace after many compressions: the Gram matrix and the products "
-  "with K must remain those of the stored directions.\n\n";
+static char help[] = "The directions of the subspace after many compressions: the Gram matrix and the products "
+                     "with K must remain those of the stored directions.\n\n";
 
 #include "../../tao_ipfilter/subspace/products.c"
-#include "../../tao_ipfilter/subspace/single.c"
+#include "../../tao_ipfilter/subspace/single_precision.c"
 #include "../../tao_ipfilter/subspace/basis.c"
 
 enum { N = 300, ROOM = 12, COMPRESSIONS = 120 };

@@ -1,5 +1,5 @@
 static char help[] =
-  "The first rank solves the reduced problem of the filtered subspace alone. Wherever its memory runs out there, all\n\
+  "The first rank solves the reduced problem of the subspace alone. Wherever its memory runs out there, all\n\
 ranks return the error, and none waits for another one.\n\n";
 
 #include "ipfilter_problem.h"

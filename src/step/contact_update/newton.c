@@ -8,7 +8,7 @@
      linearization. They contain terms that a linearization omits: the rotation of the normals, the change of the
      overlap areas, and the bending of smooth surfaces.
 
-     GMRES solves the system. Its preconditioner solves K d - J(x)^T dlambda = f, J_A(x) d = c on the filtered subspace,
+     GMRES solves the system. Its preconditioner solves K d - J(x)^T dlambda = f, J_A(x) d = c on the subspace,
      for which factors already exist.
 */
 #include "contact_updateimpl.h"
@@ -406,7 +406,7 @@ static PetscErrorCode NewtonFindKinks(Model model, PetscBool *kinks)
 /*
    Computes the next point of linearization, next = u + d, by Newton's method. at_u: gap at u; sol: solution with the
    present linearization, which was made at x. *found: false, and `next` is not set, in the following cases: with
-   friction; without a filtered subspace; if a gap has kinks; if rows under pressure appear or disappear near u; after
+   friction; without a subspace; if a gap has kinks; if rows under pressure appear or disappear near u; after
    an update without progress; or if GMRES does not converge.
 */
 PetscErrorCode ContactUpdateNewton(StepProblem *p, const ContactSolution *sol, ContactLinearization at_u, Vec x, Vec u,
