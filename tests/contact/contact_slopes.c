@@ -26,7 +26,8 @@ static PetscBool SumsFind(const Facets *f, Sums *sums)
 
   if (!ContactOverlapFind(f->x[0], f->x[1], &limits, &rule, &o)) return PETSC_FALSE;
   for (PetscInt side = 0; side < 2; ++side) ContactPatchCreate(f->x[side], straight, &patch[side]);
-  ContactOverlapSlopes(&o, &rule, f->x[0], f->x[1], &patch[0], &patch[1], sums->gap, sums->cover, &nonmortar, &mortar);
+  ContactOverlapSlopes(&o, &rule, f->x[0], f->x[1], &patch[0], &patch[1], sums->gap, sums->cover, PETSC_TRUE,
+    &nonmortar, &mortar);
   for (PetscInt a = 0; a < 4; ++a) {
     for (PetscInt i = 0; i < 24; ++i) {
       sums->by_gap[a][i]   = i < 12 ? nonmortar.x[a][i] : mortar.x[a][i - 12];

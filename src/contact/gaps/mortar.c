@@ -57,8 +57,8 @@ static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverl
 
   PetscFunctionBegin;
   ContactPatchCreate(x, &mortar->patch[12 * k], &patch);
-  ContactOverlapSlopes(overlap, rule, facet->x, x, &facet->patch, &patch, gap, cover, sloped ? &facet->slopes : NULL,
-    sloped ? &slopes : NULL);
+  ContactOverlapSlopes(overlap, rule, facet->x, x, &facet->patch, &patch, gap, cover,
+    (PetscBool)(assembly->parts == CONTACT_DERIVATIVE), sloped ? &facet->slopes : NULL, sloped ? &slopes : NULL);
   doubt = ContactPatchDoubt(&facet->patch) + ContactPatchDoubt(&patch);
   for (PetscInt a = 0; a < 4; ++a) facet->doubt[a] += doubt * cover[a];
   if (facet->dual) {

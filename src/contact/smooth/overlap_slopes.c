@@ -14,6 +14,7 @@
 /* Two facets in the plane of the nonmortar facet */
 typedef struct {
   ContactFrame        frame;
+  PetscBool           bends;                    /* whether derivatives with respect to the patches are computed */
   const ContactPatch *patch[2];                 /* patches of the nonmortar and of the mortar facet */
   PetscReal           p[2][4][2], height[2][4]; /* coordinates of the vertices in the plane, and heights above it
                                                    [length] */
@@ -29,7 +30,8 @@ typedef struct {
 typedef struct {
   PlaneMotion  gap, cover;
   PetscReal    height[2][4]; /* derivatives of the gap with respect to the heights of the vertices above the plane */
-  ContactPatch patch[2];     /* derivatives of the gap with respect to the coefficients of the patches */
+  PetscReal    turn[2][3];   /* derivatives of the gap with respect to rotations of the patches [length^3] */
+  ContactPatch patch[2];     /* derivatives of the gap with respect to the coefficients of the patches, if they bend */
 } PlaneSlopes;
 
 /* A quadrature point on one facet, in the plane's axes. Slopes are derivatives with respect to its position in the
@@ -37,7 +39,8 @@ typedef struct {
 typedef struct {
   PetscReal    phi[4], slope[4][2]; /* shape functions and their slopes */
   PetscReal    height, tilt[2];     /* height of the smooth surface above the plane, and its slopes */
-  ContactPatch by;                  /* derivatives of the height with respect to the patch */
+  PetscReal    turn[3];             /* derivatives of the height with respect to a rotation of the patch */
+  ContactPatch by;                  /* derivatives of the height with respect to the patch, if it bends */
 } PlanePoint;
 
 /* Converts derivatives with respect to the parameters xi into derivatives with respect to the position in the plane. J:
@@ -54,7 +57,7 @@ static void PlaneGradient(const PetscReal J[2][2], const PetscReal by_xi[2], Pet
    [length], and computes the shape functions there */
 static PetscReal PlanePointHeight(const PlanePair *pair, PetscInt side, const PetscReal xi[2], PetscReal phi[4])
 {
-  PetscReal height = ContactPatchHeight(pair->patch[side], xi, pair->frame.axis[2], NULL, NULL);
+  PetscReal height = ContactPatchHeight(pair->patch[side], xi, pair->frame.axis[2], NULL, NULL, NULL);
 
   ContactShape(xi, phi);
   for (PetscInt a = 0; a < 4; ++a) height += phi[a] * pair->height[side][a];
@@ -68,7 +71,8 @@ static void PlanePointEvaluate(const PlanePair *pair, PetscInt side, const Petsc
 
   ContactShape(xi, point->phi);
   ContactShapeSlopes(xi, dphi);
-  point->height = ContactPatchHeight(pair->patch[side], xi, pair->frame.axis[2], by_xi, &point->by);
+  point->height =
+    ContactPatchHeight(pair->patch[side], xi, pair->frame.axis[2], by_xi, point->turn, pair->bends ? &point->by : NULL);
   for (PetscInt a = 0; a < 4; ++a) {
     point->height += point->phi[a] * pair->height[side][a];
     for (PetscInt k = 0; k < 2; ++k) {
@@ -94,7 +98,8 @@ static void AddPatch(PetscReal factor, const ContactPatch *by, ContactPatch *sum
 
 /* Adds the derivatives at one quadrature point to those of row a's weighted gap, and returns the point's part of the
    gap [length^3]. place: derivative of the gap with respect to the point's position in the plane */
-static PetscReal AddPoint(const PlanePoint point[2], PetscInt a, PetscReal weight, PlaneSlopes *by, PetscReal place[2])
+static PetscReal AddPoint(const PlanePoint point[2], PetscBool bends, PetscInt a, PetscReal weight, PlaneSlopes *by,
+  PetscReal place[2])
 {
   const PetscReal gap = point[1].height - point[0].height, share = weight * point[0].phi[a];
   PetscReal       own[2];
@@ -111,8 +116,12 @@ static PetscReal AddPoint(const PlanePoint point[2], PetscInt a, PetscReal weigh
       by->gap.p[1][b][d] -= point[1].phi[b] * share * point[1].tilt[d];
     }
   }
-  AddPatch(-share, &point[0].by, &by->patch[0]);
-  AddPatch(share, &point[1].by, &by->patch[1]);
+  for (PetscInt c = 0; c < 3; ++c) {
+    by->turn[0][c] -= share * point[0].turn[c];
+    by->turn[1][c] += share * point[1].turn[c];
+  }
+  if (bends) AddPatch(-share, &point[0].by, &by->patch[0]);
+  if (bends) AddPatch(share, &point[1].by, &by->patch[1]);
   return share * gap;
 }
 
@@ -166,7 +175,7 @@ static void AddTriangle(const ContactOverlap *o, const ContactRule *rule, PetscI
     for (PetscInt a = 0; a < 4; ++a) {
       PetscReal place[2];
 
-      gap[a] += AddPoint(point, a, o->weight[k], &by[a], place);
+      gap[a] += AddPoint(point, pair->bends, a, o->weight[k], &by[a], place);
       AddPlace(triangle, rule->barycentric[q], place, &by[a].gap);
       cover[a] += AddPointCover(&point[0], a, o->weight[k], &by[a].cover, place);
       AddPlace(triangle, rule->barycentric[q], place, &by[a].cover);
@@ -272,7 +281,7 @@ static void AddRow(const PlanePair *pair, PetscInt a, const PetscReal *const x[2
   ContactSlopes *nonmortar, ContactSlopes *mortar)
 {
   ContactSlopes *const to[2]     = {nonmortar, mortar};
-  PetscReal            moment[3] = {0, 0, 0}, turn[2][3], back[3], tilt[12];
+  PetscReal            moment[3] = {0, 0, 0}, back[3], tilt[12];
 
   for (PetscInt side = 0; side < 2; ++side) {
     PetscReal by_x[12], by_normal[12] = {0};
@@ -280,19 +289,20 @@ static void AddRow(const PlanePair *pair, PetscInt a, const PetscReal *const x[2
     LeavePlane(pair, by->gap.p[side], by->height[side], by_x);
     AddMoment(&pair->frame, x[side], by_x, moment);
     for (PetscInt i = 0; i < 12; ++i) to[side]->rigid[a][i] += by_x[i];
+    if (!pair->bends) continue;
     ContactPatchChain(x[side], pair->patch[side], &by->patch[side], by_x, by_normal);
-    ContactPatchMoment(pair->patch[side], &by->patch[side], turn[side]);
     for (PetscInt i = 0; i < 12; ++i) {
       to[side]->x[a][i] += by_x[i];
       to[side]->normal[a][i] += by_normal[i];
     }
   }
-  ContactFacetTurn(x[1], turn[1], tilt);
+  ContactFacetTurn(x[1], by->turn[1], tilt);
   for (PetscInt i = 0; i < 12; ++i) mortar->rigid[a][i] += tilt[i];
-  for (PetscInt c = 0; c < 3; ++c) back[c] = -moment[c] - turn[1][c];
+  for (PetscInt c = 0; c < 3; ++c) back[c] = -moment[c] - by->turn[1][c];
   ContactFacetTurn(x[0], back, tilt);
   for (PetscInt i = 0; i < 12; ++i) nonmortar->rigid[a][i] += tilt[i];
-  for (PetscInt c = 0; c < 3; ++c) back[c] -= turn[0][c];
+  if (!pair->bends) return;
+  for (PetscInt c = 0; c < 3; ++c) back[c] -= by->turn[0][c];
   ContactFacetTurn(x[0], back, tilt);
   for (PetscInt i = 0; i < 12; ++i) nonmortar->x[a][i] += tilt[i];
 }
@@ -349,15 +359,16 @@ static void AddSlopes(const ContactOverlap *o, const ContactRule *rule, const Pl
 /*
    Computes gap[A] = int phi_A (H2 - H1) [length^3] and cover[A] = int phi_A [length^2] over the overlap of x1 and x2
    that ContactOverlapFind() has found. The derivatives with respect to the mortar facet are stored in `mortar`; those
-   with respect to the nonmortar facet are added to `nonmortar`. If both are NULL, no derivatives are computed.
+   with respect to the nonmortar facet are added to `nonmortar`. If both are NULL, no derivatives are computed. bends:
+   whether the derivatives for patches that bend with the normals are computed, too
 */
 void ContactOverlapSlopes(const ContactOverlap *o, const ContactRule *rule, const PetscReal x1[12],
   const PetscReal x2[12], const ContactPatch *patch1, const ContactPatch *patch2, PetscReal gap[4], PetscReal cover[4],
-  ContactSlopes *nonmortar, ContactSlopes *mortar)
+  PetscBool bends, ContactSlopes *nonmortar, ContactSlopes *mortar)
 {
   const PetscReal *const x[2] = {x1, x2};
   const ContactSlopes    none = {.x = {{0}}};
-  PlanePair              pair = {.patch = {patch1, patch2}};
+  PlanePair              pair = {.bends = bends, .patch = {patch1, patch2}};
 
   for (PetscInt a = 0; a < 4; ++a) gap[a] = cover[a] = 0.0;
   if (mortar) *mortar = none;

@@ -21,7 +21,7 @@ static PetscReal EdgeHeight(const ContactPatch *p, PetscInt e, PetscReal eta, Pe
 }
 
 /* Converts derivatives with respect to offset and normal, as computed by ContactPatchEvaluate() at xi, into derivatives
-   with respect to xi and to the patch's coefficients */
+   with respect to xi and to the patch's coefficients. by: NULL if the latter are not needed */
 void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], const PetscReal by_offset[3],
   const PetscReal by_normal[3], PetscReal by_xi[2], ContactPatch *by)
 {
@@ -42,9 +42,9 @@ void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], con
     by_xi[1 - e % 2] += (p->triangle && !e ? 2.0 * (1.0 - t) : 1.0) * outward * slopes[1] * direction;
     for (PetscInt k = 0; k < 2; ++k) {
       by_xi[k] += dphi[e][k] * normal;
-      by->slope[e][k] = slopes[2 + k] * direction;
+      if (by) by->slope[e][k] = slopes[2 + k] * direction;
     }
-    for (PetscInt c = 0; c < 3; ++c) {
+    for (PetscInt c = 0; by && c < 3; ++c) {
       by->direction[e][c]   = height * by_offset[c];
       by->normal[3 * e + c] = phi[e] * by_normal[c];
     }
@@ -52,12 +52,12 @@ void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], con
 }
 
 /* Returns the height of the patch above its facet's point xi along a unit direction [length], measured to the tangent
-   plane at the patch's point. Computes the derivatives of the height with respect to xi and to the patch, unless by_xi
-   and by are NULL. */
+   plane at the patch's point. Computes the derivatives of the height with respect to xi, to a rotation `turn` [rad] of
+   the patch about each axis, and to the patch, unless by_xi and turn, or by, are NULL. */
 PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const PetscReal direction[3],
-  PetscReal by_xi[2], ContactPatch *by)
+  PetscReal by_xi[2], PetscReal turn[3], ContactPatch *by)
 {
-  PetscReal offset[3], normal[3], by_offset[3], by_normal[3], height, cosine;
+  PetscReal offset[3], normal[3], by_offset[3], by_normal[3], k[3], height, cosine;
 
   ContactPatchEvaluate(p, xi, offset, normal);
   cosine = VectorDot(normal, direction);
@@ -75,7 +75,11 @@ PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const
       by_normal[c] = cosine != 0.0 ? (offset[c] - height * direction[c]) / cosine : 0.0;
     }
   }
-  if (by) ContactPatchDifferentiate(p, xi, by_offset, by_normal, by_xi, by);
+  if (!by_xi) return height;
+  ContactPatchDifferentiate(p, xi, by_offset, by_normal, by_xi, by);
+  VectorCross(offset, by_offset, turn);
+  VectorCross(normal, by_normal, k);
+  for (PetscInt c = 0; c < 3; ++c) turn[c] += k[c];
   return height;
 }
 

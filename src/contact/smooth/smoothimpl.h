@@ -28,7 +28,7 @@ PETSC_INTERN void      ContactPatchEvaluate(const ContactPatch *, const PetscRea
 PETSC_INTERN void ContactPatchDifferentiate(const ContactPatch *, const PetscReal xi[2], const PetscReal by_offset[3],
   const PetscReal by_normal[3], PetscReal by_xi[2], ContactPatch *by);
 PETSC_INTERN PetscReal ContactPatchHeight(const ContactPatch *, const PetscReal xi[2], const PetscReal direction[3],
-  PetscReal by_xi[2], ContactPatch *by);
+  PetscReal by_xi[2], PetscReal turn[3], ContactPatch *by);
 PETSC_INTERN void      ContactPatchChain(const PetscReal x[12], const ContactPatch *, const ContactPatch *by,
        PetscReal by_x[12], PetscReal by_normal[12]);
 PETSC_INTERN void      ContactPatchMoment(const ContactPatch *, const ContactPatch *by, PetscReal moment[3]);
@@ -87,6 +87,6 @@ typedef struct {
 } ContactSlopes;
 PETSC_INTERN void ContactOverlapSlopes(const ContactOverlap *, const ContactRule *, const PetscReal x1[12],
   const PetscReal x2[12], const ContactPatch *, const ContactPatch *, PetscReal gap[4], PetscReal cover[4],
-  ContactSlopes *nonmortar, ContactSlopes *mortar);
+  PetscBool bends, ContactSlopes *nonmortar, ContactSlopes *mortar);
 
 #endif
