@@ -118,6 +118,8 @@ typedef struct {
   PetscBool (*cauchy)(const MaterialModuli *, const PetscReal H[9], PetscReal sigma[6]);
   /* Dilatation theta(H) and its derivative C = dtheta/dH */
   PetscReal (*dilatation)(const PetscReal H[9], PetscReal C[9]);
+  /* The same at as many points as there are lanes; NULL: the function of one point is used */
+  void (*dilatations)(const Lanes H[9], Lanes C[9], Lanes *theta);
   /* Adds pressure times the second derivative of theta to a tangent; NULL: this derivative is zero */
   void (*curvature)(PetscReal pressure, const PetscReal H[9], PetscReal A[81]);
   /* Only for laws with a history; NULL for other laws. Computes the history at H from that in the moduli, and

@@ -12,6 +12,7 @@ MATERIAL_LAWS(MATERIAL_LAW)
 /* Functions of a law that other laws share: of linear.c, neohookean.c and j2.c */
 PETSC_INTERN PetscReal      MaterialDilatation_Linear(const PetscReal H[9], PetscReal C[9]);
 PETSC_INTERN PetscReal      MaterialDilatation_NeoHookean(const PetscReal H[9], PetscReal C[9]);
+PETSC_INTERN void           MaterialDilatations_NeoHookean(const Lanes H[9], Lanes C[9], Lanes *theta);
 PETSC_INTERN void           MaterialCurvature_NeoHookean(PetscReal pressure, const PetscReal H[9], PetscReal A[81]);
 PETSC_INTERN PetscReal      MaterialWork_J2(const MaterialModuli *, const PetscReal history[MATERIAL_HISTORY]);
 PETSC_INTERN PetscErrorCode MaterialModuli_J2(const Material *, MaterialModuli *);

@@ -146,15 +146,16 @@ static const MaterialConstant constants[] = {
 };
 
 const MaterialLaw MaterialLawMooneyRivlin = {
-  .constant   = PETSC_FALSE,
-  .energy     = MaterialEnergy_MooneyRivlin,
-  .stress     = MaterialStress_MooneyRivlin,
-  .tangent    = MaterialTangent_MooneyRivlin,
-  .cauchy     = MaterialCauchy_MooneyRivlin,
-  .dilatation = MaterialDilatation_NeoHookean,
-  .curvature  = MaterialCurvature_NeoHookean,
-  .finite     = PETSC_TRUE,
-  .constants  = constants,
-  .moduli     = MaterialModuli_MooneyRivlin,
-  .scale      = MaterialScale_MooneyRivlin,
+  .constant    = PETSC_FALSE,
+  .energy      = MaterialEnergy_MooneyRivlin,
+  .stress      = MaterialStress_MooneyRivlin,
+  .tangent     = MaterialTangent_MooneyRivlin,
+  .cauchy      = MaterialCauchy_MooneyRivlin,
+  .dilatation  = MaterialDilatation_NeoHookean,
+  .dilatations = MaterialDilatations_NeoHookean,
+  .curvature   = MaterialCurvature_NeoHookean,
+  .finite      = PETSC_TRUE,
+  .constants   = constants,
+  .moduli      = MaterialModuli_MooneyRivlin,
+  .scale       = MaterialScale_MooneyRivlin,
 };

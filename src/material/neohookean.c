@@ -168,14 +168,20 @@ static PetscBool MaterialTangent_NeoHookean(const MaterialModuli *m, const Petsc
   return NeoHookeanAtOne(NeoHookeanTangents, 81, m, H, A);
 }
 
-/* Returns the dilatation theta = J - 1, and computes its derivative C */
+/* Computes the dilatation theta = J - 1 and its derivative C */
+AMGF_CLONES void MaterialDilatations_NeoHookean(const Lanes H[9], Lanes C[9], Lanes *theta)
+{
+  NeoHookeanCofactor(H, C, theta);
+  for (int i = 0; i < 9; i += 4) C[i] += 1;
+}
+
 PetscReal MaterialDilatation_NeoHookean(const PetscReal H[9], PetscReal C[9])
 {
   Lanes h[9], D[9], theta;
 
   NeoHookeanSpread(H, h);
-  NeoHookeanCofactor(h, D, &theta);
-  for (int i = 0; i < 9; ++i) C[i] = LANE(D[i], 0) + (i % 4 ? 0 : 1);
+  MaterialDilatations_NeoHookean(h, D, &theta);
+  for (int i = 0; i < 9; ++i) C[i] = LANE(D[i], 0);
   return LANE(theta, 0);
 }
 
@@ -215,17 +221,18 @@ void MaterialCurvature_NeoHookean(PetscReal pressure, const PetscReal H[9], Pets
 }
 
 const MaterialLaw MaterialLawNeoHookean = {
-  .constant   = PETSC_FALSE,
-  .energy     = MaterialEnergy_NeoHookean,
-  .stress     = MaterialStress_NeoHookean,
-  .tangent    = MaterialTangent_NeoHookean,
-  .energies   = NeoHookeanEnergies,
-  .stresses   = NeoHookeanStresses,
-  .tangents   = NeoHookeanTangents,
-  .cauchy     = MaterialCauchy_NeoHookean,
-  .dilatation = MaterialDilatation_NeoHookean,
-  .curvature  = MaterialCurvature_NeoHookean,
-  .finite     = PETSC_TRUE,
-  .constants  = MaterialConstantsFinite,
-  .moduli     = MaterialModuliIsotropic,
+  .constant    = PETSC_FALSE,
+  .energy      = MaterialEnergy_NeoHookean,
+  .stress      = MaterialStress_NeoHookean,
+  .tangent     = MaterialTangent_NeoHookean,
+  .energies    = NeoHookeanEnergies,
+  .stresses    = NeoHookeanStresses,
+  .tangents    = NeoHookeanTangents,
+  .cauchy      = MaterialCauchy_NeoHookean,
+  .dilatation  = MaterialDilatation_NeoHookean,
+  .dilatations = MaterialDilatations_NeoHookean,
+  .curvature   = MaterialCurvature_NeoHookean,
+  .finite      = PETSC_TRUE,
+  .constants   = MaterialConstantsFinite,
+  .moduli      = MaterialModuliIsotropic,
 };

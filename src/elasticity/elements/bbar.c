@@ -20,158 +20,209 @@
 
 typedef struct {
   int       npolynomials;
-  PetscReal w[CELL_MAX_POINTS], G[CELL_MAX_POINTS][3][CELL_MAX_NODES], H[CELL_MAX_POINTS][9];
-  PetscReal p[CELL_MAX_POINTS][POLYNOMIALS]; /* values of the polynomials at the points; they are orthogonal on the
-                                                cell, and the first is 1 */
+  CellPack  pack[CELL_PACKS];
+  Lanes     p[CELL_PACKS][POLYNOMIALS]; /* values of the polynomials at the points; they are orthogonal on the cell, and
+                                           the first is 1 */
   PetscReal g[POLYNOMIALS][3][CELL_MAX_NODES];
   PetscReal square[POLYNOMIALS], mean[POLYNOMIALS]; /* int p_k^2; Theta_k */
 } Dilatation;
 
-static inline void DilatationSetPoints(const int n, const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES],
-  PetscReal U[3][CELL_MAX_NODES], Dilatation *d)
+/* Sets p_k = X - X_13 at the points of a pack, with the coordinate X = x, y, z for k = 1, 2, 3 */
+static void DilatationSetCoordinates(const CellBasis *basis, PetscInt pack, PetscReal X[3][CELL_MAX_NODES],
+  Dilatation *d)
 {
-  for (PetscInt q = 0; q < basis->npoints; ++q) {
-    d->w[q] = CellGradients(n, basis, q, X, d->G[q]);
-    CellDisplacementGradient(n, U, d->G[q], d->H[q]);
+  for (int k = 1; k < d->npolynomials; ++k) {
+    d->p[pack][k] = (Lanes){0};
+    for (PetscInt q = LANES * pack; q < PetscMin(basis->npoints, LANES * (pack + 1)); ++q) {
+      for (PetscInt a = 0; a < basis->nnodes; ++a)
+        LANE(d->p[pack][k], q % LANES) += basis->N[q][a] * (X[k - 1][a] - X[k - 1][13]);
+    }
   }
+}
+
+/* Returns int p_k p_l */
+LANES_INLINE PetscReal DilatationProduct(const CellBasis *basis, const Dilatation *d, int k, int l)
+{
+  Lanes sum = {0};
+
+  for (PetscInt pack = 0; pack < basis->npacks; ++pack) sum += d->pack[pack].w * d->p[pack][k] * d->p[pack][l];
+  return LanesSum(&sum);
 }
 
 /* Makes the polynomials 1 and, in cells of order 2, x, y and z orthogonal on the cell */
-static void DilatationSetPolynomials(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], Dilatation *d)
+LANES_INLINE void DilatationSetPolynomials(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], Dilatation *d)
 {
   d->npolynomials = basis->nnodes == 27 ? POLYNOMIALS : 1;
+  for (PetscInt pack = 0; pack < basis->npacks; ++pack) {
+    d->p[pack][0] = (Lanes){0} + 1;
+    DilatationSetCoordinates(basis, pack, X, d);
+  }
   for (int k = 0; k < d->npolynomials; ++k) {
-    for (PetscInt q = 0; q < basis->npoints; ++q) {
-      d->p[q][k] = k ? 0 : 1;
-      for (PetscInt a = 0; k && a < basis->nnodes; ++a) d->p[q][k] += basis->N[q][a] * (X[k - 1][a] - X[k - 1][13]);
-    }
     for (int l = 0; l < k; ++l) {
-      PetscReal along = 0;
+      const PetscReal part = DilatationProduct(basis, d, k, l) / d->square[l];
 
-      for (PetscInt q = 0; q < basis->npoints; ++q) along += d->w[q] * d->p[q][k] * d->p[q][l];
-      for (PetscInt q = 0; q < basis->npoints; ++q) d->p[q][k] -= along / d->square[l] * d->p[q][l];
+      for (PetscInt pack = 0; pack < basis->npacks; ++pack) d->p[pack][k] -= part * d->p[pack][l];
     }
-    d->square[k] = 0;
-    for (PetscInt q = 0; q < basis->npoints; ++q) d->square[k] += d->w[q] * PetscSqr(d->p[q][k]);
+    d->square[k] = DilatationProduct(basis, d, k, k);
   }
 }
 
-static inline void DilatationProject(const int n, const CellBasis *basis, const BodyMaterial *m, Dilatation *d)
+/* Sets volumes, gradients and displacement gradients at the points, the polynomials, Theta_k and g_k */
+LANES_INLINE void ElementDilatation(const int n, const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], Dilatation *d)
 {
+  for (PetscInt pack = 0; pack < basis->npacks; ++pack) CellPackSet(n, basis, pack, X, U, &d->pack[pack]);
+  DilatationSetPolynomials(basis, X, d);
   for (int k = 0; k < d->npolynomials; ++k) {
     d->mean[k] = 0;
     for (int i = 0; i < 3; ++i) {
       for (int a = 0; a < n; ++a) d->g[k][i][a] = 0;
     }
   }
-  for (PetscInt q = 0; q < basis->npoints; ++q) {
-    PetscReal       C[9];
-    const PetscReal theta = m->law->dilatation(d->H[q], C);
+  for (PetscInt pack = 0; pack < basis->npacks; ++pack) {
+    Lanes C[9], theta;
 
+    PointsDilatation(m->law, pack, basis->npoints, d->pack[pack].H, C, &theta);
     for (int k = 0; k < d->npolynomials; ++k) {
-      d->mean[k] += d->w[q] * d->p[q][k] * theta;
-      CellForceAdd(n, d->w[q] * d->p[q][k], d->G[q], C, d->g[k]);
+      const Lanes part = d->pack[pack].w * d->p[pack][k] * theta;
+      Lanes       D[9];
+
+      for (int i = 0; i < 9; ++i) D[i] = d->p[pack][k] * C[i];
+      d->mean[k] += LanesSum(&part) / d->square[k];
+      CellPackForceAdd(n, &d->pack[pack], D, d->g[k]);
     }
   }
-  for (int k = 0; k < d->npolynomials; ++k) d->mean[k] /= d->square[k];
 }
 
-static void ElementDilatation(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
-  PetscReal U[3][CELL_MAX_NODES], Dilatation *d)
+/* Returns the moduli of W_iso, with m->rest as bulk modulus. Laws with a history have no rest. */
+static const MaterialModuli *BbarModuli(const BodyMaterial *m, MaterialModuli *own)
 {
-  CELL_CALL(DilatationSetPoints, basis, X, U, d);
-  DilatationSetPolynomials(basis, X, d);
-  CELL_CALL(DilatationProject, basis, m, d);
-}
-
-/* Returns Theta at a quadrature point */
-static PetscReal DilatationAt(const Dilatation *d, PetscInt q)
-{
-  PetscReal theta = 0;
-
-  for (int k = 0; k < d->npolynomials; ++k) theta += d->mean[k] * d->p[q][k];
-  return theta;
-}
-
-/* Returns the moduli of W_iso at a point, with m->rest as bulk modulus */
-static const MaterialModuli *BbarModuli(const BodyMaterial *m, PetscInt q, MaterialModuli *own)
-{
-  if (!(m->rest > 0)) return CellModuli(&m->isochoric, q, own);
+  if (!(m->rest > 0)) return &m->isochoric;
   *own        = m->isochoric;
   own->bulk   = m->rest;
   own->lambda = m->isochoric.lambda + m->rest;
   return own;
 }
 
-static PetscReal ElementEnergy_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
-  PetscReal U[3][CELL_MAX_NODES])
+LANES_INLINE PetscReal BbarEnergy(const int n, const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES])
 {
-  Dilatation     d;
-  PetscReal      sum = 0;
-  MaterialModuli own;
+  Dilatation            d;
+  MaterialModuli        own;
+  const MaterialModuli *moduli = BbarModuli(m, &own);
+  Lanes                 sum    = {0}, W;
+  PetscReal             mean   = 0;
 
-  ElementDilatation(basis, m, X, U, &d);
+  ElementDilatation(n, basis, m, X, U, &d);
   for (int k = 0; k < d.npolynomials; ++k)
-    sum += 0.5 * (m->moduli.bulk - m->rest) * d.square[k] * d.mean[k] * d.mean[k];
-  for (PetscInt q = 0; q < basis->npoints; ++q) {
-    const PetscReal density = m->law->energy(BbarModuli(m, q, &own), d.H[q]);
-
-    if (density >= PETSC_INFINITY) return PETSC_INFINITY;
-    sum += d.w[q] * density;
+    mean += 0.5 * (m->moduli.bulk - m->rest) * d.square[k] * d.mean[k] * d.mean[k];
+  for (PetscInt pack = 0; pack < basis->npacks; ++pack) {
+    if (!PointsEnergy(m->law, moduli, pack, basis->npoints, d.pack[pack].H, &W)) return PETSC_INFINITY;
+    sum += d.pack[pack].w * W;
   }
-  return sum;
+  return mean + LanesSum(&sum);
 }
 
-static inline PetscBool BbarForce(const int n, const CellBasis *basis, const BodyMaterial *m, Dilatation *d,
-  PetscReal F[3][CELL_MAX_NODES])
+AMGF_CLONES static PetscReal ElementEnergy_Bbar(const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES])
 {
-  PetscReal      P[9];
-  MaterialModuli own;
-
-  for (int i = 0; i < 3; ++i) {
-    for (int a = 0; a < n; ++a) F[i][a] = 0;
-    for (int k = 0; k < d->npolynomials; ++k) {
-      for (int a = 0; a < n; ++a) F[i][a] += (m->moduli.bulk - m->rest) * d->mean[k] * d->g[k][i][a];
-    }
-  }
-  for (PetscInt q = 0; q < basis->npoints; ++q) {
-    if (!m->law->stress(BbarModuli(m, q, &own), d->H[q], P)) return PETSC_FALSE;
-    CellForceAdd(n, d->w[q], d->G[q], P, F);
-  }
-  return PETSC_TRUE;
+  return CELL_CALL(BbarEnergy, basis, m, X, U);
 }
 
 /*
    Computes the force F = int dW_iso/du + kappa sum_k Theta_k int p_k^2 d Theta_k/du = int dW_iso/du + kappa sum_k
    Theta_k g_k
 */
-static PetscBool ElementForce_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
-  PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
+LANES_INLINE PetscBool BbarForce(const int n, const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
 {
-  Dilatation d;
+  Dilatation            d;
+  MaterialModuli        own;
+  const MaterialModuli *moduli = BbarModuli(m, &own);
+  Lanes                 P[9];
 
-  ElementDilatation(basis, m, X, U, &d);
-  return CELL_CALL(BbarForce, basis, m, &d, F);
+  ElementDilatation(n, basis, m, X, U, &d);
+  for (int i = 0; i < 3; ++i) {
+    for (int a = 0; a < n; ++a) F[i][a] = 0;
+    for (int k = 0; k < d.npolynomials; ++k) {
+      for (int a = 0; a < n; ++a) F[i][a] += (m->moduli.bulk - m->rest) * d.mean[k] * d.g[k][i][a];
+    }
+  }
+  for (PetscInt pack = 0; pack < basis->npacks; ++pack) {
+    if (!PointsStress(m->law, moduli, pack, basis->npoints, d.pack[pack].H, P)) return PETSC_FALSE;
+    CellPackForceAdd(n, &d.pack[pack], P, F);
+  }
+  return PETSC_TRUE;
+}
+
+AMGF_CLONES static PetscBool ElementForce_Bbar(const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES])
+{
+  return CELL_CALL(BbarForce, basis, m, X, U, F);
+}
+
+/* Returns Theta at a point */
+static PetscReal DilatationAt(const Dilatation *d, PetscInt q)
+{
+  PetscReal theta = 0;
+
+  for (int k = 0; k < d->npolynomials; ++k) theta += d->mean[k] * LANE(d->p[q / LANES][k], q % LANES);
+  return theta;
+}
+
+/* Copies the displacement gradient at a point */
+static void DilatationGetGradient(const Dilatation *d, PetscInt q, PetscReal H[9])
+{
+  for (int i = 0; i < 9; ++i) H[i] = LANE(d->pack[q / LANES].H[i], q % LANES);
+}
+
+/* Adds kappa Theta times the second derivative of the dilatation to the tangents at the points of a pack */
+static void BbarAddCurvature(const CellBasis *basis, const BodyMaterial *m, const Dilatation *d, PetscInt pack,
+  Lanes A[81])
+{
+  for (PetscInt q = LANES * pack; m->law->curvature && q < PetscMin(basis->npoints, LANES * (pack + 1)); ++q) {
+    PetscReal H[9], B[81] = {0};
+
+    DilatationGetGradient(d, q, H);
+    m->law->curvature((m->moduli.bulk - m->rest) * DilatationAt(d, q), H, B);
+    for (int i = 0; i < 81; ++i) LANE(A[i], q % LANES) += B[i];
+  }
 }
 
 /*
    Computes the part of the stiffness that is a sum over the quadrature points: the isochoric stiffness, and kappa Theta
    times the second derivative of the dilatation
 */
-static PetscBool ElementStiffnessPoints_Bbar(const CellBasis *basis, const BodyMaterial *m, Dilatation *d,
-  PetscScalar K[])
+LANES_INLINE PetscBool BbarTangents(const int n, const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], Dilatation *d, CellTangents *t)
 {
-  PetscReal      A[81];
-  CellTangents   t;
-  MaterialModuli own;
+  MaterialModuli        own;
+  const MaterialModuli *moduli = BbarModuli(m, &own);
 
-  for (PetscInt q = 0; q < basis->npoints; ++q) {
-    if (!m->law->tangent(BbarModuli(m, q, &own), d->H[q], A)) return PETSC_FALSE;
-    if (m->law->curvature) m->law->curvature((m->moduli.bulk - m->rest) * DilatationAt(d, q), d->H[q], A);
-    CellTangentsSetPoint(basis, q, d->w[q], d->G[q], A, &t);
+  ElementDilatation(n, basis, m, X, U, d);
+  for (PetscInt pack = 0; pack < basis->npacks; ++pack) {
+    if (!PointsTangent(m->law, moduli, pack, basis->npoints, d->pack[pack].H, t->A[pack])) return PETSC_FALSE;
+    BbarAddCurvature(basis, m, d, pack, t->A[pack]);
+    CellTangentsSetGradients(n, basis, pack, d->pack[pack].G, t);
+    for (int i = 0; i < 81; ++i) t->A[pack][i] *= d->pack[pack].w;
   }
+  return PETSC_TRUE;
+}
+
+AMGF_CLONES static PetscBool ElementStiffnessPoints_Bbar(const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], Dilatation *d, PetscScalar K[])
+{
+  CellTangents t;
+
+  if (!CELL_CALL(BbarTangents, basis, m, X, U, d, &t)) return PETSC_FALSE;
   CellStiffness(basis, &t, K);
   return PETSC_TRUE;
+}
+
+AMGF_CLONES static void ElementDilatation_Bbar(const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], Dilatation *d)
+{
+  CELL_CALL(ElementDilatation, basis, m, X, U, d);
 }
 
 /* Computes the stiffness K = int d2W_iso/du2 + kappa int Theta d2theta/du2 + kappa sum_k g_k g_k^T / int p_k^2 */
@@ -185,12 +236,9 @@ static PetscBool ElementStiffness_Bbar(const CellBasis *basis, const BodyMateria
   if (m->law->constant) {
     PetscReal undeformed[3][CELL_MAX_NODES] = {{0}};
 
-    ElementDilatation(basis, m, X, undeformed, &d);
+    ElementDilatation_Bbar(basis, m, X, undeformed, &d);
     CellStiffnessConstant(basis, m->law, &m->isochoric, X, K);
-  } else {
-    ElementDilatation(basis, m, X, U, &d);
-    if (!ElementStiffnessPoints_Bbar(basis, m, &d, K)) return PETSC_FALSE;
-  }
+  } else if (!ElementStiffnessPoints_Bbar(basis, m, X, U, &d, K)) return PETSC_FALSE;
   for (int k = 0; k < d.npolynomials; ++k) {
     for (PetscInt r = 0; r < width; ++r)
       rank1[r] = PetscSqrtReal((m->moduli.bulk - m->rest) / d.square[k]) * d.g[k][r % 3][r / 3];
@@ -209,14 +257,15 @@ static PetscBool ElementCauchy_Bbar(const CellBasis *basis, const BodyMaterial *
   PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6])
 {
   Dilatation     d;
-  PetscReal      s[6];
+  PetscReal      s[6], H[9];
   MaterialModuli own;
 
-  ElementDilatation(basis, m, X, U, &d);
+  ElementDilatation_Bbar(basis, m, X, U, &d);
   for (int k = 0; k < 6; ++k) sigma[k] = k < 3 ? m->moduli.bulk * d.mean[0] : 0;
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    if (!m->law->cauchy(CellModuli(&m->isochoric, q, &own), d.H[q], s)) return PETSC_FALSE;
-    for (int k = 0; k < 6; ++k) sigma[k] += d.w[q] / d.square[0] * s[k];
+    DilatationGetGradient(&d, q, H);
+    if (!m->law->cauchy(CellModuli(&m->isochoric, q, &own), H, s)) return PETSC_FALSE;
+    for (int k = 0; k < 6; ++k) sigma[k] += LANE(d.pack[q / LANES].w, q % LANES) / d.square[0] * s[k];
   }
   return PETSC_TRUE;
 }
@@ -227,10 +276,10 @@ static void ElementStrains_Bbar(const CellBasis *basis, const BodyMaterial *m, P
 {
   Dilatation d;
 
-  ElementDilatation(basis, m, X, U, &d);
+  ElementDilatation_Bbar(basis, m, X, U, &d);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    w[q] = d.w[q];
-    for (int k = 0; k < 9; ++k) H[q][k] = d.H[q][k];
+    w[q] = LANE(d.pack[q / LANES].w, q % LANES);
+    DilatationGetGradient(&d, q, H[q]);
     H[q][9] = DilatationAt(&d, q);
   }
 }

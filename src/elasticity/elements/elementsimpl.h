@@ -144,6 +144,20 @@ LANES_INLINE void CellPackSet(const int n, const CellBasis *basis, PetscInt pack
   }
 }
 
+/* Adds int P_ij dN_a/dX_j over the points of a pack to F[i][a]. P: values at the points */
+LANES_INLINE void CellPackForceAdd(const int n, const CellPack *c, const Lanes P[9], PetscReal F[3][CELL_MAX_NODES])
+{
+  for (int i = 0; i < 3; ++i) {
+    const Lanes p0 = c->w * P[3 * i], p1 = c->w * P[3 * i + 1], p2 = c->w * P[3 * i + 2];
+
+    for (int a = 0; a < n; ++a) {
+      const Lanes f = p0 * c->G[0][a] + p1 * c->G[1][a] + p2 * c->G[2][a];
+
+      F[i][a] += LanesSum(&f);
+    }
+  }
+}
+
 /* stiffness.c: stiffness of a cell from the tangents at its points, used by all elements */
 typedef struct {
   PetscReal G[CELL_MAX_POINTS][3][CELL_WIDTH]; /* gradients of the shape functions; zero beyond the last node, to a
@@ -165,9 +179,6 @@ LANES_INLINE void CellTangentsSetGradients(const int n, const CellBasis *basis, 
   }
 }
 
-/* Sets the gradients and the tangent A at point q, whose volume is w */
-PETSC_INTERN void CellTangentsSetPoint(const CellBasis *, PetscInt q, PetscReal w, PetscReal G[3][CELL_MAX_NODES],
-  const PetscReal A[81], CellTangents *);
 /*
    Computes K_ia,kb = int dN_a/dX_j A_ijkl dN_b/dX_l with symmetric A. The entry for component i of node a and component
    k of node b is K[(3 a + i) 3 n + 3 b + k].
@@ -207,6 +218,8 @@ PETSC_INTERN PetscBool PointsEnergy(const MaterialLaw *, const MaterialModuli *c
   const Lanes H[9], Lanes *W);
 PETSC_INTERN PetscBool PointsStress(const MaterialLaw *, const MaterialModuli *cell, PetscInt pack, PetscInt npoints,
   const Lanes H[9], Lanes P[9]);
+PETSC_INTERN void PointsDilatation(const MaterialLaw *, PetscInt pack, PetscInt npoints, const Lanes H[9], Lanes C[9],
+  Lanes *theta);
 PETSC_INTERN PetscBool PointsTangent(const MaterialLaw *, const MaterialModuli *cell, PetscInt pack, PetscInt npoints,
   const Lanes H[9], Lanes A[81]);
 

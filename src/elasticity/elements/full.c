@@ -34,15 +34,7 @@ LANES_INLINE PetscBool FullForce(const int n, const CellBasis *basis, const Body
   for (PetscInt pack = 0; pack < basis->npacks; ++pack) {
     CellPackSet(n, basis, pack, X, U, &c);
     if (!PointsStress(m->law, &m->moduli, pack, basis->npoints, c.H, P)) return PETSC_FALSE;
-    for (int i = 0; i < 3; ++i) {
-      const Lanes p0 = c.w * P[3 * i], p1 = c.w * P[3 * i + 1], p2 = c.w * P[3 * i + 2];
-
-      for (int a = 0; a < n; ++a) {
-        const Lanes f = p0 * c.G[0][a] + p1 * c.G[1][a] + p2 * c.G[2][a];
-
-        F[i][a] += LanesSum(&f);
-      }
-    }
+    CellPackForceAdd(n, &c, P, F);
   }
   return PETSC_TRUE;
 }

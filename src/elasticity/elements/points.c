@@ -57,3 +57,21 @@ PetscBool PointsTangent(const MaterialLaw *law, const MaterialModuli *cell, Pets
 {
   return law->tangents ? law->tangents(cell, H, A) : PointsFill(law->tangent, 81, cell, pack, npoints, H, A);
 }
+
+void PointsDilatation(const MaterialLaw *law, PetscInt pack, PetscInt npoints, const Lanes H[9], Lanes C[9],
+  Lanes *theta)
+{
+  PetscReal h[9], c[9];
+
+  if (law->dilatations) {
+    law->dilatations(H, C, theta);
+    return;
+  }
+  *theta = (Lanes){0};
+  for (int i = 0; i < 9; ++i) C[i] = (Lanes){0};
+  for (int l = 0; l < LANES && LANES * pack + l < npoints; ++l) {
+    for (int i = 0; i < 9; ++i) h[i] = LANE(H[i], l);
+    LANE(*theta, l) = law->dilatation(h, c);
+    for (int i = 0; i < 9; ++i) LANE(C[i], l) = c[i];
+  }
+}

@@ -1,16 +1,6 @@
 /* Computes the stiffness of a cell from the tangents at its points, for all elements */
 #include "elementsimpl.h"
 
-void CellTangentsSetPoint(const CellBasis *basis, PetscInt q, PetscReal w, PetscReal G[3][CELL_MAX_NODES],
-  const PetscReal A[81], CellTangents *t)
-{
-  for (int j = 0; j < 3; ++j) {
-    for (PetscInt a = 0; a < basis->nnodes; ++a) t->G[q][j][a] = G[j][a];
-    for (PetscInt a = basis->nnodes; a % 8; ++a) t->G[q][j][a] = 0;
-  }
-  for (int i = 0; i < 81; ++i) LANE(t->A[q / LANES][i], q % LANES) = w * A[i];
-}
-
 /*
    Computes the entries for components i and k of all nodes. Sums for eight nodes a and as many nodes b as there are
    lanes remain in registers. width: number of nodes, rounded up to a multiple of LANES and of 8
