@@ -30,7 +30,7 @@ displacements:
 forces:
   - weight: {body: ball, value: [0, 0, -20]}
 contact:
-  - roll: {mortar: ball.surface, nonmortar: floor.zmax, friction: 1.5, interference: true}
+  - roll: {mortar: ball.surface, nonmortar: floor.zmax, friction: 0.5, interference: true}
 dynamics: {time_step: 0.01, end_time: 0.09, mass: lumped}
 YAML
 "$contact" ball.yaml -quiet -error_estimate 0 -summary ball.json 2> /dev/null || echo "exit code $?"
