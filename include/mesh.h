@@ -17,6 +17,11 @@
 #define MESH_SURFACE         "surface_"
 #define MESH_MAX_NODES       27 /* largest number of nodes of a cell */
 #define MESH_MAX_FACET_NODES 9
+/* Places nearer than this are the same, relative to the size of what they belong to: it is the rounding error of
+   coordinates in mesh files, and so of heights and overlaps */
+#define MESH_SAME_PLACE 1e-6
+/* Edges whose two facets have normals at a larger angle are sharp: they separate surfaces [degrees] */
+#define MESH_SHARP_ANGLE 35.0
 
 /* Tetrahedra have 4 or 10 nodes, hexahedra 8 or 27 */
 static inline PetscBool MeshIsTetrahedron(PetscInt nnodes)
@@ -97,6 +102,8 @@ PETSC_EXTERN PetscErrorCode MeshGetFacetVertices(DM, PetscInt facet, PetscInt ve
    ranks */
 PETSC_EXTERN void           MeshComputeFacetArea(PetscReal x[4][3], PetscReal area[3]);
 PETSC_EXTERN PetscErrorCode MeshSumFacetAreas(DM, IS facets, PetscReal sums[4]);
+/* Returns whether these sums are those of a plane face, which are equal */
+PETSC_EXTERN PetscBool MeshFacetsArePlane(const PetscReal sums[4]);
 /* Gets the 8 vertices of a hexahedron in tensor order, where x varies fastest */
 PETSC_EXTERN PetscErrorCode MeshGetCellVertices(DM, PetscInt cell, PetscInt vertices[8]);
 PETSC_EXTERN PetscErrorCode MeshGetCellCorners(DM, PetscInt cell, PetscInt *n, PetscInt vertices[8]);

@@ -48,9 +48,11 @@ PETSC_EXTERN const char *const BodyShapes[];
 
 #define BODY_OWN 64
 
+#define MODEL_WEAK_SPRINGS 1e-7  /* stiffness of weak springs as a fraction of the body's, if the scene gives none */
+#define MODEL_ROUNDING     1e-12 /* rounding error of sums, relative to the largest part */
+
 /* Positions of a rigid surface's parameters in the array `own` of SceneBody. Point and axis have three numbers each. */
-#define MODEL_WEAK_SPRINGS  1e-7 /* stiffness of weak springs as a fraction of the body's, if the scene gives none */
-#define SURFACE_MAX_PROFILE 40   /* numbers of a profile */
+#define SURFACE_MAX_PROFILE 40 /* numbers of a profile */
 
 enum {
   SURFACE_POINT   = 0,

@@ -1,7 +1,8 @@
 """Lists the numbers that are compiled in, with the comment beside each, and counts them by folder: numbers.py
 
 Counted are constants with a name, which are limits, tolerances, shares and counts of attempts. The sizes of arrays, and
-numbers inside formulas and formats, are not counted.
+numbers inside formulas and formats, are not counted, nor are integers that multiply something or depend on a condition,
+such as 3 components a node, and 3 corners of a triangle or 4.
 """
 import collections
 import re
@@ -11,8 +12,8 @@ from sample import sources
 NUMBER = r"[-(]*\d[\d.]*(?:[eE][-+]?\d+)?"
 FORMULAS = {"0", "0.0", "1", "1.0", "-1", "-1.0"}
 DEFINED = re.compile(rf"^#define (\w+)\s+(?:\\\n\s*)?({NUMBER})\b", re.M)
-CONSTANT = re.compile(r"\bconst\s+(?:PetscReal|PetscInt|double|int)\s+([^;{]*);", re.S)
-PART = re.compile(rf"\b(\w+)\s*=\s*(?:[^,?]*\?\s*)?({NUMBER})(?:\s*:\s*{NUMBER})?\s*(?:\*[^,]*)?(?=,|$)")
+CONSTANT = re.compile(r"\bconst\s+(PetscReal|PetscInt|double|int)\s+([^;{]*);", re.S)
+PART = re.compile(rf"\b(\w+)\s*=\s*([^,?]*\?\s*)?({NUMBER})(?:\s*:\s*{NUMBER})?\s*(\*[^,]*)?(?=,|$)")
 
 
 def blank(comment):
@@ -26,7 +27,9 @@ def numbers():
     for path, (content, code) in files.items():
         found = [(match.start(), match[1], match[2]) for match in DEFINED.finditer(code) if match[1] not in sizes]
         for match in CONSTANT.finditer(code):
-            found += [(match.start(1) + part.start(), part[1], part[2]) for part in PART.finditer(match[1])]
+            for part in PART.finditer(match[2]):
+                if match[1] in ("PetscReal", "double") or not (part[2] or part[4]):
+                    found.append((match.start(2) + part.start(), part[1], part[3]))
         for offset, name, value in sorted(found):
             if value.strip("(") not in FORMULAS:
                 line = code.count("\n", 0, offset)

@@ -184,7 +184,6 @@ PetscErrorCode RigidTest(const Constraints *c, PetscBool finite, Vec u, StepRepo
     const RigidBody *body = &c->rigid->bodies[b];
     const PetscReal  most = finite && body->turns ? largest_angle : largest_linearized;
     PetscReal        motion[6], angle[3], degrees;
-    char             reason[256];
 
     PetscCall(RigidGetMotion(c, body, u, motion));
     PetscCall(PetscArraycpy(angle, body->angle, 3));
@@ -193,13 +192,12 @@ PetscErrorCode RigidTest(const Constraints *c, PetscBool finite, Vec u, StepRepo
     }
     degrees = VectorNorm(angle) * 180.0 / PETSC_PI;
     if (degrees <= most) continue;
-    PetscCall(PetscSNPrintf(reason, sizeof(reason), "displacement \"%s\": the rigid body turns by %.3g degrees%s",
+    PetscCall(ReportReason(report, PETSC_FALSE, "displacement \"%s\": the rigid body turns by %.3g degrees%s",
       c->bodies.scene->displacements[body->leader].name, (double)degrees,
       !body->turns ? ", but a free rotation may be at most 2 degrees where a body of small strain is tied to it: use "
                      "neohookean or saint_venant, prescribe the rotation, or add supports"
       : !finite    ? " in one load step, but with contact_updates: 1 a free rotation may be at most 2 degrees"
                    : " in one load step: use smaller load steps, prescribe the rotation, or add supports"));
-    PetscCall(ReportReason(report, PETSC_FALSE, reason));
   }
   PetscFunctionReturn(0);
 }

@@ -2,8 +2,6 @@
 #include "contactimpl.h"
 #include "src/contact/self/selfimpl.h"
 
-/* default search distance of a contact pair, divided by the square root of the area of its smaller face */
-#define SEARCH_FRACTION 0.25
 /* upper bound of the search depth of a pair whose search distance is given, as a fraction of the thickness of both
    bodies */
 #define THROUGH_FRACTION 0.9
@@ -82,8 +80,9 @@ static PetscErrorCode ContactSetUpPairs(Contact contact)
     ContactPairData *pair = &contact->pairs[p];
     const PetscReal  area = pair->formula ? pair->nonmortar.area : PetscMin(pair->mortar.area, pair->nonmortar.area);
 
-    pair->distance = pair->given > 0.0 ? pair->given : PetscMax(contact->reach, SEARCH_FRACTION * PetscSqrtReal(area));
-    pair->depth    = PetscMax(contact->reach_depth, contact->depth > 0.0 ? contact->depth : ContactGetDepth(pair));
+    pair->distance =
+      pair->given > 0.0 ? pair->given : PetscMax(contact->reach, CONTACT_SEARCH_FRACTION * PetscSqrtReal(area));
+    pair->depth = PetscMax(contact->reach_depth, contact->depth > 0.0 ? contact->depth : ContactGetDepth(pair));
     if (!pair->mortar.bordered) PetscCall(ContactSurfaceFindBorder(contact->dm, &pair->mortar));
     if (!pair->nonmortar.bordered) PetscCall(ContactSurfaceFindBorder(contact->dm, &pair->nonmortar));
   }

@@ -19,20 +19,9 @@ static PetscErrorCode MassMarkLight(const Constraints *c, Vec mark)
   for (PetscInt k = 0; k < 2 * scene->npairs; ++k) {
     const SceneContactPair *pair = &scene->pairs[k / 2];
     const char             *face = k % 2 ? pair->mortar : pair->nonmortar;
-    const PetscInt         *rows;
-    PetscInt                n;
-    IS                      is;
 
-    if (!MassFaceIsLight(scene, pair, face)) continue;
-    PetscCall(MeshGetFaceDofs(c->bodies.dm, face, 0, &is));
-    PetscCall(ISGetLocalSize(is, &n));
-    PetscCall(ISGetIndices(is, &rows));
-    for (PetscInt i = 0; i < n; ++i) PetscCall(VecSetValue(mark, rows[i], 1.0, INSERT_VALUES));
-    PetscCall(ISRestoreIndices(is, &rows));
-    PetscCall(ISDestroy(&is));
+    if (MassFaceIsLight(scene, pair, face)) PetscCall(MeshFaceSet(c->bodies.dm, face, 0, 1.0, mark));
   }
-  PetscCall(VecAssemblyBegin(mark));
-  PetscCall(VecAssemblyEnd(mark));
   PetscFunctionReturn(0);
 }
 

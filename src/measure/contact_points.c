@@ -14,34 +14,6 @@ typedef enum {
   AT_SUMS
 } NodeSum;
 
-/* Computes the contact force on the nodes: J^T (mass x pressure) of the rows of the pair, and their friction */
-static PetscErrorCode PairPlaceForces(ContactState *solved, PetscInt pair, const PairRows *rows, Vec force)
-{
-  ContactLinearization lin = solved->linearization;
-  const PetscScalar   *area;
-  PetscScalar         *y;
-  Vec                  own, shear;
-
-  PetscFunctionBegin;
-  PetscCall(VecDuplicate(lin->mass, &own));
-  PetscCall(VecGetArrayRead(rows->value[ROW_AREA], &area));
-  PetscCall(VecGetArrayWrite(own, &y));
-  for (PetscInt r = 0; r < rows->n; ++r) y[r] = PetscRealPart(area[r]) > 0.0 ? solved->pressure[r] : 0.0;
-  PetscCall(VecRestoreArrayWrite(own, &y));
-  PetscCall(VecRestoreArrayRead(rows->value[ROW_AREA], &area));
-  PetscCall(VecPointwiseMult(own, own, lin->mass));
-  PetscCall(MatMultTranspose(lin->J, own, force));
-  PetscCall(VecDestroy(&own));
-  if (!rows->frictional) PetscFunctionReturn(0);
-  PetscCall(MatCreateVecs(lin->slip, NULL, &shear));
-  PetscCall(VecGetArrayWrite(shear, &y));
-  for (PetscInt k = 0; k < 2 * rows->n; ++k) y[k] = solved->shear[k];
-  PetscCall(VecRestoreArrayWrite(shear, &y));
-  PetscCall(FrictionAddForces(lin, lin->slip, shear, pair, force));
-  PetscCall(VecDestroy(&shear));
-  PetscFunctionReturn(0);
-}
-
 /* Computes the sums at the nodes */
 static PetscErrorCode PairSum(const Measured *at, PetscInt pair, const PairRows *rows, PairFacets *facets, Vec sums[])
 {
@@ -199,29 +171,34 @@ static PetscErrorCode PairReportForce(MPI_Comm comm, const PairRows *rows, const
    Collective. */
 static PetscErrorCode PairMeasure(const Measured *at, PetscInt pair, const PetscReal stretch[], PairReport *report)
 {
-  const PetscInt first    = at->solved->npoints;
-  PetscReal      areas[2] = {0.0, 0.0};
-  PetscScalar   *a;
-  PairRows       rows;
-  PairFacets     facets;
-  Vec           *sums, force, closed;
+  const PetscInt             first    = at->solved->npoints;
+  const ContactLinearization lin      = at->solved->linearization;
+  PetscReal                  areas[2] = {0.0, 0.0};
+  PetscScalar               *a;
+  PairRows                   rows;
+  PairFacets                 facets;
+  Vec                       *sums, weighted, force, closed;
 
   PetscFunctionBegin;
   PetscCall(PairRowsCreate(at, pair, &rows));
+  PetscCall(VecDuplicate(lin->mass, &weighted));
+  PetscCall(VecPointwiseMult(weighted, rows.value[ROW_PRESSURE], lin->mass));
+  PetscCall(VecDuplicate(at->u, &force));
+  PetscCall(MatMultTranspose(lin->J, weighted, force));
+  if (rows.frictional) PetscCall(RowsAddForces(lin, lin->slip, at->solved->solution.shear, pair, force));
+  PetscCall(VecDestroy(&weighted));
   PetscCall(PairRowsResolve(at, pair, &rows));
   PetscCall(VecGetArray(rows.value[ROW_STRETCH], &a));
   for (PetscInt r = 0; r < rows.n && stretch; ++r) a[r] = stretch[r];
   PetscCall(VecRestoreArray(rows.value[ROW_STRETCH], &a));
   PetscCall(PairFacetsCreate(at->comm, at->dm, &at->places, &at->scene->pairs[pair], &facets));
-  PetscCall(VecDuplicate(at->u, &force));
   PetscCall(VecDuplicate(rows.sides, &closed));
   PetscCall(VecDuplicateVecs(rows.sides, AT_SUMS, &sums));
-  PetscCall(PairPlaceForces(at->solved, pair, &rows, force));
   PetscCall(PairSum(at, pair, &rows, &facets, sums));
   PetscCall(PairAppendPoints(at, pair, &rows, (PetscBool)(stretch != NULL), sums, force, closed, areas));
   PetscCall(PairReportForce(at->comm, &rows, areas, report));
   PetscCall(PairReportPressure(at, first, report));
-  PetscCall(PairMeshMeasure(at->comm, &rows, &facets, closed, report));
+  PetscCall(PairMeshMeasure(&rows, &facets, closed, report));
   PetscCall(VecDestroyVecs(AT_SUMS, &sums));
   PetscCall(VecDestroy(&closed));
   PetscCall(VecDestroy(&force));

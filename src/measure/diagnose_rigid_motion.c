@@ -154,15 +154,14 @@ PetscErrorCode RigidMotionReport(Model model, Vec u, const char known[], const c
   RigidFitSums sums;
   PetscReal    distance = 0.0;
   PetscInt     body     = 0;
-  char         motion[256], reason[640];
+  char         motion[256];
   PetscBool    turns;
 
   PetscFunctionBegin;
   PetscCall(RigidFitFindFarthest(model->scene, &model->places, u, &body, &distance));
   PetscCall(RigidFitSum(model->comm, &model->places, u, body, &sums));
   PetscCall(RigidFitDescribe(&sums, distance, motion, sizeof(motion), &turns));
-  PetscCall(PetscSNPrintf(reason, sizeof(reason), "%s; body \"%s\" %s: %s%s", report->reason,
+  PetscCall(ReportReason(report, PETSC_FALSE, "%s; body \"%s\" %s: %s%s", report->reason,
     model->scene->bodies[body].name, motion, known, turns && turning ? turning : ""));
-  PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }

@@ -166,26 +166,6 @@ static PetscErrorCode ForcesAddFace(DM dm, const VertexPlaces *places, const cha
   PetscFunctionReturn(0);
 }
 
-/* Computes the forces on the two sides of a pair whose sides are the same face. own: mass x pressure of the pair's
-   rows; force: on entry the contact forces on both sides together, on exit those on the nonmortar side */
-static PetscErrorCode ForcesMeasureSelf(const Measured *at, PetscInt pair, Vec u, Vec own, Vec shear, Vec force,
-  ForceSum sides[2])
-{
-  ContactLinearization lin  = at->solved->linearization;
-  const char          *face = at->scene->pairs[pair].mortar;
-  Vec                  mortar;
-
-  PetscFunctionBegin;
-  PetscCall(VecDuplicate(force, &mortar));
-  PetscCall(MatMultTranspose(lin->mortar, own, mortar));
-  PetscCall(FrictionAddForces(lin, lin->mortar_slip, shear, pair, mortar));
-  PetscCall(VecAXPY(force, -1.0, mortar));
-  PetscCall(ForcesAddFace(at->dm, &at->places, face, u, force, &sides[0]));
-  PetscCall(ForcesAddFace(at->dm, &at->places, face, u, mortar, &sides[1]));
-  PetscCall(VecDestroy(&mortar));
-  PetscFunctionReturn(0);
-}
-
 /*
    Computes the sums of the pair's contact forces, J^T (mass x pressure) and friction, over the nonmortar side
    (sides[0]) and the mortar side (sides[1])
@@ -195,27 +175,24 @@ static PetscErrorCode ForcesMeasurePair(const Measured *at, PetscInt pair, Vec u
 {
   const SceneContactPair *faces = &at->scene->pairs[pair];
   ContactLinearization    lin   = at->solved->linearization;
-  Vec                     own, force;
-  PetscScalar            *w;
+  Vec                     force, mortar = NULL;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(weighted, &own));
-  PetscCall(VecCopy(weighted, own));
-  PetscCall(VecGetArray(own, &w));
-  for (PetscInt r = 0; r < lin->nlocal; ++r) {
-    if (lin->pair[r] != pair) w[r] = 0.0;
-  }
-  PetscCall(VecRestoreArray(own, &w));
   PetscCall(VecDuplicate(u, &force));
-  PetscCall(MatMultTranspose(lin->J, own, force));
-  PetscCall(FrictionAddForces(lin, lin->slip, shear, pair, force));
-  if (faces->self) PetscCall(ForcesMeasureSelf(at, pair, u, own, shear, force, sides));
-  else {
-    PetscCall(ForcesAddFace(at->dm, &at->places, faces->nonmortar, u, force, &sides[0]));
-    PetscCall(ForcesAddFace(at->dm, &at->places, faces->mortar, u, force, &sides[1]));
+  PetscCall(VecZeroEntries(force));
+  PetscCall(RowsAddForces(lin, lin->J, weighted, pair, force));
+  PetscCall(RowsAddForces(lin, lin->slip, shear, pair, force));
+  if (faces->self) { /* both sides are the same face */
+    PetscCall(VecDuplicate(u, &mortar));
+    PetscCall(VecZeroEntries(mortar));
+    PetscCall(RowsAddForces(lin, lin->mortar, weighted, pair, mortar));
+    PetscCall(RowsAddForces(lin, lin->mortar_slip, shear, pair, mortar));
+    PetscCall(VecAXPY(force, -1.0, mortar));
   }
+  PetscCall(ForcesAddFace(at->dm, &at->places, faces->nonmortar, u, force, &sides[0]));
+  PetscCall(ForcesAddFace(at->dm, &at->places, faces->mortar, u, mortar ? mortar : force, &sides[1]));
+  PetscCall(VecDestroy(&mortar));
   PetscCall(VecDestroy(&force));
-  PetscCall(VecDestroy(&own));
   PetscFunctionReturn(0);
 }
 
@@ -254,13 +231,7 @@ static PetscErrorCode ForcesTakeAll(DM dm, const VertexPlaces *places, Vec u, Ve
 {
   PetscFunctionBegin;
   PetscCall(ForcesAddFace(dm, places, face, u, rigid, sum));
-  for (PetscInt c = 0; c < 3; ++c) {
-    IS is;
-
-    PetscCall(MeshGetFaceDofs(dm, face, c, &is));
-    PetscCall(VecISSet(rigid, is, 0.0));
-    PetscCall(ISDestroy(&is));
-  }
+  for (PetscInt c = 0; c < 3; ++c) PetscCall(MeshFaceSet(dm, face, c, 0.0, rigid));
   PetscFunctionReturn(0);
 }
 

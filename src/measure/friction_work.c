@@ -42,7 +42,7 @@ static PetscErrorCode FrictionPairWork(const Measured *at, Vec increment[2], con
 
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(force));
-  PetscCall(FrictionAddForces(at->solved->linearization, at->solved->linearization->slip, sol->shear, pair, force));
+  PetscCall(RowsAddForces(at->solved->linearization, at->solved->linearization->slip, sol->shear, pair, force));
   PetscCall(VecGetArrayRead(force, &now));
   PetscCall(VecGetArrayRead(increment[0], &a));
   PetscCall(VecGetArrayRead(increment[1], &b));
@@ -318,26 +318,20 @@ PetscErrorCode FrictionSettle(Model model, State state, PetscReal time, Vec u, c
 {
   ContactLinearization lin = state->solved->linearization;
   ContactHistory      *m   = state->history;
-  const PetscScalar   *f, *s;
+  const PetscScalar   *z, *s;
 
   PetscFunctionBegin;
-  PetscCall(PetscFree2(state->solved->shear, state->solved->slip));
   if (!sol->shear) PetscFunctionReturn(0);
   PetscCall(FrictionSettleForces(model, state, time, u, sol));
-  PetscCall(PetscMalloc2(2 * lin->nlocal, &state->solved->shear, 2 * lin->nlocal, &state->solved->slip));
-  PetscCall(VecGetArrayRead(sol->shear, &f));
+  PetscCall(VecGetArrayRead(sol->pressure, &z));
   PetscCall(VecGetArrayRead(sol->slip, &s));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
-    if (state->solved->pressure[r] > 0.0)
+    if (PetscRealPart(z[r]) > 0.0)
       m->slip_path[ContactHistoryIndex(m, lin, r)] +=
         PetscSqrtReal(PetscSqr(PetscRealPart(s[2 * r])) + PetscSqr(PetscRealPart(s[2 * r + 1])));
-    for (PetscInt a = 0; a < 2; ++a) {
-      state->solved->shear[2 * r + a] = PetscRealPart(f[2 * r + a]);
-      state->solved->slip[2 * r + a]  = PetscRealPart(s[2 * r + a]);
-    }
   }
   PetscCall(VecRestoreArrayRead(sol->slip, &s));
-  PetscCall(VecRestoreArrayRead(sol->shear, &f));
+  PetscCall(VecRestoreArrayRead(sol->pressure, &z));
   PetscCall(PetscArraycpy(m->settled, m->shear, 3 * m->npairs * m->nowned));
   PetscFunctionReturn(0);
 }
@@ -353,24 +347,26 @@ PetscErrorCode FrictionRecall(ContactHistory *history)
 }
 
 /*
-   Adds the friction forces at the vertices to `force`. slip: that of the rows, or its part by the mortar side; pair:
-   the pair to which they belong, or PETSC_DECIDE for all pairs.
+   Adds A^T rows, the forces at the vertices of the rows of a pair, to `force`. A: a matrix of the linearization, with
+   one or two rows per contact row; rows: forces, NULL if there are none; pair: PETSC_DECIDE for all pairs
 */
-PetscErrorCode FrictionAddForces(ContactLinearization lin, Mat slip, Vec shear, PetscInt pair, Vec force)
+PetscErrorCode RowsAddForces(ContactLinearization lin, Mat A, Vec rows, PetscInt pair, Vec force)
 {
   PetscScalar *f;
+  PetscInt     n;
   Vec          own;
 
   PetscFunctionBegin;
-  if (!shear) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(shear, &own));
-  PetscCall(VecCopy(shear, own));
+  if (!rows) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(rows, &own));
+  PetscCall(VecCopy(rows, own));
+  PetscCall(VecGetLocalSize(own, &n));
   PetscCall(VecGetArray(own, &f));
-  for (PetscInt r = 0; r < lin->nlocal; ++r) {
-    if (pair != PETSC_DECIDE && lin->pair[r] != pair) f[2 * r] = f[2 * r + 1] = 0.0;
+  for (PetscInt i = 0; i < n; ++i) {
+    if (pair != PETSC_DECIDE && lin->pair[i * lin->nlocal / n] != pair) f[i] = 0.0;
   }
   PetscCall(VecRestoreArray(own, &f));
-  PetscCall(MatMultTransposeAdd(slip, own, force, force));
+  PetscCall(MatMultTransposeAdd(A, own, force, force));
   PetscCall(VecDestroy(&own));
   PetscFunctionReturn(0);
 }

@@ -2,10 +2,6 @@
 #include "measureimpl.h"
 #include <math.h>
 
-#define START_ROUNDING \
-  1e-6 /* largest overlap that counts as rounding error, as a fraction of the square root of the
-                               facing area */
-
 /* The nonmortar side of a pair in the undeformed state */
 typedef struct {
   PetscInt  n;              /* number of vertices that have the mortar face within the search distance */
@@ -56,7 +52,7 @@ static PetscErrorCode StartMeasure(MPI_Comm comm, ContactLinearization lin, Pets
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &starts[p].certain, 1, MPIU_REAL, MPIU_MIN, comm));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_REAL, MPIU_SUM, comm));
     starts[p].area    = sums[0];
-    starts[p].overlap = starts[p].certain < -START_ROUNDING * PetscSqrtReal(sums[0]) ? sums[1] : 0.0;
+    starts[p].overlap = starts[p].certain < -MESH_SAME_PLACE * PetscSqrtReal(sums[0]) ? sums[1] : 0.0;
   }
   PetscFunctionReturn(0);
 }
@@ -79,7 +75,7 @@ static PetscErrorCode StartClearDual(Scene scene, Contact contact, LoadPath *pat
   PetscCall(PetscCalloc1(npairs, &within));
   PetscCall(ContactGetPenetration(contact, path->u, within, depth, rounding));
   for (PetscInt p = 0; p < npairs; ++p) {
-    if (pairs[p].gap == GAP_DUAL && depth[p] <= rounding[p] + START_ROUNDING * PetscSqrtReal(starts[p].area))
+    if (pairs[p].gap == GAP_DUAL && depth[p] <= rounding[p] + MESH_SAME_PLACE * PetscSqrtReal(starts[p].area))
       starts[p].overlap = 0.0;
   }
   PetscCall(PetscFree(within));
@@ -209,20 +205,18 @@ PetscErrorCode StartWarn(Simulation sim, ContactLinearization lin)
 static PetscErrorCode StartRefuseEntered(const Measured *at, PetscInt p, StepReport *report)
 {
   const SceneContactPair *pair = &at->scene->pairs[p];
-  const PetscReal         part = 0.01; /* of the largest displacement, that does not count */
   PetscReal               place[3];
   PetscBool               entered;
-  char                    reason[512];
 
   PetscFunctionBegin;
   if (!report->converged) PetscFunctionReturn(0);
-  PetscCall(ContactGetEntered(at->contact, p, at->u, part * report->motion, &entered, place));
+  PetscCall(ContactGetEntered(at->contact, p, at->u, MEASURE_MOTION * report->motion, &entered, place));
   if (!entered) PetscFunctionReturn(0);
-  PetscCall(PetscSNPrintf(reason, sizeof(reason),
+  PetscCall(ReportReason(report, PETSC_FALSE,
     "contact pair \"%s\" was open at the end of every load step, but its bodies have passed into each other, for "
     "example at the point (%g, %g, %g): the faces %s and %s are not those that meet",
     pair->name, (double)place[0], (double)place[1], (double)place[2], pair->mortar, pair->nonmortar));
-  PetscCall(PenetrationFail(at, report, reason));
+  ReportFailRun(at->report, report, RUN_GAP_UNCONVERGED);
   PetscFunctionReturn(0);
 }
 

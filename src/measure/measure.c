@@ -11,24 +11,16 @@
    Computes the magnitude of the sum of the contact forces on both sides, q = J_full^T M z, relative to the sum of their
    magnitudes. It is zero if action equals reaction.
 */
-static PetscErrorCode MeasureActionReaction(MPI_Comm comm, Vec q, StepReport *report)
+static PetscErrorCode MeasureActionReaction(const Measured *at, Vec q, StepReport *report)
 {
-  const PetscScalar *a;
-  PetscReal          sums[4] = {0, 0, 0, 0}; /* sum of the forces; sum of the magnitudes of the forces at vertices */
-  PetscInt           n;
+  PetscReal *bodies, sums[4] = {0.0};
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(q, &n));
-  PetscCall(VecGetArrayRead(q, &a));
-  for (PetscInt i = 0; i < n; i += 3) {
-    const PetscReal f[3] = {PetscRealPart(a[i]), PetscRealPart(a[i + 1]), PetscRealPart(a[i + 2])};
-
-    for (PetscInt c = 0; c < 3; ++c) sums[c] += f[c];
-    sums[3] += VectorNorm(f);
-  }
-  PetscCall(VecRestoreArrayRead(q, &a));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, comm));
+  PetscCall(PetscMalloc1(4 * at->scene->nbodies, &bodies));
+  PetscCall(VertexPlacesSumForces(&at->places, q, q, at->scene->nbodies, bodies));
+  for (PetscInt k = 0; k < 4 * at->scene->nbodies; ++k) sums[k % 4] += bodies[k];
   report->action_reaction = sums[3] > 0.0 ? VectorNorm(sums) / sums[3] : 0.0;
+  PetscCall(PetscFree(bodies));
   PetscFunctionReturn(0);
 }
 
@@ -184,10 +176,10 @@ static PetscErrorCode MeasureContact(Model model, State state, PetscReal time, V
   PetscCall(VecDuplicate(u, contact));
   PetscCall(VecPointwiseMult(*weighted, sol->pressure, lin->mass));
   PetscCall(MatMultTranspose(lin->J, *weighted, *contact));
-  PetscCall(FrictionAddForces(lin, lin->slip, sol->shear, PETSC_DECIDE, *contact));
+  PetscCall(RowsAddForces(lin, lin->slip, sol->shear, PETSC_DECIDE, *contact));
   PetscCall(ForcesMeasurePairs(&at, u, *weighted, sol->shear, report));
   PetscCall(FrictionMeasure(model, state, time, u, sol, report, late));
-  PetscCall(MeasureActionReaction(model->comm, *contact, report));
+  PetscCall(MeasureActionReaction(&at, *contact, report));
   PetscFunctionReturn(0);
 }
 

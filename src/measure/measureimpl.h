@@ -38,11 +38,12 @@ static inline Measured SimulationMeasured(Simulation sim)
   return MeasuredAt(sim->model, sim->state, &sim->report);
 }
 
+#define MEASURE_MOTION   0.01  /* depth that does not count, as a fraction of the largest displacement of the run */
 #define MEASURE_ROUNDING 1e-11 /* rounding error of forces, relative to the stiffness times the largest displacement */
 
 /* friction_work.c */
 PETSC_INTERN PetscErrorCode FrictionGetCoefficient(Scene, PetscReal time, PetscInt pair, PetscReal *coefficient);
-PETSC_INTERN PetscErrorCode FrictionAddForces(ContactLinearization, Mat slip, Vec shear, PetscInt pair, Vec force);
+PETSC_INTERN PetscErrorCode RowsAddForces(ContactLinearization, Mat, Vec rows, PetscInt pair, Vec force);
 PETSC_INTERN PetscErrorCode FrictionMeasure(Model, State, PetscReal time, Vec u, const ContactSolution *, StepReport *,
   PetscReal *late);
 PETSC_INTERN PetscErrorCode FrictionSettle(Model, State, PetscReal time, Vec u, const ContactSolution *);
@@ -85,7 +86,6 @@ PETSC_INTERN PetscErrorCode ContactPointsMeasure(Model, State, StepReport *);
 /* penetration_warnings.c: penetration of single vertices, whereas the gaps of mortar pairs are means */
 PETSC_INTERN PetscErrorCode PenetrationMeasure(Model, State, StepReport *);
 PETSC_INTERN PetscErrorCode PenetrationTest(Simulation, StepReport *);
-PETSC_INTERN PetscErrorCode PenetrationFail(const Measured *, StepReport *, const char reason[]);
 PETSC_INTERN PetscErrorCode PenetrationWarn(Simulation);
 
 /*

@@ -11,28 +11,25 @@
 
 /* Computes the means over the contact area of the nonmortar facet size, and of its ratio to the mortar facet size.
    Collective. */
-static PetscErrorCode PairMeasureFacets(MPI_Comm comm, const PairRows *rows, PetscReal *facet, PetscReal *coarseness)
+static PetscErrorCode PairMeasureFacets(const PairRows *rows, PetscReal *facet, PetscReal *coarseness)
 {
-  PetscReal     sums[4] = {0.0, 0.0, 0.0, 0.0};
-  PetscScalar **a;
+  PetscScalar closed, facing, own, ratio;
+  Vec         area, quotient;
 
   PetscFunctionBegin;
-  PetscCall(VecGetArrays(rows->value, ROW_VALUES, &a));
-  for (PetscInt r = 0; r < rows->n; ++r) {
-    const PetscReal area = PetscRealPart(a[ROW_AREA][r]), own = PetscRealPart(a[ROW_OWN][r]),
-                    facing = PetscRealPart(a[ROW_FACING][r]);
-
-    if (!(PetscRealPart(a[ROW_CLOSED][r]) > 0.0)) continue;
-    sums[0] += area;
-    sums[1] += area * own;
-    if (!(facing > 0.0)) continue;
-    sums[2] += area;
-    sums[3] += area * own / facing;
-  }
-  PetscCall(VecRestoreArrays(rows->value, ROW_VALUES, &a));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, comm));
-  *facet      = sums[0] > 0.0 ? sums[1] / sums[0] : 0.0;
-  *coarseness = sums[2] > 0.0 ? sums[3] / sums[2] : 0.0;
+  PetscCall(VecDuplicate(rows->value[ROW_AREA], &area));
+  PetscCall(VecDuplicate(rows->value[ROW_AREA], &quotient));
+  PetscCall(VecPointwiseMult(area, rows->value[ROW_AREA], rows->value[ROW_CLOSED]));
+  PetscCall(VecSum(area, &closed));
+  PetscCall(VecDot(area, rows->value[ROW_OWN], &own));
+  PetscCall(VecPointwiseDivide(quotient, rows->value[ROW_FACING], rows->value[ROW_FACING])); /* a quotient by 0 is 0 */
+  PetscCall(VecDot(area, quotient, &facing));
+  PetscCall(VecPointwiseDivide(quotient, rows->value[ROW_OWN], rows->value[ROW_FACING]));
+  PetscCall(VecDot(area, quotient, &ratio));
+  *facet      = PetscRealPart(closed) > 0.0 ? PetscRealPart(own / closed) : 0.0;
+  *coarseness = PetscRealPart(facing) > 0.0 ? PetscRealPart(ratio / facing) : 0.0;
+  PetscCall(VecDestroy(&quotient));
+  PetscCall(VecDestroy(&area));
   PetscFunctionReturn(0);
 }
 
@@ -68,10 +65,10 @@ static PetscErrorCode PairMeasureNarrowness(PairFacets *facets, Vec closed, Pets
 }
 
 /* Sets facet size, coarseness and narrowness in the pair's report. Collective. */
-PetscErrorCode PairMeshMeasure(MPI_Comm comm, const PairRows *rows, PairFacets *facets, Vec closed, PairReport *report)
+PetscErrorCode PairMeshMeasure(const PairRows *rows, PairFacets *facets, Vec closed, PairReport *report)
 {
   PetscFunctionBegin;
-  PetscCall(PairMeasureFacets(comm, rows, &report->facet, &report->coarseness));
+  PetscCall(PairMeasureFacets(rows, &report->facet, &report->coarseness));
   PetscCall(PairMeasureNarrowness(facets, closed, &report->narrow));
   PetscFunctionReturn(0);
 }

@@ -16,10 +16,7 @@ static const PetscReal resolve_enclosed = 0.4; /* limit of the distance between 
 /* Computes the mean of the marked rows' values at the mortar nodes, interpolated back to the rows. Collective. */
 static PetscErrorCode ResolveMean(const PairRows *rows, Vec mark, Vec value, Vec mean)
 {
-  const PetscScalar *w;
-  PetscScalar       *a;
-  PetscInt           n;
-  Vec                weight, node;
+  Vec weight, node;
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(rows->sides, &weight));
@@ -27,12 +24,7 @@ static PetscErrorCode ResolveMean(const PairRows *rows, Vec mark, Vec value, Vec
   PetscCall(VecPointwiseMult(mean, mark, value));
   PetscCall(MatMultTranspose(rows->shares, mark, weight));
   PetscCall(MatMultTranspose(rows->shares, mean, node));
-  PetscCall(VecGetLocalSize(node, &n));
-  PetscCall(VecGetArrayRead(weight, &w));
-  PetscCall(VecGetArray(node, &a));
-  for (PetscInt i = 0; i < n; ++i) a[i] = PetscRealPart(w[i]) > 0.0 ? a[i] / w[i] : 0.0;
-  PetscCall(VecRestoreArray(node, &a));
-  PetscCall(VecRestoreArrayRead(weight, &w));
+  PetscCall(VecPointwiseDivide(node, node, weight)); /* a quotient by 0 is 0 */
   PetscCall(PairGather(rows, node, mean));
   PetscCall(VecDestroy(&node));
   PetscCall(VecDestroy(&weight));
@@ -114,28 +106,22 @@ static PetscErrorCode ResolveMark(const Measured *at, PetscReal young, const Pai
   PetscBool *any)
 {
   const Vec          covered = work[0], mean = work[1], open = work[2];
-  const PetscScalar *area, *gap, *length, *z;
-  PetscScalar       *c, *m;
+  const PetscScalar *z;
+  PetscScalar      **a, *m;
   PetscReal          largest;
 
   PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(rows->value[ROW_AREA], &area));
-  PetscCall(VecGetArrayRead(rows->value[ROW_GAP], &gap));
-  PetscCall(VecGetArrayRead(rows->value[ROW_FACING], &length));
-  PetscCall(VecGetArrayWrite(covered, &c));
-  for (PetscInt r = 0; r < rows->n; ++r) c[r] = PetscRealPart(area[r]) > 0.0;
-  PetscCall(VecRestoreArrayWrite(covered, &c));
+  PetscCall(VecPointwiseDivide(covered, rows->value[ROW_AREA], rows->value[ROW_AREA])); /* a quotient by 0 is 0 */
   PetscCall(ResolveMean(rows, covered, rows->value[ROW_PRESSURE], mean));
   PetscCall(VecGetArrayRead(mean, &z));
+  PetscCall(VecGetArrays(rows->value, ROW_VALUES, &a));
   PetscCall(VecGetArrayWrite(mark, &m));
   for (PetscInt r = 0; r < rows->n; ++r)
-    m[r] = PetscRealPart(area[r]) > 0.0 &&
-           PairIsClosed(PetscRealPart(z[r]), PetscRealPart(gap[r]), young, PetscRealPart(length[r]));
+    m[r] = PetscRealPart(a[ROW_AREA][r]) > 0.0 &&
+           PairIsClosed(PetscRealPart(z[r]), PetscRealPart(a[ROW_GAP][r]), young, PetscRealPart(a[ROW_FACING][r]));
   PetscCall(VecRestoreArrayWrite(mark, &m));
+  PetscCall(VecRestoreArrays(rows->value, ROW_VALUES, &a));
   PetscCall(VecRestoreArrayRead(mean, &z));
-  PetscCall(VecRestoreArrayRead(rows->value[ROW_FACING], &length));
-  PetscCall(VecRestoreArrayRead(rows->value[ROW_GAP], &gap));
-  PetscCall(VecRestoreArrayRead(rows->value[ROW_AREA], &area));
   PetscCall(VecPointwiseMult(open, mark, rows->value[ROW_CLOSED]));
   PetscCall(VecAYPX(open, -1.0, mark));
   PetscCall(VecNorm(open, NORM_INFINITY, &largest));

@@ -12,18 +12,6 @@ static Mat PairCover(ContactLinearization lin)
   return lin->cover ? lin->cover : lin->J;
 }
 
-/* Sets one component of v at the nodes of a face to a number */
-static PetscErrorCode PairMarkFace(DM dm, const char face[], PetscInt component, PetscReal to, Vec v)
-{
-  IS dofs;
-
-  PetscFunctionBegin;
-  PetscCall(MeshGetFaceDofs(dm, face, component, &dofs));
-  PetscCall(VecISSet(v, dofs, to));
-  PetscCall(ISDestroy(&dofs));
-  PetscFunctionReturn(0);
-}
-
 /* Computes for each row A the vector mass_A x sum of A_AB over the nodes B of the mortar side. first: position of these
    sums in those of the linearization, if it has them */
 static PetscErrorCode PairRowsSum(const Measured *at, PetscInt pair, Mat A, PetscInt first, PetscReal vector[])
@@ -38,7 +26,7 @@ static PetscErrorCode PairRowsSum(const Measured *at, PetscInt pair, Mat A, Pets
   PetscCall(VecGetArrayRead(lin->mass, &mass));
   for (PetscInt c = 0; c < 3; ++c) {
     PetscCall(VecZeroEntries(mark));
-    PetscCall(PairMarkFace(at->dm, at->scene->pairs[pair].mortar, c, 1.0, mark));
+    PetscCall(MeshFaceSet(at->dm, at->scene->pairs[pair].mortar, c, 1.0, mark));
     PetscCall(MatMult(A, mark, sum));
     PetscCall(VecGetArrayRead(sum, &s));
     for (PetscInt r = 0; r < lin->nlocal; ++r) {
@@ -156,10 +144,10 @@ static PetscErrorCode PairShareSides(const Measured *at, const SceneContactPair 
   PetscCall(VecDuplicate(rows->sides, &rows->gathered));
   PetscCall(VecDuplicate(at->u, &mark));
   PetscCall(VecZeroEntries(mark));
-  PetscCall(PairMarkFace(at->dm, faces->mortar, 0, 1.0, mark));
-  if (!rows->self) PetscCall(PairMarkFace(at->dm, faces->nonmortar, 0, 0.0, mark));
+  PetscCall(MeshFaceSet(at->dm, faces->mortar, 0, 1.0, mark));
+  if (!rows->self) PetscCall(MeshFaceSet(at->dm, faces->nonmortar, 0, 0.0, mark));
   PetscCall(VecStrideGather(mark, 0, rows->gathered, INSERT_VALUES));
-  if (!rows->self) PetscCall(PairMarkFace(at->dm, faces->nonmortar, 0, -1.0, mark));
+  if (!rows->self) PetscCall(MeshFaceSet(at->dm, faces->nonmortar, 0, -1.0, mark));
   PetscCall(VecStrideGather(mark, 0, rows->sides, INSERT_VALUES));
   PetscCall(VecDestroy(&mark));
   PetscCall(PairShare(lin, rows, rows->self ? 2 : 1, A, factor, &rows->shares));
@@ -200,42 +188,56 @@ static PetscErrorCode PairRowsSetFriction(const Measured *at, PetscInt pair, con
 {
   const PetscReal      rounding = 1e-9;
   ContactLinearization lin      = at->solved->linearization;
+  const PetscScalar   *slip, *shear;
   PetscReal            size;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(at->u, NORM_INFINITY, &size));
+  PetscCall(VecGetArrayRead(at->solved->solution.slip, &slip));
+  PetscCall(VecGetArrayRead(at->solved->solution.shear, &shear));
   for (PetscInt r = 0; r < rows->n; ++r) {
-    const PetscReal *s = &at->solved->slip[2 * r], *f = &at->solved->shear[2 * r], *t = &lin->tangent[6 * r];
+    const PetscScalar *s = &slip[2 * r], *f = &shear[2 * r];
+    const PetscReal   *t = &lin->tangent[6 * r];
 
     if (lin->pair[r] != pair || !(PetscRealPart(a[ROW_AREA][r]) > 0.0)) continue;
-    if (PetscSqr(s[0]) + PetscSqr(s[1]) > PetscSqr(rounding * size))
+    if (PetscSqr(PetscRealPart(s[0])) + PetscSqr(PetscRealPart(s[1])) > PetscSqr(rounding * size))
       a[ROW_SLIPPING][r] = a[ROW_CLOSED][r] * a[ROW_PRESSURE][r];
     for (PetscInt c = 0; c < 3; ++c) {
       a[ROW_SHEAR + c][r] = (f[0] * t[c] + f[1] * t[3 + c]) / mass[r];
       a[ROW_SLID + c][r]  = (s[0] * t[c] + s[1] * t[3 + c]) * mass[r] * a[ROW_COVERED][r] / a[ROW_AREA][r];
     }
   }
+  PetscCall(VecRestoreArrayRead(at->solved->solution.shear, &shear));
+  PetscCall(VecRestoreArrayRead(at->solved->solution.slip, &slip));
   PetscFunctionReturn(0);
 }
 
 /* Sets the values of the rows, except those of friction, from w n (`force`) and normal x |mass_A sum of cover_AB| */
-static void PairRowsSet(ContactState *solved, const PetscScalar mass[], const PetscReal force[], PairRows *rows,
-  PetscScalar *a[])
+static PetscErrorCode PairRowsSet(const ContactSolution *sol, const PetscScalar mass[], const PetscReal force[],
+  PairRows *rows, PetscScalar *a[])
 {
+  const PetscScalar *z, *g;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(sol->pressure, &z));
+  PetscCall(VecGetArrayRead(sol->gap, &g));
   for (PetscInt r = 0; r < rows->n; ++r) {
     PetscReal *normal = &rows->normal[3 * r], size = VectorNorm(normal);
 
     if (!(size > 0.0)) continue;
     a[ROW_AREA][r]     = VectorNorm(&force[3 * r]);
     a[ROW_COVERED][r]  = a[ROW_AREA][r] / size;
-    a[ROW_PRESSURE][r] = solved->pressure[r];
+    a[ROW_PRESSURE][r] = z[r];
     a[ROW_LENGTH][r] = a[ROW_OWN][r] = PetscSqrtReal(PetscRealPart(mass[r]));
-    a[ROW_GAP][r]                    = solved->gap[r] * mass[r] / size;
+    a[ROW_GAP][r]                    = g[r] * mass[r] / size;
     for (PetscInt c = 0; c < 3; ++c) normal[c] /= size;
     if (PetscRealPart(a[ROW_AREA][r]) > 0.0 &&
-        PairIsClosed(solved->pressure[r], PetscRealPart(a[ROW_GAP][r]), rows->young, PetscRealPart(a[ROW_LENGTH][r])))
+        PairIsClosed(PetscRealPart(z[r]), PetscRealPart(a[ROW_GAP][r]), rows->young, PetscRealPart(a[ROW_LENGTH][r])))
       a[ROW_CLOSED][r] = a[ROW_PRESSES][r] = 1.0;
   }
+  PetscCall(VecRestoreArrayRead(sol->gap, &g));
+  PetscCall(VecRestoreArrayRead(sol->pressure, &z));
+  PetscFunctionReturn(0);
 }
 
 PetscErrorCode PairRowsCreate(const Measured *at, PetscInt pair, PairRows *rows)
@@ -260,7 +262,7 @@ PetscErrorCode PairRowsCreate(const Measured *at, PetscInt pair, PairRows *rows)
   PetscCall(PairRowsSum(at, pair, rows->self ? lin->mortar : lin->J, 0, force));
   PetscCall(VecGetArrayRead(lin->mass, &mass));
   PetscCall(VecGetArrays(rows->value, ROW_VALUES, &a));
-  PairRowsSet(at->solved, mass, force, rows, a);
+  PetscCall(PairRowsSet(&at->solved->solution, mass, force, rows, a));
   if (rows->frictional) PetscCall(PairRowsSetFriction(at, pair, mass, rows, a));
   PetscCall(VecRestoreArrays(rows->value, ROW_VALUES, &a));
   PetscCall(VecRestoreArrayRead(lin->mass, &mass));

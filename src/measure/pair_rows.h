@@ -74,6 +74,6 @@ PETSC_INTERN PetscErrorCode NodalPressureEvenOut(DM, Elasticity, const VertexPla
   PairFacets *, PetscInt n, Vec values[], const PetscBool smooth[]);
 
 /* pair_mesh.c. closed: 1 at nodes that are closed, otherwise 0 */
-PETSC_INTERN PetscErrorCode PairMeshMeasure(MPI_Comm, const PairRows *, PairFacets *, Vec closed, PairReport *);
+PETSC_INTERN PetscErrorCode PairMeshMeasure(const PairRows *, PairFacets *, Vec closed, PairReport *);
 
 #endif

@@ -5,8 +5,6 @@
 #include "measureimpl.h"
 #include "src/state/control.h"
 
-#define PENETRATION_SHARE 0.01 /* a warning is printed above this fraction of the largest displacement of the run */
-
 /* Returns whether the pair carries a force that is not a rounding error */
 static PetscBool PenetrationHasForce(const StepReport *report, PetscInt p)
 {
@@ -66,18 +64,6 @@ static PetscErrorCode PenetrationSayShare(PetscReal depth, PetscReal motion, siz
   PetscFunctionReturn(0);
 }
 
-/* Fails a load step because bodies penetrate each other in its solution */
-PetscErrorCode PenetrationFail(const Measured *at, StepReport *report, const char reason[])
-{
-  PetscFunctionBegin;
-  PetscCall(ReportReason(report, PETSC_FALSE, reason));
-  report->gap_unconverged = PETSC_TRUE;
-  at->report->converged   = PETSC_FALSE;
-  at->report->reason      = report->reason;
-  at->report->exit_code   = RUN_GAP_UNCONVERGED;
-  PetscFunctionReturn(0);
-}
-
 /*
    Fails the last load step if a pair carries no force although a point of it penetrates the other body. The mean
    gap is then open, so that no contact force acts. In earlier load steps this is only a warning: when contact begins on
@@ -85,9 +71,8 @@ PetscErrorCode PenetrationFail(const Measured *at, StepReport *report, const cha
 */
 PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
 {
-  const Measured  at     = SimulationMeasured(sim);
   const PetscReal motion = PenetrationMotion(&sim->report);
-  char            reason[512], share[64];
+  char            share[64];
 
   PetscFunctionBegin;
   if (PenetrationIsAllowed(sim->model->scene, sim->state->control) || ModelIsDynamic(sim->model) || motion == 0.0)
@@ -98,15 +83,15 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
     const PairReport       *its  = &report->pairs[p];
 
     if (PenetrationHasForce(report, p) || PenetrationIsMeant(pair, report)) continue;
-    if (its->penetration <= PetscMax(PENETRATION_SHARE * motion, its->penetration_rounding)) continue;
+    if (its->penetration <= PetscMax(MEASURE_MOTION * motion, its->penetration_rounding)) continue;
     PetscCall(PenetrationSayShare(its->penetration, motion, sizeof(share), share));
-    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+    PetscCall(ReportReason(report, PETSC_FALSE,
       "contact pair \"%s\" carries no force, although a point of %s or %s penetrates the other body by %.3g%s: %s",
       pair->name, pair->mortar, pair->nonmortar, (double)its->penetration, share,
       SceneBodyIsSurface(SceneFaceBody(sim->model->scene, pair->mortar))
         ? "the rigid surface lies between the nonmortar vertices without touching one; refine the nonmortar face"
         : "the mean gap of the nonmortar facets there is open; use gap: node, swap the two faces, or refine them"));
-    PetscCall(PenetrationFail(&at, report, reason));
+    ReportFailRun(&sim->report, report, RUN_GAP_UNCONVERGED);
   }
   PetscFunctionReturn(0);
 }
@@ -168,7 +153,7 @@ PetscErrorCode PenetrationWarn(Simulation sim)
       open  = (PetscBool)!PenetrationHasForce(report, p);
     }
     if (run->nsteps) PetscCall(PenetrationWarnOfCoarse(&at, p));
-    if (depth <= PENETRATION_SHARE * motion) continue;
+    if (depth <= MEASURE_MOTION * motion) continue;
     PetscCall(PenetrationSayShare(depth, motion, sizeof(share), share));
     if (pair->self)
       PetscCall(ReportWarn(sim->model->comm, &sim->report, pair->place,

@@ -40,18 +40,13 @@ static PetscErrorCode StrainMayExceed(const Measured *at, const PetscBool warned
 /* Fails the load step if a body is turned inside out. inverted: share of its volume */
 static PetscErrorCode StrainRefuse(const Measured *at, PetscInt b, PetscReal inverted, StepReport *report)
 {
-  char reason[320];
-
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(reason, sizeof(reason),
+  PetscCall(ReportReason(report, PETSC_FALSE,
     "body \"%s\" is turned inside out: %.3g %% of its volume is compressed to a thickness below zero, which its "
     "material law for small strains does not prevent; use material: neohookean or another finite-strain law, or "
     "smaller loads",
     at->scene->bodies[b].name, 100.0 * (double)inverted));
-  PetscCall(ReportReason(report, PETSC_FALSE, reason));
-  at->report->converged = PETSC_FALSE;
-  at->report->reason    = report->reason;
-  at->report->exit_code = RUN_FAILED;
+  ReportFailRun(at->report, report, RUN_FAILED);
   PetscFunctionReturn(0);
 }
 

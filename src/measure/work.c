@@ -118,7 +118,7 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   const Measured  at     = MeasuredAt(sim->model, sim->state, NULL);
   const Bodies    bodies = ModelBodies(sim->model);
   LoadPath       *path   = sim->state->path;
-  const PetscReal work = path->work, taken = path->contact_work, relative = 1e-12;
+  const PetscReal work = path->work, taken = path->contact_work;
   PetscReal       place, way;
   Vec             outside, reaction, increment[2];
 
@@ -154,6 +154,6 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   report->normal_work = report->contact_work - report->dissipated;
   if (!sim->model->scene->ntemperatures && !ModelIsDynamic(sim->model))
     PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken,
-      relative * sim->model->stiffness * place * way, report));
+      MODEL_ROUNDING * sim->model->stiffness * place * way, report));
   PetscFunctionReturn(0);
 }

@@ -1,9 +1,6 @@
 /* Labels of the nodes at points and edges with prescribed displacements. They are used like the labels of faces. */
 #include "meshimpl.h"
 
-/* tolerance for the position of nodes, relative to the size of the mesh */
-static const PetscReal point_tolerance = 1e-6;
-
 /* Returns the distance of the position x from a point or an edge [length] */
 static PetscReal PointLabelDistance(const SceneDisplacement *point, const PetscReal x[3])
 {
@@ -93,9 +90,9 @@ PetscErrorCode MeshLabelPoints(DM dm, Scene scene)
     if (point->at == DISPLACEMENT_FACE) continue;
     PetscCall(DMHasLabel(dm, point->face, &has));
     if (has) continue;
-    PetscCall(PointLabelLabel(dm, point, point_tolerance * size, nearest));
+    PetscCall(PointLabelLabel(dm, point, MESH_SAME_PLACE * size, nearest));
     PetscCall(PointLabelFindNearest(comm, nearest));
-    SceneCheck(nearest[0] <= point_tolerance * size, comm, PETSC_ERR_USER_INPUT, point,
+    SceneCheck(nearest[0] <= MESH_SAME_PLACE * size, comm, PETSC_ERR_USER_INPUT, point,
       "displacement \"%s\": body \"%s\" has no node at that point or edge: the nearest node is at (%g, %g, %g)",
       point->name, scene->bodies[point->body].name, (double)nearest[1], (double)nearest[2], (double)nearest[3]);
   }

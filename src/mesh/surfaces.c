@@ -52,7 +52,7 @@ static PetscErrorCode SurfacesAddBody(SceneBody *body, PetscInt number, const Me
   PetscFunctionBegin;
   PetscCall(SurfacesPlaceVertices(body, &mesh->grid, &x));
   PetscCall(ShapeBoundaryCreate(&mesh->grid, x, &boundary));
-  if (body->shape == SHAPE_GMSH) PetscCall(ShapeBoundarySplit(x, SHAPE_SHARP, &boundary));
+  if (body->shape == SHAPE_GMSH) PetscCall(ShapeBoundarySplit(x, MESH_SHARP_ANGLE, &boundary));
   else PetscCall(ShapeBoundaryUseFaces(&mesh->grid, nown, &boundary));
   PetscCall(SurfacesName(body, mesh, nown, &boundary, s));
   for (PetscInt r = first; r < s->nsurfaces; ++r) s->body[r] = number;

@@ -1,5 +1,6 @@
 /* Prints the report of a run as tables with sentences between them. */
 #include "outputimpl.h"
+#include "src/report/reportimpl.h"
 
 /* Prints a table with one row per load step. lines: number of lines of the heading, 1 or 2. */
 static PetscErrorCode ViewSteps(const RunReport *report, ReportTable table, PetscInt lines, PetscViewer viewer)
@@ -226,7 +227,7 @@ static PetscErrorCode ViewEffects(const RunReport *report, PetscViewer viewer)
 /* Writes a place or the components of a force. Components below 1e-9 of the largest one are written as 0. */
 static void ViewVector(const char before[], const PetscReal v[3], char text[], size_t length)
 {
-  const PetscReal tiny = 1e-9 * PetscMax(PetscAbsReal(v[0]), PetscMax(PetscAbsReal(v[1]), PetscAbsReal(v[2])));
+  const PetscReal tiny = REPORT_ZERO * PetscMax(PetscAbsReal(v[0]), PetscMax(PetscAbsReal(v[1]), PetscAbsReal(v[2])));
   double          clean[3];
 
   for (PetscInt d = 0; d < 3; ++d) clean[d] = PetscAbsReal(v[d]) <= tiny ? 0.0 : (double)v[d];

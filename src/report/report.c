@@ -24,14 +24,30 @@ PetscErrorCode ReportWarn(MPI_Comm comm, RunReport *report, const char place[], 
   PetscFunctionReturn(0);
 }
 
-/* Sets whether the load step converged, and the reason. The values of its last solve remain. */
-PetscErrorCode ReportReason(StepReport *report, PetscBool converged, const char reason[])
+/* Sets whether the load step converged, and the reason, of which the former one may be a part. The values of the last
+   solve remain. */
+PetscErrorCode ReportReason(StepReport *report, PetscBool converged, const char format[], ...)
 {
+  char    reason[1024];
+  va_list args;
+
   PetscFunctionBegin;
+  va_start(args, format);
+  PetscCall(PetscVSNPrintf(reason, sizeof(reason), format, NULL, args));
+  va_end(args);
   report->converged = converged;
   PetscCall(PetscFree(*(char **)&report->reason));
   PetscCall(PetscStrallocpy(reason, (char **)&report->reason));
   PetscFunctionReturn(0);
+}
+
+/* Fails the run for the reason for which a load step that was already accepted has failed */
+void ReportFailRun(RunReport *run, StepReport *report, RunEnd end)
+{
+  if (end == RUN_GAP_UNCONVERGED) report->gap_unconverged = PETSC_TRUE;
+  run->converged = PETSC_FALSE;
+  run->reason    = report->reason;
+  run->exit_code = end;
 }
 
 /* Appends the numbers of Krylov iterations of n linear solves */

@@ -14,9 +14,6 @@ typedef enum {
   VERTEX_HANGS   /* 1 for hanging vertices, 0 for other vertices */
 } VertexFact;
 
-#define ADAPT_PLANE \
-  1e-9 /* a face is plane if the magnitude of the sum of its facets' area vectors equals its area
-                             within this fraction */
 #define ADAPT_INSIDE \
   (1.9 * PETSC_PI) /* an angle around a vertex of at least this value means that the vertex is not
                                          on the border of its face [rad] */
@@ -116,7 +113,7 @@ static PetscErrorCode AdaptMeasureFace(DM dm, const char face[], Vec facts, Pets
   PetscCall(VecRestoreArray(angles, &a));
   PetscCall(DMLocalToGlobal(dm, angles, ADD_VALUES, facts));
   PetscCall(DMRestoreLocalVector(dm, &angles));
-  *plane = (PetscBool)(VectorNorm(sums) >= (1.0 - ADAPT_PLANE) * sums[3]);
+  *plane = MeshFacetsArePlane(sums);
   PetscFunctionReturn(0);
 }
 

@@ -64,13 +64,13 @@ static PetscErrorCode FigureTake(const FigureKind *kind, const char *owner, Pets
 {
   const PetscReal *numbers = (const PetscReal *)(owner + kind->value),
                   *place   = kind->place ? (const PetscReal *)(owner + kind->place) : NULL;
-  const PetscReal tie      = 1e-6;
-  PetscReal       value    = kind->forces ? VectorNorm(numbers) : numbers[0];
+  PetscReal value          = kind->forces ? VectorNorm(numbers) : numbers[0];
 
   PetscFunctionBegin;
   if (kind->unit[0] == '%') value *= 100.0;
   if (PetscIsNanReal(value)) PetscFunctionReturn(0);
-  if (!PetscIsNanReal(figure->value) && (kind->least ? figure->value - value : value - figure->value) <= tie * value)
+  if (!PetscIsNanReal(figure->value) &&
+      (kind->least ? figure->value - value : value - figure->value) <= REPORT_TIE * value)
     PetscFunctionReturn(0);
   figure->value = value;
   figure->step  = step;
@@ -109,14 +109,13 @@ static PetscErrorCode FiguresAdd(const FigureKind *kind, RunReport *run, PetscIn
 /* Removes the figures from number `first` on that are 0 in comparison with the largest of them, or sets them to 0 */
 static PetscErrorCode FiguresFindZeros(RunReport *run, PetscInt first, PetscBool omit)
 {
-  const PetscReal tiny    = 1e-9;
-  PetscReal       largest = 0.0;
-  PetscInt        n       = first;
+  PetscReal largest = 0.0;
+  PetscInt  n       = first;
 
   PetscFunctionBegin;
   for (PetscInt f = first; f < run->nfigures; ++f) largest = PetscMax(largest, run->figures[f].value);
   for (PetscInt f = first; f < run->nfigures; ++f) {
-    const PetscBool zero = (PetscBool)(run->figures[f].value <= tiny * largest);
+    const PetscBool zero = (PetscBool)(run->figures[f].value <= REPORT_ZERO * largest);
 
     if (zero && omit) continue;
     run->figures[n] = run->figures[f];

@@ -319,8 +319,7 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscFunctionBegin;
   if (!s) PetscFunctionReturn(0);
   PetscCall(SimulationFreeReport(&s->report));
-  PetscCall(PetscFree2(s->state->solved->pressure, s->state->solved->gap));
-  PetscCall(PetscFree2(s->state->solved->shear, s->state->solved->slip));
+  PetscCall(ContactSolutionDestroy(&s->state->solved->solution));
   PetscCall(PetscFree(s->state->control->cause));
   PetscCall(PetscFree(s->state->control->failure.reason));
   PetscCall(PetscFree(s->results->stress));

@@ -44,7 +44,7 @@ static PetscErrorCode BodyMeshAddCell(DM dm, const PetscScalar x[], PetscInt cel
 static void BodyMeshCleanBounds(BodyMesh *mesh)
 {
   for (PetscInt i = 0; i < 3; ++i) {
-    const PetscReal tiny = 1e-12 * (mesh->upper[i] - mesh->lower[i]);
+    const PetscReal tiny = MODEL_ROUNDING * (mesh->upper[i] - mesh->lower[i]);
 
     if (PetscAbsReal(mesh->lower[i]) < tiny) mesh->lower[i] = 0;
     if (PetscAbsReal(mesh->upper[i]) < tiny) mesh->upper[i] = 0;

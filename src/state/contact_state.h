@@ -1,7 +1,7 @@
 #ifndef CONTACT_STATE_H
 #define CONTACT_STATE_H
 
-#include "src/state/stateimpl.h"
+#include "src/state/solution.h"
 
 /* Contact rows of the last solve, and the results at these rows. */
 struct _n_ContactState {
@@ -10,8 +10,7 @@ struct _n_ContactState {
   ContactLinearization linearization; /* linearization with which the last solve was done */
   ContactLinearization upcoming;      /* linearization at path->u for the next load step, in which initial overlaps
                                          are applied fully; NULL: not computed */
-  PetscReal           *pressure, *gap;
-  PetscReal           *shear, *slip; /* two components per contact row, along its tangents; NULL without friction */
+  ContactSolution      solution;      /* solution at the rows of `linearization`; NULL before the first solve */
   PetscInt             npoints;
   ContactPoint        *points;
 };

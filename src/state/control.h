@@ -63,4 +63,16 @@ struct _n_StepControl {
   int             interrupted;  /* signal that was caught; 0: none */
 };
 
+/* Returns the relative tolerance to which solves are repeated that take a load, a term or a rotation at the solution
+   before: a thousandth of the optimizer's, above rounding errors. */
+static inline PetscReal StepControlRepeats(const StepControl *control)
+{
+  return PetscMax(1e-3 * control->tolerances.optimizer, 1e-12);
+}
+
+#define STEP_MAX_REPEATS 50 /* largest number of such solves */
+
+/* a few rounding errors of positions, relative to the coordinates */
+#define STEP_PLACE_ROUNDING (32.0 * PETSC_MACHINE_EPSILON)
+
 #endif

@@ -78,13 +78,10 @@ PetscErrorCode InterruptMonitor(Tao tao, void *ctx)
 
 PetscErrorCode InterruptReport(State state, StepReport *report)
 {
-  char reason[64];
-
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(reason, sizeof(reason), "stopped by signal %s",
+  PetscCall(ReportReason(report, PETSC_FALSE, "stopped by signal %s",
     state->control->interrupted == SIGINT    ? "SIGINT"
     : state->control->interrupted == SIGTERM ? "SIGTERM"
                                              : "SIGUSR1"));
-  PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }

@@ -12,13 +12,13 @@
 */
 static PetscErrorCode AttemptGetAllowed(Model model, State state, Vec u, PetscReal *allowed)
 {
-  const PetscReal part = ModelIsDynamic(model) ? 1e-14 : PetscMax(1e-3 * state->control->tolerances.optimizer, 1e-12);
+  const PetscReal part = ModelIsDynamic(model) ? 1e-14 : StepControlRepeats(state->control);
   PetscReal       size, extent;
 
   PetscFunctionBegin;
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
   PetscCall(VecNorm(model->places.x, NORM_INFINITY, &extent));
-  *allowed = PetscMax(part * size, 32.0 * PETSC_MACHINE_EPSILON * extent);
+  *allowed = PetscMax(part * size, STEP_PLACE_ROUNDING * extent);
   PetscFunctionReturn(0);
 }
 
@@ -40,9 +40,8 @@ static PetscBool AttemptTurnsOn(PetscReal allowed, PetscReal last, PetscReal err
 */
 static PetscErrorCode AttemptBodies(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report, ContactSolution *sol)
 {
-  const PetscInt most    = 50;
-  PetscReal      allowed = 0.0, last = PETSC_MAX_REAL;
-  PetscBool      again = PETSC_FALSE;
+  PetscReal allowed = 0.0, last = PETSC_MAX_REAL;
+  PetscBool again = PETSC_FALSE;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; !k || again; ++k) {
@@ -51,30 +50,11 @@ static PetscErrorCode AttemptBodies(StepProblem *p, PetscBool foreseen, Vec u, S
     PetscCall(AttemptGetAllowed(p->model, p->state, u, &allowed));
     again = (PetscBool)(report->converged && AttemptTurnsOn(allowed, last, report->straightened));
     last  = report->straightened;
-    if (k < most || !again) continue;
+    if (k < STEP_MAX_REPEATS || !again) continue;
     PetscCall(
       ReportReason(report, PETSC_FALSE, "the free rotations of rigid bodies do not converge; use smaller load steps"));
     again = PETSC_FALSE;
   }
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode AttemptKeepSurface(State state, const ContactSolution *sol)
-{
-  const PetscInt     n = state->solved->linearization->nlocal;
-  const PetscScalar *z, *g;
-
-  PetscFunctionBegin;
-  PetscCall(PetscFree2(state->solved->pressure, state->solved->gap));
-  PetscCall(PetscMalloc2(n, &state->solved->pressure, n, &state->solved->gap));
-  PetscCall(VecGetArrayRead(sol->pressure, &z));
-  PetscCall(VecGetArrayRead(sol->gap, &g));
-  for (PetscInt i = 0; i < n; ++i) {
-    state->solved->pressure[i] = PetscRealPart(z[i]);
-    state->solved->gap[i]      = PetscRealPart(g[i]);
-  }
-  PetscCall(VecRestoreArrayRead(sol->gap, &g));
-  PetscCall(VecRestoreArrayRead(sol->pressure, &z));
   PetscFunctionReturn(0);
 }
 
@@ -109,7 +89,6 @@ static PetscErrorCode AttemptJudgeTimeStep(Model model, State state, PetscReal t
   const PetscReal  length = time - state->path->time, tolerance = model->scene->dynamics.tolerance;
   PetscInt         closed = 0;
   PetscBool        smooth;
-  char             reason[96];
 
   PetscFunctionBegin;
   c->too_long = PETSC_FALSE;
@@ -119,9 +98,8 @@ static PetscErrorCode AttemptJudgeTimeStep(Model model, State state, PetscReal t
   PetscCall(InertiaEstimate(model, state, time, smooth, u, &c->error));
   c->too_long = (PetscBool)(c->error > tolerance && length > STEP_SHORTEST);
   if (c->too_long) {
-    PetscCall(PetscSNPrintf(reason, sizeof(reason), "the error %.3g of the time step is above the tolerance %g",
+    PetscCall(ReportReason(report, PETSC_FALSE, "the error %.3g of the time step is above the tolerance %g",
       (double)c->error, (double)tolerance));
-    PetscCall(ReportReason(report, PETSC_FALSE, reason));
   } else {
     c->closed   = closed;
     c->largest  = PetscMax(c->largest, c->error);
@@ -145,8 +123,8 @@ static PetscErrorCode AttemptCheckStart(Simulation sim, const StepReport *report
 }
 
 /*
-   Measures the new state and makes it the last one of state->path, which takes u. *at_u: the linearization at u, which
-   the next load step takes
+   Measures the new state and makes it the last one of state->path, which takes u; state->solved takes `sol`. *at_u: the
+   linearization at u, which the next load step takes
 */
 static PetscErrorCode AttemptAccept(StepProblem *p, Vec *u, ContactSolution *sol, ContactLinearization *at_u,
   StepReport *report)
@@ -162,8 +140,10 @@ static PetscErrorCode AttemptAccept(StepProblem *p, Vec *u, ContactSolution *sol
   PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscCall(MeasureState(sim, p->time, p->load, inertia, *u, sol, report));
   PetscCall(VecDestroy(&inertia));
-  if (p->model->contact) PetscCall(AttemptKeepSurface(p->state, sol));
   if (p->model->contact) PetscCall(FrictionSettle(p->model, p->state, p->time, *u, sol));
+  PetscCall(ContactSolutionDestroy(&p->state->solved->solution));
+  p->state->solved->solution = *sol;
+  *sol                       = (ContactSolution){.gap = NULL};
   PetscCall(PathAdvance(p->state->path, p->time, u));
   PetscCall(ContactLinearizationDestroy(&p->state->solved->upcoming));
   /* if only the gap was computed, the next load step must linearize again */

@@ -31,7 +31,7 @@ static PetscErrorCode DualGapsUndo(Model model, State state, StepReport *report)
   PetscCall(DualGapsSet(model, state, PETSC_FALSE, &changed));
   state->control->unsupported = failure->unsupported;
   report->gap_unconverged     = failure->gap_unconverged;
-  if (!state->control->interrupted) PetscCall(ReportReason(report, PETSC_FALSE, failure->reason));
+  if (!state->control->interrupted) PetscCall(ReportReason(report, PETSC_FALSE, "%s", failure->reason));
   PetscCall(PetscFree(failure->reason));
   PetscFunctionReturn(0);
 }

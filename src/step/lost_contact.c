@@ -127,17 +127,20 @@ static PetscErrorCode LostContactMove(Model model, State state, Vec w, Vec u, Co
 /* Finds the bodies on which contact forces acted at the last state */
 static PetscErrorCode LostContactFindTouched(Model model, State state, ContactLinearization last, PetscBool touched[])
 {
-  const Scene scene = model->scene;
+  const Scene        scene = model->scene;
+  const PetscScalar *z     = NULL;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) touched[b] = PETSC_FALSE;
+  if (last) PetscCall(VecGetArrayRead(state->solved->solution.pressure, &z));
   for (PetscInt r = 0; last && r < last->nlocal; ++r) {
     const SceneContactPair *pair = &scene->pairs[last->pair[r]];
 
-    if (!(state->solved->pressure[r] > 0.0) || pair->self) continue;
+    if (!(PetscRealPart(z[r]) > 0.0) || pair->self) continue;
     touched[SceneFaceBody(scene, pair->mortar) - scene->bodies]    = PETSC_TRUE;
     touched[SceneFaceBody(scene, pair->nonmortar) - scene->bodies] = PETSC_TRUE;
   }
+  if (last) PetscCall(VecRestoreArrayRead(state->solved->solution.pressure, &z));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, touched, (PetscMPIInt)scene->nbodies, MPI_PETSCBOOL, MPI_LOR, model->comm));
   PetscFunctionReturn(0);
 }
@@ -154,7 +157,6 @@ static PetscErrorCode LostContactReport(Model model, State state, RunReport *run
   const Scene scene = model->scene;
   PetscReal  *moved, *lost, extent;
   PetscBool  *touched;
-  char        reason[256];
   Vec         increment;
 
   PetscFunctionBegin;
@@ -183,10 +185,9 @@ static PetscErrorCode LostContactReport(Model model, State state, RunReport *run
         scene->bodies[b].name, report->step));
     }
     if (!report->converged || moved[b] <= PetscMax(held, 2.0 * extent)) continue;
-    PetscCall(PetscSNPrintf(reason, sizeof(reason),
-      "body \"%s\" slips away by %g: it has lost contact, and nothing else holds it", scene->bodies[b].name,
-      (double)moved[b]));
-    PetscCall(ReportReason(report, PETSC_FALSE, reason));
+    PetscCall(
+      ReportReason(report, PETSC_FALSE, "body \"%s\" slips away by %g: it has lost contact, and nothing else holds it",
+        scene->bodies[b].name, (double)moved[b]));
   }
   PetscCall(PetscFree3(moved, lost, touched));
   PetscFunctionReturn(0);

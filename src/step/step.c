@@ -168,7 +168,7 @@ static PetscErrorCode SimulationReportStep(Simulation sim, StepReport *report)
   PetscFunctionBegin;
   /* the reason of the first of the failed attempts is reported, not that of a later one with a smaller increment */
   if (!report->converged && sim->state->control->cause && !sim->state->control->interrupted)
-    PetscCall(ReportReason(report, PETSC_FALSE, sim->state->control->cause));
+    PetscCall(ReportReason(report, PETSC_FALSE, "%s", sim->state->control->cause));
   if (!report->converged || report->gap_unconverged) sim->report.reason = report->reason;
   if (report->converged) PetscFunctionReturn(0);
   sim->report.converged = PETSC_FALSE;

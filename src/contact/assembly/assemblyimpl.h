@@ -95,12 +95,8 @@ typedef enum {
   CONTACT_NORMALS_FACET  /* the normal of each nonmortar facet */
 } ContactNormals;
 
-/* Edges of undeformed facets stay sharp if the normals of the two facets make a larger angle [degrees]. */
-#define CONTACT_FEATURE_ANGLE 35.0
-/* Facets n1 and n2 face each other only if the cosine of the angle between their normals is at most this. */
-#define CONTACT_NORMAL_COSINE -0.174
-#define CONTACT_OVERLAP_DROP  1e-8 /* Overlaps smaller than this fraction of the smaller facet's area are ignored. */
-#define CONTACT_ROW_DROP      1e-5 /* Rows whose 1-norm is less than this fraction of the largest row's are removed. */
+#define CONTACT_OVERLAP_DROP 1e-8 /* Overlaps smaller than this fraction of the smaller facet's area are ignored. */
+#define CONTACT_ROW_DROP     1e-5 /* Rows whose 1-norm is less than this fraction of the largest row's are removed. */
 
 typedef struct _n_ContactCyclic *ContactCyclic;
 

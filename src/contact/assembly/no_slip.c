@@ -12,8 +12,6 @@
 #include "assemblyimpl.h"
 #include "src/mesh/query/queryimpl.h"
 
-static const PetscReal plane_rounding = 1e-6; /* tolerance for coordinates on one plane, relative to the size of the
-                                                face */
 static const PetscReal held_normal = 0.95; /* an axis is the normal of a facet if the component of the unit normal along
                                               it is larger */
 
@@ -129,7 +127,7 @@ static PetscErrorCode PrescribedFaceCreate(Contact contact, const ContactSurface
                                                                        and the largest */
 
   PetscFunctionBegin;
-  *face       = (PrescribedFace){.axis = axis, .rounding = plane_rounding * PetscSqrtReal(s->area)};
+  *face       = (PrescribedFace){.axis = axis, .rounding = MESH_SAME_PLACE * PetscSqrtReal(s->area)};
   face->whole = NoSlipRigidMotion(contact, s->name, axis, &face->motion);
   if (face->whole) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(4 * s->nfacets, &motion));
@@ -223,7 +221,7 @@ static PetscBool NoSlipParallel(const SceneDisplacement *a, const SceneDisplacem
 
   (void)VectorScaleToUnit(m);
   (void)VectorScaleToUnit(n);
-  return (PetscBool)(PetscAbsReal(VectorDot(m, n)) > 1.0 - plane_rounding);
+  return (PetscBool)(PetscAbsReal(VectorDot(m, n)) > 1.0 - MESH_SAME_PLACE);
 }
 
 /*
@@ -239,7 +237,7 @@ static PetscErrorCode NoSlipIsAcross(Contact contact, const ContactSurface *mort
   PetscInt                 found  = 0;
   PetscReal                moved  = 0.0;
   PetscBool                whole  = PETSC_TRUE;
-  const PetscReal          margin = plane_rounding * PetscSqrtReal(mortar->area);
+  const PetscReal          margin = MESH_SAME_PLACE * PetscSqrtReal(mortar->area);
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < 4 * mortar->nfacets && !found; ++i) {

@@ -5,10 +5,6 @@
 */
 #include "assemblyimpl.h"
 
-/* A surface is curved if the distance between the smooth surface and a facet exceeds this fraction of the facet's size.
-   Smaller distances are rounding errors of the mesh file. */
-#define CURVED 1e-6
-
 /* Computes the normals at the vertices of the surface's facets. *bulge: largest distance of the patches from their
    facets [length]; *curvature: largest ratio of that distance to the size of the facet */
 static PetscErrorCode PatchSurface(const ContactRing *ring, ContactSurface *s, PetscReal *bulge, PetscReal *curvature)
@@ -39,7 +35,7 @@ static PetscErrorCode PatchSurface(const ContactRing *ring, ContactSurface *s, P
    curved in the undeformed state. */
 static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
 {
-  const PetscReal cosine     = PetscCosReal(CONTACT_FEATURE_ANGLE * PETSC_PI / 180.0);
+  const PetscReal cosine     = PetscCosReal(MESH_SHARP_ANGLE * PETSC_PI / 180.0);
   ContactSurface *surface[2] = {&pair->mortar, &pair->nonmortar};
   ContactRing    *ring[2]    = {&pair->mortar_ring, &pair->nonmortar_ring};
   PetscReal       largest[4] = {0};
@@ -58,7 +54,9 @@ static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 4, MPIU_REAL, MPIU_MAX, contact->comm));
   pair->bulge = largest[0] + largest[1];
-  for (PetscInt k = 0; k < 2; ++k) surface[k]->patched = (PetscBool)(PetscMax(largest[2], largest[3]) > CURVED);
+  /* smaller distances between the smooth surface and a facet, relative to the facet, are rounding errors */
+  for (PetscInt k = 0; k < 2; ++k)
+    surface[k]->patched = (PetscBool)(PetscMax(largest[2], largest[3]) > MESH_SAME_PLACE);
   PetscFunctionReturn(0);
 }
 

@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <vector3.h>
 
-#define BULGE_SAME 1e-6 /* corners nearer than this, relative to the size of all bodies, are the same */
-
 typedef struct {
   PetscInt64 key[4]; /* surface, and rounded coordinates */
   PetscInt   at;     /* 4 facet + corner */
@@ -34,7 +32,7 @@ static void BulgeSort(const MeshSurfaces *s, BulgeCorner corner[])
   for (PetscInt i = 0; i < 4 * s->n; ++i) {
     corner[i] = (BulgeCorner){{s->surface[i / 4], 0, 0, 0}, i};
     for (PetscInt c = 0; c < 3; ++c)
-      corner[i].key[1 + c] = (PetscInt64)PetscFloorReal((s->x[3 * i + c] - s->x[c]) / (BULGE_SAME * size) + 0.5);
+      corner[i].key[1 + c] = (PetscInt64)PetscFloorReal((s->x[3 * i + c] - s->x[c]) / (MESH_SAME_PLACE * size) + 0.5);
   }
   if (s->n) qsort(corner, (size_t)(4 * s->n), sizeof(*corner), BulgeCompare);
 }

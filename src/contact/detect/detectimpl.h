@@ -81,9 +81,6 @@ PETSC_INTERN PetscInt DetectShoot(const DetectState *, PetscInt facet, PetscInt 
    surface [length] */
 PETSC_INTERN PetscBool DetectFacesRigidSurface(const DetectState *, PetscInt tool, const PetscReal x[3],
   const PetscReal normal[3], PetscReal *distance);
-/* the largest cosine of the angle between the normals of facing surfaces; equal to that of the contact search */
-#define DETECT_COSINE -0.174
-
 /* bulge.c: the height of a curved surface above its plane facets */
 PETSC_INTERN PetscErrorCode DetectNormals(const MeshSurfaces *, PetscReal normal[]);
 PETSC_INTERN PetscReal      DetectBulge(const PetscReal x[12], const PetscReal normal[12], const PetscReal xi[2]);

@@ -3,8 +3,6 @@
 #include "src/mesh/query/queryimpl.h"
 #include <stdlib.h>
 
-#define FACING_FRACTION 0.25 /* default search distance, relative to the square root of the smaller surface's area */
-
 /* What the rays between two surfaces have found. The fields, also the numbers of surfaces and the counts, are real, so
    that records can be sent as one array. */
 typedef struct {
@@ -80,7 +78,7 @@ static PetscReal FacingReach(const DetectModel *model, const FacingLimits *limit
   PetscInt i, PetscInt j)
 {
   const PetscInt *body = model->surfaces.body;
-  const PetscReal own  = FACING_FRACTION * PetscSqrtReal(PetscMin(model->area[i], model->area[j]));
+  const PetscReal own  = CONTACT_SEARCH_FRACTION * PetscSqrtReal(PetscMin(model->area[i], model->area[j]));
 
   return (rule->distance > 0.0 ? rule->distance : own) +
          (limits->prescribed[body[i]] && limits->prescribed[body[j]] ? 0.0 : limits->extent);
@@ -253,7 +251,7 @@ static PetscReal FacingLargestReach(const DetectModel *model, Scene scene, Petsc
   }
   for (PetscInt r = 0; r < scene->nrules; ++r)
     reach = PetscMax(reach,
-      scene->rules[r].distance > 0.0 ? scene->rules[r].distance : FACING_FRACTION * PetscSqrtReal(largest));
+      scene->rules[r].distance > 0.0 ? scene->rules[r].distance : CONTACT_SEARCH_FRACTION * PetscSqrtReal(largest));
   return reach + extent;
 }
 

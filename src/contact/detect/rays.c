@@ -72,7 +72,7 @@ static PetscBool RayMeetsFacet(const PetscReal x[12], const PetscReal origin[3],
 {
   PetscReal n[3];
 
-  if (!ContactFacetNormal(x, n) || VectorDot(n, direction) > DETECT_COSINE) return PETSC_FALSE;
+  if (!ContactFacetNormal(x, n) || VectorDot(n, direction) > CONTACT_NORMAL_COSINE) return PETSC_FALSE;
   if (RayMeetsTriangle(x, x + 3, x + 6, origin, direction, t)) return PETSC_TRUE;
   return (PetscBool)(!ContactFacetIsTriangle(x) && RayMeetsTriangle(x, x + 6, x + 9, origin, direction, t));
 }

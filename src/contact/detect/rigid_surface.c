@@ -18,5 +18,5 @@ PetscBool DetectFacesRigidSurface(const DetectState *state, PetscInt tool, const
   }
   DetectMovePoints(&back, 1, x, there);
   *distance = SceneSurfaceDistance(&state->model->bodies[body], there, gradient);
-  return (PetscBool)(VectorDot(along, gradient) <= DETECT_COSINE);
+  return (PetscBool)(VectorDot(along, gradient) <= CONTACT_NORMAL_COSINE);
 }

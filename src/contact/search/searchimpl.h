@@ -3,6 +3,12 @@
 #define SEARCHIMPL_H
 
 #include "src/contact/surface/surfaceimpl.h"
+#include <mesh.h>
+
+/* Facets n1 and n2 face each other only if the cosine of the angle between their normals is at most this. */
+#define CONTACT_NORMAL_COSINE -0.174
+/* default search distance of a contact pair, divided by the square root of the area of its smaller face */
+#define CONTACT_SEARCH_FRACTION 0.25
 
 /* exchange.c: the mortar facets of all ranks that may face this rank's part of the nonmortar face */
 #define CONTACT_SELF_REALS 14

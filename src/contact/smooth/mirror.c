@@ -7,10 +7,8 @@
 #include "src/mesh/query/queryimpl.h"
 
 /* A surface counts as perpendicular to the plane if the component of the vertex normal along the plane's normal is at
-   most this fraction of the facet normal's component, */
+   most this fraction of the facet normal's component, plus MESH_SAME_PLACE for rounding in mesh files. */
 #define MIRROR_OBLIQUE 0.2
-/* plus this much for rounding in mesh files. */
-#define MIRROR_ROUNDING 1e-6
 
 /* A plane perpendicular to an axis that contains edges of the border, which are held along that axis. All fields are
    real, so that planes can be sent as one array. */
@@ -35,7 +33,7 @@ static PetscBool MirrorIsOblique(const ContactRing *ring, PetscInt corner, Petsc
   for (PetscInt i = 0; i < 12; ++i) x[i] = ring->s.x[3 * ring->s.node[4 * (corner / 4) + i / 3] + i % 3];
   if (!ContactFacetNormal(x, facet)) return PETSC_TRUE;
   MeshCornerNormal(&ring->s, corner, n);
-  return (PetscBool)(PetscAbsReal(n[axis]) > MIRROR_OBLIQUE * PetscAbsReal(facet[axis]) + MIRROR_ROUNDING);
+  return (PetscBool)(PetscAbsReal(n[axis]) > MIRROR_OBLIQUE * PetscAbsReal(facet[axis]) + MESH_SAME_PLACE);
 }
 
 /* Adds a plane, or updates `oblique` of an existing plane */
@@ -176,7 +174,7 @@ static PetscErrorCode MirrorReflect(ContactRing *ring, const MirrorPlane *plane,
    ends. Sets no neighbours of the new facets. length: size of the largest facet [length] */
 PetscErrorCode ContactRingAddImages(MPI_Comm comm, PetscReal length, PetscInt nown, ContactRing *ring)
 {
-  const PetscReal tolerance = MIRROR_ROUNDING * length;
+  const PetscReal tolerance = MESH_SAME_PLACE * length;
   PetscInt        n         = 0, *flips;
   MirrorPlane    *planes;
 

@@ -1,7 +1,6 @@
 /* Finds the largest values of samples, and their places */
 #include "recoveryimpl.h"
-
-#define LARGEST_TIE 1e-6 /* relative difference of values that count as equal */
+#include "src/report/reportimpl.h"
 
 /* Ranks places of equal values, such that the place that is found does not depend on the number of ranks */
 static PetscReal LargestOrder(const PetscReal place[3])
@@ -28,7 +27,7 @@ PetscErrorCode LargestFind(MPI_Comm comm, PetscInt n, const LargestSample sample
   for (PetscInt i = 0; i < n; ++i) {
     const PetscInt k = samples[i].of;
 
-    if (samples[i].value < (1.0 - LARGEST_TIE) * value[k] || LargestOrder(samples[i].place) >= order[k]) continue;
+    if (samples[i].value < (1.0 - REPORT_TIE) * value[k] || LargestOrder(samples[i].place) >= order[k]) continue;
     order[k] = LargestOrder(samples[i].place);
     PetscCall(PetscArraycpy(place[k], samples[i].place, 3));
   }

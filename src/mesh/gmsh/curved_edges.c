@@ -8,8 +8,7 @@
 #include <vector3.h>
 #include <stdlib.h>
 
-#define ARC_FEATURE SHAPE_SHARP
-#define ARC_FLAT    1e-6 /* heights of arcs that are smaller, relative to the edge, are rounding errors of the file */
+#define ARC_FEATURE MESH_SHARP_ANGLE
 
 /* Finds the neighbour of each edge. edges: all corners, sorted by the ends of their edges */
 static void ArcFindTwins(PetscInt ncorners, const ShapeItem edges[], MeshFacets *s)
@@ -44,7 +43,7 @@ static PetscReal ArcHeight(const MeshFacets *s, PetscInt corner, PetscReal N[3])
   (void)VectorScaleToUnit(N);
   for (PetscInt i = 0; i < 2; ++i) slope[i] = -2 * VectorDot(e, n[i]) / (1 + VectorDot(N, n[i]));
   height = (slope[0] - slope[1]) / 8;
-  return PetscAbsReal(height) > ARC_FLAT * VectorNorm(e) ? height : 0;
+  return PetscAbsReal(height) > MESH_SAME_PLACE * VectorNorm(e) ? height : 0;
 }
 
 /* Computes off, the shortest vector [length] whose components along n1 and n2 are the heights h1 and h2. For almost

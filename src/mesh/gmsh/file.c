@@ -298,7 +298,7 @@ static PetscErrorCode GmshAddSurfaces(PetscInt n, ShapeGrid *grid)
 
   PetscFunctionBegin;
   PetscCall(ShapeBoundaryCreate(grid, grid->coordinates, &boundary));
-  PetscCall(ShapeBoundarySplit(grid->coordinates, SHAPE_SHARP, &boundary));
+  PetscCall(ShapeBoundarySplit(grid->coordinates, MESH_SHARP_ANGLE, &boundary));
   PetscCall(PetscRealloc(sizeof(PetscInt) * 4 * (grid->nfacets + boundary.n), &grid->facets));
   PetscCall(PetscRealloc(sizeof(PetscInt) * (grid->nfacets + boundary.n), &grid->facetface));
   PetscCall(PetscArraycpy(grid->facets + 4 * grid->nfacets, boundary.vertex, 4 * boundary.n));

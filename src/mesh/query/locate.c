@@ -11,9 +11,6 @@
    facets. */
 static const PetscReal locate_margin = 0.25;
 
-/* a point that is outside of a cell by less than this fraction of the cell's size counts as inside */
-static const PetscReal locate_rounding = 1e-12;
-
 /* Points sorted into bins. Bin b contains the points order[start[b]] to order[start[b + 1] - 1]. Bin i along axis d
    begins at the coordinate first[d][i] [length]. */
 typedef struct {
@@ -236,7 +233,7 @@ static void LocatorTry(MeshLocator locator, PetscInt i, MeshPlace place, PetscRe
 {
   MeshPlace      *nearest = &locator->places[i];
   const PetscReal rounding =
-    locate_rounding * place.size * (PetscReal)((place.body < nearest->body) - (place.body > nearest->body));
+    MODEL_ROUNDING * place.size * (PetscReal)((place.body < nearest->body) - (place.body > nearest->body));
 
   /* The point is inside an earlier cell already. */
   if (nearest->distance <= 1e-14 * place.size && nearest->body <= place.body) return;
@@ -316,7 +313,7 @@ static PetscErrorCode LocateChooseRank(MPI_Comm comm, PetscInt n, MeshPlace plac
   for (PetscInt i = 0; i < n; ++i) {
     const PetscBool nearest =
       (PetscBool)(places[i].cell >= 0 &&
-                  (double)places[i].distance <= distance[i] + locate_rounding * (double)places[i].size);
+                  (double)places[i].distance <= distance[i] + MODEL_ROUNDING * (double)places[i].size);
 
     first[i].body = nearest ? (double)places[i].body : PETSC_MAX_REAL;
     first[i].rank = rank;

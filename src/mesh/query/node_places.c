@@ -43,6 +43,18 @@ PetscErrorCode VertexPlacesCreate(DM dm, VertexPlaces *places)
   PetscFunctionReturn(0);
 }
 
+/* Sets one component of a global vector at the nodes of a face to a number */
+PetscErrorCode MeshFaceSet(DM dm, const char face[], PetscInt component, PetscReal value, Vec v)
+{
+  IS dofs;
+
+  PetscFunctionBegin;
+  PetscCall(MeshGetFaceDofs(dm, face, component, &dofs));
+  PetscCall(VecISSet(v, dofs, value));
+  PetscCall(ISDestroy(&dofs));
+  PetscFunctionReturn(0);
+}
+
 /* Collective. Computes the magnitude of a vector at each node of all bodies, and returns the sum and the largest of the
    magnitudes. largest may be NULL. */
 PetscErrorCode NodalMagnitudesMeasure(Vec v, PetscReal *sum, PetscReal *largest)
@@ -129,24 +141,6 @@ PetscErrorCode VertexPlacesLargest(const VertexPlaces *places, Vec v, PetscInt n
   PetscCall(VecRestoreArrayRead(v, &a));
   PetscCallMPI(
     MPI_Allreduce(MPI_IN_PLACE, largest, (PetscMPIInt)nbodies, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)v)));
-  PetscFunctionReturn(0);
-}
-
-/* Collective. Computes the mean of the positions x of the nodes of each body. centres: 3 numbers per body [length] */
-PetscErrorCode VertexPlacesGetCentres(const VertexPlaces *places, Vec x, PetscInt nbodies, PetscReal centres[])
-{
-  PetscReal *count;
-  Vec        ones;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(3 * nbodies, &count));
-  PetscCall(VecDuplicate(x, &ones));
-  PetscCall(VecSet(ones, 1.0));
-  PetscCall(VertexPlacesSum(places, ones, nbodies, count));
-  PetscCall(VertexPlacesSum(places, x, nbodies, centres));
-  for (PetscInt i = 0; i < 3 * nbodies; ++i) centres[i] /= count[i];
-  PetscCall(VecDestroy(&ones));
-  PetscCall(PetscFree(count));
   PetscFunctionReturn(0);
 }
 

@@ -220,6 +220,13 @@ PetscErrorCode MeshSumFacetAreas(DM dm, IS facets, PetscReal sums[4])
   PetscFunctionReturn(0);
 }
 
+PetscBool MeshFacetsArePlane(const PetscReal sums[4])
+{
+  const PetscReal rounding = 1e-10; /* normals that differ by 1e-5 are those of one plane */
+
+  return (PetscBool)(VectorNorm(sums) >= (1.0 - rounding) * sums[3]);
+}
+
 /* Gets the 8 vertices of a hexahedron in tensor order. cell, vertices: local DMPlex points; vertex i + 2 j + 4 k is at
    the corner (i, j, k) of the reference cube */
 PetscErrorCode MeshGetCellVertices(DM dm, PetscInt cell, PetscInt vertices[8])

@@ -88,12 +88,12 @@ typedef struct {
 } VertexPlaces;
 
 PETSC_INTERN PetscErrorCode VertexPlacesCreate(DM, VertexPlaces *);
+PETSC_INTERN PetscErrorCode MeshFaceSet(DM, const char face[], PetscInt component, PetscReal value, Vec);
 PETSC_INTERN PetscErrorCode NodalMagnitudesMeasure(Vec v, PetscReal *sum, PetscReal *largest);
 PETSC_INTERN PetscErrorCode VertexPlacesSum(const VertexPlaces *, Vec v, PetscInt nbodies, PetscReal sums[]);
 PETSC_INTERN PetscErrorCode VertexPlacesSumForces(const VertexPlaces *, Vec force, Vec all, PetscInt nbodies,
   PetscReal sums[]);
 PETSC_INTERN PetscErrorCode VertexPlacesLargest(const VertexPlaces *, Vec v, PetscInt nbodies, PetscReal largest[]);
-PETSC_INTERN PetscErrorCode VertexPlacesGetCentres(const VertexPlaces *, Vec x, PetscInt nbodies, PetscReal centres[]);
 PETSC_INTERN PetscErrorCode VertexPlacesDestroy(VertexPlaces *);
 
 #endif

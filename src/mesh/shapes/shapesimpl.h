@@ -69,7 +69,6 @@ PETSC_INTERN PetscErrorCode ShapeCheckGrading(MPI_Comm, const SceneBody *, Petsc
    - ShapeFacetNormal() computes the unit normal of a facet from its diagonals, because a facet need not be plane.
    - ShapeCompareItems() orders items by their vertices, for qsort() and bsearch().
 */
-#define SHAPE_SHARP 35.0 /* angle between normals above which an edge separates two surfaces of a body [degrees] */
 typedef struct {
   PetscInt  n;      /* number of facets */
   PetscInt *vertex; /* [4 n] vertices, counterclockwise seen from outside; a triangle repeats its last vertex */

@@ -29,7 +29,7 @@ PetscErrorCode SupportFindNull(PetscInt n, PetscReal matrix[], PetscInt *nfree)
 }
 
 /* Adds the 6 x 6 diagonal block of a link's first (end = 0) or second body (end = 1) to `block` */
-static void SupportAddBlock(const Support *support, PetscInt link, PetscInt end, PetscReal block[36])
+void SupportAddBlock(const Support *support, PetscInt link, PetscInt end, PetscReal block[36])
 {
   for (PetscInt k = 0; k < 36; ++k)
     block[k] += support->gram[link][(6 * end + k / 6) * SUPPORT_BLOCK + 6 * end + k % 6];

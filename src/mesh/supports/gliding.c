@@ -135,11 +135,8 @@ PetscErrorCode SupportFindGliding(const Support *support, PetscBool glides[], Me
   for (PetscInt l = 0; l < support->nlinks; ++l) {
     const PetscInt *body = support->links[l].body;
 
-    for (PetscInt k = 0; k < 72 && support->links[l].kind != SUPPORT_SLIDING; ++k) {
-      const PetscInt end = k / 36, i = SUPPORT_MODES * end + k % 36 / 6, j = SUPPORT_MODES * end + k % 6;
-
-      if (body[end] >= 0) held[body[end]][k % 36] += support->gram[l][i * SUPPORT_BLOCK + j];
-    }
+    for (PetscInt end = 0; end < 2 && support->links[l].kind != SUPPORT_SLIDING; ++end)
+      if (body[end] >= 0) SupportAddBlock(support, l, end, held[body[end]]);
   }
   for (PetscInt b = 0; b < support->nbodies; ++b) {
     glides[b]    = PETSC_FALSE;

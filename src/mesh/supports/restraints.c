@@ -80,8 +80,7 @@ static PetscErrorCode SupportAddDisplacement(Support *support, const SceneDispla
 static PetscErrorCode SupportFindPlane(Support *support, const SceneBody *body, IS facets, PetscReal normal[3],
   PetscBool *plane)
 {
-  const PetscReal rounding = 1e-10;
-  PetscReal       sums[4];
+  PetscReal sums[4];
 
   PetscFunctionBegin;
   *plane = PETSC_FALSE;
@@ -90,7 +89,7 @@ static PetscErrorCode SupportFindPlane(Support *support, const SceneBody *body, 
     PetscCall(PetscArraycpy(normal, &body->own[SURFACE_AXIS], 3));
   } else {
     PetscCall(MeshSumFacetAreas(support->dm, facets, sums));
-    *plane = (PetscBool)(VectorNorm(sums) > (1.0 - rounding) * sums[3]);
+    *plane = MeshFacetsArePlane(sums);
     PetscCall(PetscArraycpy(normal, sums, 3));
   }
   VectorScaleToUnit(normal);

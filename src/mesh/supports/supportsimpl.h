@@ -75,6 +75,7 @@ PETSC_INTERN PetscErrorCode SupportCreate(DM, Scene, Vec u, SupportKind most, Su
 PETSC_INTERN PetscErrorCode SupportDestroy(Support *);
 
 /* free_modes.c: the motions that no link prevents */
+PETSC_INTERN void           SupportAddBlock(const Support *, PetscInt link, PetscInt end, PetscReal block[36]);
 PETSC_INTERN PetscErrorCode SupportFindNull(PetscInt n, PetscReal matrix[], PetscInt *nfree);
 PETSC_INTERN PetscErrorCode SupportFindFree(const Support *, PetscInt *n, Mat *motions);
 

@@ -36,9 +36,8 @@
 static PetscErrorCode ContactUpdatesMeasureGap(StepProblem *p, Vec u, const ContactSolution *sol,
   ContactLinearization at_u, StepReport *report, PetscBool *is_true)
 {
-  const PetscReal few = 32.0 * PETSC_MACHINE_EPSILON; /* a few rounding errors, relative to the coordinates */
-  PetscReal       size, extent, proximal;
-  PetscInt        nrows;
+  PetscReal size, extent, proximal;
+  PetscInt  nrows;
 
   PetscFunctionBegin;
   report->gap_true = NAN;
@@ -48,14 +47,14 @@ static PetscErrorCode ContactUpdatesMeasureGap(StepProblem *p, Vec u, const Cont
   PetscCall(ContactUpdateMeasureError(p->model, p->state, u, sol, at_u, report));
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
   PetscCall(VecNorm(p->model->places.x, NORM_INFINITY, &extent));
-  *is_true =
-    (PetscBool)(report->update_error <= PetscMax(p->state->control->tolerances.gap_change * size, few * extent));
+  *is_true = (PetscBool)(report->update_error <=
+                         PetscMax(p->state->control->tolerances.gap_change * size, STEP_PLACE_ROUNDING * extent));
   report->gap_unconverged =
     (PetscBool)((p->model->scene->contact_updates > 1 ? report->update_error : report->gap_change) >
                 PetscMax(
                   PetscMax(p->state->control->tolerances.gap_change, p->state->control->tolerances.gap_unconverged) *
                     size,
-                  few * extent));
+                  STEP_PLACE_ROUNDING * extent));
   PetscCall(ProximalMeasure(p, u, &proximal));
   if (proximal > PetscMax(p->state->control->tolerances.optimizer, p->glides ? CONTACT_UPDATES_GLIDING : 1e-10))
     *is_true = PETSC_FALSE;
@@ -101,27 +100,26 @@ static PetscErrorCode ContactUpdatesSolveLinearized(StepProblem *p, PetscBool re
 static PetscErrorCode ContactUpdatesReportGapError(Model model, State state, const ContactSolution *sol,
   ContactLinearization at_u, PetscBool slid, StepReport *report)
 {
-  char            reason[768], place[512] = "";
-  const PetscBool single = (PetscBool)(model->scene->contact_updates == 1);
+  char            place[512] = "";
+  const PetscBool single     = (PetscBool)(model->scene->contact_updates == 1);
 
   PetscFunctionBegin;
   if (!single) PetscCall(ContactUpdateNamePlace(model, state, sol, at_u, slid, sizeof(place), place));
   if (single)
-    PetscCall(PetscSNPrintf(reason, sizeof(reason),
-      "converged with contact_updates: 1; contact gap error up to %g [length]", (double)report->gap_change));
+    PetscCall(ReportReason(report, PETSC_TRUE, "converged with contact_updates: 1; contact gap error up to %g [length]",
+      (double)report->gap_change));
   else if (slid)
-    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+    PetscCall(ReportReason(report, PETSC_FALSE,
       "contact did not converge: after %" PetscInt_FMT
       " contact updates contact nodes still slide over the edge of the opposite face%s",
       report->contact_updates, place));
   else
-    PetscCall(PetscSNPrintf(reason, sizeof(reason),
+    PetscCall(ReportReason(report, PETSC_FALSE,
       "contact did not converge: after %" PetscInt_FMT
       " contact updates %s still changes by %g, more than %g of the largest displacement%s",
       report->contact_updates,
       report->update_error > report->gap_change ? "the slip or the rotation of the normals" : "the gap",
       (double)report->update_error, (double)state->control->tolerances.gap_unconverged, place));
-  PetscCall(ReportReason(report, single, reason));
   PetscFunctionReturn(0);
 }
 

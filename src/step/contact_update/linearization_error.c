@@ -6,6 +6,7 @@
 #include <vector3.h>
 #include "src/state/contact_history.h"
 #include "src/state/contact_state.h"
+#include "src/state/control.h"
 #include "src/state/path.h"
 
 /*
@@ -226,8 +227,7 @@ static PetscErrorCode ContactUpdateErrorMeasureArms(Model model, State state, Ve
 PetscErrorCode ContactUpdateMeasureError(Model model, State state, Vec u, const ContactSolution *sol,
   ContactLinearization at_u, StepReport *report)
 {
-  const PetscReal weight   = state->solved->linearization->slip ? askew_friction : askew;
-  const PetscReal rounding = 32.0 * PETSC_MACHINE_EPSILON;
+  const PetscReal weight = state->solved->linearization->slip ? askew_friction : askew;
   PetscReal       size, arm, extent;
   PetscInt       *row;
 
@@ -242,7 +242,7 @@ PetscErrorCode ContactUpdateMeasureError(Model model, State state, Vec u, const 
   report->update_error =
     PetscMax(PetscMax(report->gap_change, report->slip_change), weight * report->normals_turn * size);
   report->update_error = PetscMax(report->update_error, arm);
-  if (report->straightened > rounding * extent)
+  if (report->straightened > STEP_PLACE_ROUNDING * extent)
     report->update_error = PetscMax(report->update_error, tied * report->straightened);
   PetscFunctionReturn(0);
 }

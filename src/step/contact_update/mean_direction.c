@@ -89,7 +89,7 @@ PetscErrorCode ContactUpdateKeepForces(StepProblem *p, const ContactSolution *so
   PetscCall(VecDuplicate(lin->mass, &forces));
   PetscCall(VecPointwiseMult(forces, sol->pressure, lin->mass));
   PetscCall(MatMultTranspose(lin->J, forces, p->pressed));
-  PetscCall(FrictionAddForces(lin, lin->slip, sol->shear, PETSC_DECIDE, p->pressed));
+  PetscCall(RowsAddForces(lin, lin->slip, sol->shear, PETSC_DECIDE, p->pressed));
   PetscCall(VecDestroy(&forces));
   PetscFunctionReturn(0);
 }

@@ -87,7 +87,6 @@ PetscErrorCode MissedFindLostRows(const StepProblem *p, Vec u_linearized, Vec u,
   PetscReal            distance, depth, moved, least = 0.0;
   PetscInt             nlost;
   Vec                  du;
-  char                 sentence[128];
 
   PetscFunctionBegin;
   PetscCall(ContactHistoryFindLostRows(p->state->history, at_u, &lost, &nlost));
@@ -101,9 +100,10 @@ PetscErrorCode MissedFindLostRows(const StepProblem *p, Vec u_linearized, Vec u,
     PetscCall(ContactSetReach(p->model->contact, 0.0, 0.0));
     PetscCall(ContactHistoryLeastGap(p->state->history, lost, deep, &least));
     PetscCall(ContactLinearizationDestroy(&deep));
-    PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
-      "contact faces penetrate by %g, deeper than the contact search reaches; use smaller load steps", -(double)least));
-    if (least < -depth) PetscCall(ReportReason(report, PETSC_FALSE, sentence));
+    if (least < -depth)
+      PetscCall(ReportReason(report, PETSC_FALSE,
+        "contact faces penetrate by %g, deeper than the contact search reaches; use smaller load steps",
+        -(double)least));
   }
   PetscCall(PetscFree(lost));
   PetscFunctionReturn(0);
@@ -131,17 +131,15 @@ static PetscErrorCode MissedFindTurned(Model model, State state, PetscReal time,
 {
   const SceneContactPair *pair = &model->scene->pairs[p];
   PetscBool               before, now;
-  char                    sentence[256];
 
   PetscFunctionBegin;
   PetscCall(MissedFindMet(model, state, time, p, state->path->u, &before));
   PetscCall(MissedFindMet(model, state, time, p, u, &now));
   if (!before || now) PetscFunctionReturn(0);
-  PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
+  PetscCall(ReportReason(report, PETSC_FALSE,
     "contact pair \"%s\": %s or %s turns by more than 90 degrees within the load step, and has no contact after it; "
     "use smaller load steps",
     pair->name, pair->mortar, pair->nonmortar));
-  PetscCall(ReportReason(report, PETSC_FALSE, sentence));
   PetscFunctionReturn(0);
 }
 
@@ -154,7 +152,6 @@ PetscErrorCode MissedFindPassed(Model model, State state, PetscReal time, Vec u,
   PetscBool turned;
   PetscReal moved, reach, depth;
   Vec       du;
-  char      sentence[256];
 
   PetscFunctionBegin;
   if (!report->converged) PetscFunctionReturn(0);
@@ -167,14 +164,13 @@ PetscErrorCode MissedFindPassed(Model model, State state, PetscReal time, Vec u,
     if (turned && depth <= reach) PetscCall(MissedFindTurned(model, state, time, p, u, report));
     if (depth <= reach) continue;
     if (pair->self)
-      PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
+      PetscCall(ReportReason(report, PETSC_FALSE,
         "contact pair \"%s\": %s passes through itself by %.3g within the load step; use smaller load steps",
         pair->name, pair->self, (double)depth));
     else
-      PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
+      PetscCall(ReportReason(report, PETSC_FALSE,
         "contact pair \"%s\": %s and %s pass through each other by %.3g within the load step; use smaller load steps",
         pair->name, pair->mortar, pair->nonmortar, (double)depth));
-    PetscCall(ReportReason(report, PETSC_FALSE, sentence));
   }
   PetscFunctionReturn(0);
 }

@@ -115,8 +115,7 @@ PetscErrorCode ContactUpdateNamePlace(Model model, State state, const ContactSol
 */
 static PetscErrorCode PlaceFindDriven(const StepProblem *p, PetscReal allowed, GapPlace *place)
 {
-  const PetscReal      rounding = 1e-12; /* of entries that are rounding errors, relative to the largest one */
-  ContactLinearization lin      = p->state->solved->linearization;
+  ContactLinearization lin = p->state->solved->linearization;
   PetscReal            largest;
   const PetscScalar   *g, *entry;
   Vec                  entries;
@@ -129,7 +128,7 @@ static PetscErrorCode PlaceFindDriven(const StepProblem *p, PetscReal allowed, G
   PetscCall(VecGetArrayRead(entries, &entry));
   PetscCall(VecGetArrayRead(p->g, &g));
   for (PetscInt r = 0; r < lin->nlocal; ++r) {
-    if (PetscRealPart(entry[r]) <= rounding * largest && PetscRealPart(g[r]) < -allowed)
+    if (PetscRealPart(entry[r]) <= MODEL_ROUNDING * largest && PetscRealPart(g[r]) < -allowed)
       PlaceTake(lin, r, -PetscRealPart(g[r]), place);
   }
   PetscCall(VecRestoreArrayRead(p->g, &g));
@@ -148,7 +147,6 @@ PetscErrorCode ContactUpdateReportDriven(const StepProblem *p, StepReport *repor
   const SceneContactPair *pair;
   PetscReal               size;
   GapPlace                place;
-  char                    reason[512];
 
   PetscFunctionBegin;
   if (report->converged || !p->J) PetscFunctionReturn(0);
@@ -157,12 +155,11 @@ PetscErrorCode ContactUpdateReportDriven(const StepProblem *p, StepReport *repor
   PetscCall(PlaceShare(p->model, &place));
   if (place.error < 0.0) PetscFunctionReturn(0);
   pair = &p->model->scene->pairs[place.pair];
-  PetscCall(PetscSNPrintf(reason, sizeof(reason),
+  PetscCall(ReportReason(report, PETSC_FALSE,
     "contact pair \"%s\": prescribed displacements press the vertex (%g, %g, %g) of face %s by %g into the other body, "
     "and no component of it is free to avoid that: prescribe the displacements of a face that does not touch %s, or "
     "fewer components",
     pair->name, (double)place.x[0], (double)place.x[1], (double)place.x[2], pair->nonmortar, (double)place.error,
     pair->mortar));
-  PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }

@@ -8,14 +8,11 @@
 /* Writes the reason for which a step failed: what nothing but weak springs resists on body b */
 static PetscErrorCode WeakSpringsReport(Model model, PetscInt b, const char what[], StepReport *report)
 {
-  char reason[512];
-
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(reason, sizeof(reason),
+  PetscCall(ReportReason(report, PETSC_FALSE,
     "body \"%s\" slides or turns away: %s, and only weak springs hold it; add a support, friction, or stiffer springs "
     "than weak_springs: %g",
     model->scene->bodies[b].name, what, (double)model->springs.softness));
-  PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }
 

@@ -13,8 +13,6 @@
 #include "src/state/control.h"
 #include "src/state/path.h"
 
-static const PetscInt max_followed = 50;
-
 static PetscBool FollowersAny(Scene scene)
 {
   PetscBool any = PETSC_FALSE;
@@ -132,15 +130,12 @@ PetscErrorCode FollowersTestLimit(Tao tao, void *ctx)
 /* Reports that FollowersTestLimit() has ended the solve */
 PetscErrorCode FollowersReportLimit(const StepProblem *p, StepReport *report)
 {
-  char reason[512];
-
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(reason, sizeof(reason),
+  PetscCall(ReportReason(report, PETSC_FALSE,
     "no equilibrium was found at time %g: the pressures that follow their faces seem to exceed a limit load, because "
     "the stiffness stays indefinite while the bodies move on; the last equilibrium is at time %g; prescribe "
     "displacements in place of the pressures to pass the limit",
     (double)p->time, (double)p->state->path->time));
-  PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }
 
@@ -151,7 +146,7 @@ PetscErrorCode FollowersReportLimit(const StepProblem *p, StepReport *report)
 */
 PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepReport *report, PetscBool *again)
 {
-  const PetscReal tolerance = PetscMax(1e-3 * p->state->control->tolerances.optimizer, 1e-12);
+  const PetscReal tolerance = StepControlRepeats(p->state->control);
   PetscReal       off, size, energy = 0.0;
   PetscBool       damped;
   Vec             linear, load;
@@ -174,7 +169,7 @@ PetscErrorCode FollowersAdvance(StepProblem *p, Vec u, PetscInt nsolves, StepRep
     PetscFunctionReturn(0);
   }
   PetscCall(VecDestroy(&load));
-  if (nsolves < max_followed) {
+  if (nsolves < STEP_MAX_REPEATS) {
     PetscCall(AndersonAdvance(&p->secants, off, u, p->followed, &damped));
     *again = PETSC_TRUE;
     PetscCall(FollowersLinearize(p));

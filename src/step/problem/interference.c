@@ -6,26 +6,6 @@
 #include "problemimpl.h"
 #include "src/state/path.h"
 
-/* Sets `mark` to 1 at the given displacement component of all nodes of the pair's mortar face, and to 0 elsewhere. */
-static PetscErrorCode InterferenceMark(Model model, PetscInt pair, PetscInt component, Vec mark)
-{
-  IS              is;
-  const PetscInt *rows;
-  PetscInt        n;
-
-  PetscFunctionBegin;
-  PetscCall(VecZeroEntries(mark));
-  PetscCall(MeshGetFaceDofs(model->dm, model->scene->pairs[pair].mortar, component, &is));
-  PetscCall(ISGetLocalSize(is, &n));
-  PetscCall(ISGetIndices(is, &rows));
-  for (PetscInt k = 0; k < n; ++k) PetscCall(VecSetValue(mark, rows[k], 1.0, INSERT_VALUES));
-  PetscCall(ISRestoreIndices(is, &rows));
-  PetscCall(ISDestroy(&is));
-  PetscCall(VecAssemblyBegin(mark));
-  PetscCall(VecAssemblyEnd(mark));
-  PetscFunctionReturn(0);
-}
-
 /*
    Increases the gap in the pair's rows as a rigid translation of the mortar face by `distance` along the normal of each
    row would.
@@ -43,7 +23,8 @@ static PetscErrorCode InterferenceStandOff(Model model, State state, PetscInt pa
   PetscCall(VecDuplicate(lin->g, &moved));
   PetscCall(PetscCalloc1(lin->nlocal, &size));
   for (PetscInt c = 0; c < 3; ++c) {
-    PetscCall(InterferenceMark(model, pair, c, mark));
+    PetscCall(VecZeroEntries(mark));
+    PetscCall(MeshFaceSet(model->dm, model->scene->pairs[pair].mortar, c, 1.0, mark));
     PetscCall(MatMult(lin->J, mark, moved));
     PetscCall(VecGetArrayRead(moved, &v));
     for (PetscInt r = 0; r < lin->nlocal; ++r) size[r] += PetscSqr(PetscRealPart(v[r]));

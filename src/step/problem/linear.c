@@ -74,7 +74,7 @@ PetscErrorCode LinearSolve(StepProblem *p, PetscBool resume, Vec u, StepReport *
   report->solve_time += t1 - t0;
   PetscCall(VecWAXPY(u, -1.0, p->w, p->base));
   PetscCall(KSPGetConvergedReason(ksp, &reason));
-  PetscCall(ReportReason(report, (PetscBool)(reason > 0), KSPConvergedReasons[reason]));
+  PetscCall(ReportReason(report, (PetscBool)(reason > 0), "%s", KSPConvergedReasons[reason]));
   PetscCall(ReportIterations(report, 1, &its));
   PetscCall(ReportPreconditioner(ksp, &before, report));
   PetscCall(QuadraticEnergy(p, u, &report->potential));

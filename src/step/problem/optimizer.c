@@ -31,34 +31,20 @@ static PetscErrorCode OptimizerReportOurs(Tao tao, const PCAMGFCounts *before, S
   PetscFunctionReturn(0);
 }
 
-/* Appends to the reason of a failed solve with friction a list of likely causes. */
-static PetscErrorCode OptimizerSuspectFriction(StepReport *report)
-{
-  char reason[512];
-
-  PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(reason, sizeof(reason),
-    "%s; possible causes: friction cannot hold a body, a body tips over, or a large coefficient wedges it",
-    report->reason));
-  PetscCall(ReportReason(report, PETSC_FALSE, reason));
-  PetscFunctionReturn(0);
-}
-
 /* Explains a failed solve: reports the bodies that contact cannot hold, or otherwise a list of likely causes. */
 static PetscErrorCode OptimizerDiagnose(StepProblem *p, StepReport *report)
 {
-  char  reason[512];
   char *unbounded;
 
   PetscFunctionBegin;
   PetscCall(StepProblemForesee(p, report));
   if (p->unsupported) PetscFunctionReturn(0);
   PetscCall(PetscStrstr(report->reason, "unbounded", &unbounded));
-  if (unbounded) {
-    PetscCall(PetscSNPrintf(reason, sizeof(reason), "no equilibrium was found: %s", report->reason));
-    PetscCall(ReportReason(report, PETSC_FALSE, reason));
-  }
-  if (p->friction.T) PetscCall(OptimizerSuspectFriction(report));
+  if (unbounded) PetscCall(ReportReason(report, PETSC_FALSE, "no equilibrium was found: %s", report->reason));
+  if (p->friction.T)
+    PetscCall(ReportReason(report, PETSC_FALSE,
+      "%s; possible causes: friction cannot hold a body, a body tips over, or a large coefficient wedges it",
+      report->reason));
   PetscFunctionReturn(0);
 }
 
@@ -73,7 +59,7 @@ static PetscErrorCode OptimizerReport(StepProblem *p, Tao tao, PetscBool ours, c
   PetscFunctionBegin;
   PetscCall(TaoGetConvergedReason(tao, &reason));
   if (ours) PetscCall(TaoIPFilterGetReason(tao, &sentence));
-  PetscCall(ReportReason(report, (PetscBool)(reason > 0), sentence ? sentence : TaoConvergedReasons[reason]));
+  PetscCall(ReportReason(report, (PetscBool)(reason > 0), "%s", sentence ? sentence : TaoConvergedReasons[reason]));
   if (reason < 0 && p->flowing) PetscCall(ProximalReportFlow(p, report));
   else if (reason < 0 && p->beyond_limit) PetscCall(FollowersReportLimit(p, report));
   else if (reason < 0 && !p->state->control->interrupted) PetscCall(OptimizerDiagnose(p, report));

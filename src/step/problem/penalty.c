@@ -216,7 +216,7 @@ static PetscErrorCode PenaltyReport(Penalty *penalty, SNES snes, Vec u, StepRepo
 
   PetscFunctionBegin;
   PetscCall(SNESGetConvergedReason(snes, &reason));
-  PetscCall(ReportReason(report, (PetscBool)(reason > 0), SNESConvergedReasons[reason]));
+  PetscCall(ReportReason(report, (PetscBool)(reason > 0), "%s", SNESConvergedReasons[reason]));
   if (penalty->p->state->control->interrupted) PetscCall(InterruptReport(penalty->p->state, report));
   PetscCall(ReportIterations(report, penalty->niterations, penalty->iterations));
   report->ip_iterations += penalty->niterations;

@@ -123,16 +123,14 @@ PetscErrorCode StepProblemAdvanceBolts(StepProblem *p, Vec u, StepReport *report
   const PetscReal tolerance = PetscMax(1e-1 * PetscMax(p->state->control->tolerances.optimizer, p->tolerance), 1e-9);
   PetscBool       changes   = PETSC_FALSE;
   const char     *failed;
-  char            sentence[192];
 
   PetscFunctionBegin;
   if (!report->converged || *again) PetscFunctionReturn(0);
   PetscCall(BoltsAdvance(&bodies, &p->model->bolts, tolerance, u, &changes, &failed));
   if (failed) {
-    PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
+    PetscCall(ReportReason(report, PETSC_FALSE,
       "bolt \"%s\" does not reach its force: no part resists it; check supports and contact of the parts it clamps",
       failed));
-    PetscCall(ReportReason(report, PETSC_FALSE, sentence));
   }
   if (!changes) PetscFunctionReturn(0);
   *again = (PetscBool)(*again || !p->ended_early);

@@ -17,11 +17,11 @@
 #include "src/state/path.h"
 
 /*
-   max_centres: largest number of solves. After `patience` solves the force of the proximal term must fall in each solve
+   After `patience` solves the force of the proximal term must fall in each solve
    below `stuck` times its last value; otherwise neither contact nor springs hold the bodies.
 */
-static const PetscInt  max_centres = 50, patience = 5;
-static const PetscReal stuck = 0.9;
+static const PetscInt  patience = 5;
+static const PetscReal stuck    = 0.9;
 
 /* stiffness of the term after a failed solve with friction, divided by that of the bodies */
 static const PetscReal friction_stiffness = 1e-4;
@@ -412,14 +412,11 @@ static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepRepor
 /* Reports that the load step has no equilibrium, because p->flowing flows */
 PetscErrorCode ProximalReportFlow(const StepProblem *p, StepReport *report)
 {
-  char reason[512];
-
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(reason, sizeof(reason),
+  PetscCall(ReportReason(report, PETSC_FALSE,
     "no equilibrium exists at time %g: body \"%s\" flows plastically, because the load exceeds the collapse load; the "
     "last equilibrium is at time %g",
     (double)p->time, p->flowing, (double)p->state->path->time));
-  PetscCall(ReportReason(report, PETSC_FALSE, reason));
   PetscFunctionReturn(0);
 }
 
@@ -484,7 +481,7 @@ static PetscErrorCode ProximalMoveCentre(StepProblem *p, Vec u, PetscInt ncentre
 */
 PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepReport *report, PetscBool *again)
 {
-  const PetscReal tolerance = PetscMax(1e-3 * p->state->control->tolerances.optimizer, 1e-12);
+  const PetscReal tolerance = StepControlRepeats(p->state->control);
   PetscReal       norms[2], ratio;
   PetscBool       falls;
   Vec             force, all;
@@ -492,7 +489,7 @@ PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepRep
   PetscFunctionBegin;
   *again = PETSC_FALSE;
   if (p->failed && !report->converged && !p->state->control->interrupted)
-    PetscCall(ReportReason(report, PETSC_FALSE, p->failed));
+    PetscCall(ReportReason(report, PETSC_FALSE, "%s", p->failed));
   if (!p->centre || p->holds_weak || !report->converged) PetscFunctionReturn(0);
   PetscCall(ProximalGetForces(p, u, &force, &all, norms));
   PetscCall(VecDestroy(&force));
@@ -500,11 +497,11 @@ PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepRep
   if (norms[0] <= tolerance * norms[1]) PetscFunctionReturn(0);
   ratio      = p->carried > 0.0 ? norms[0] / p->carried : 1.0;
   falls      = (PetscBool)(ratio < stuck);
-  *again     = (PetscBool)(ncentres < max_centres && (ncentres <= patience || falls));
+  *again     = (PetscBool)(ncentres < STEP_MAX_REPEATS && (ncentres <= patience || falls));
   p->carried = norms[0];
   if (*again) PetscCall(ProximalMoveCentre(p, u, ncentres, ratio));
   else if (!p->failed) PetscCall(ProximalReportRigidBodies(p, u, report));
   else if (!falls) PetscCall(ProximalReportRigidMotion(p, u, report));
-  else PetscCall(ReportReason(report, PETSC_FALSE, p->failed));
+  else PetscCall(ReportReason(report, PETSC_FALSE, "%s", p->failed));
   PetscFunctionReturn(0);
 }
