@@ -59,6 +59,10 @@ SCENES = {
     "tied": BARS + BAR % ("c", 3, 2, 4, 3, 100) + FEET.replace("]", ", c.xmin, c.ymin]") + PULL +
     "ties:\n  - glue: {mortar: b.zmax, nonmortar: c.zmin}\n" + equations(
         *(couple("a", (x, y, 2), 0.5, "c", (3 + x, y, 2)) for x, y in CORNERS)) + TOPS,
+    # nothing but equations holds b along z
+    "hung": BARS + "symmetry: [a.zmin, a.xmin, a.ymin, b.xmin, b.ymin]\ntractions:\n"
+    "  - pull: {face: b.zmax, value: [0, 0, 3]}\n" + equations(*(give((3 + x, y, 0), 0, [0, 0, 1])
+                                                                 for x, y in CORNERS)) + TOPS,
     "finite": BARS.replace("young", "material: neohookean, young") + FEET + PULL + equations(*LEVER) + TOPS,
     "time": BARS.replace("young", "density: 1, young") + FEET + PULL + equations(*LEVER) + TOPS +
     "dynamics:\n  time_step: 0.005\n  end_time: 0.1\n",
@@ -90,7 +94,7 @@ def judge(title, end):
             for name in SCENES}
     closed = {
         "lever": [(0.01, -0.02)], "ramp": [(0.015, 0.02), (0.03, -0.04)], "chain": [(0.02, 0.02)], "inner": [inner()],
-        "tied": [(0.01, -0.02)]
+        "tied": [(0.01, -0.02)], "hung": [(0, 0.06)]
     }
     for name, wanted in closed.items():
         found = [(step[0][2], step[1][2]) for step in runs[name]]

@@ -172,6 +172,21 @@ static PetscErrorCode SupportAddConnector(Support *support, const SceneConnector
   PetscFunctionReturn(0);
 }
 
+/* Adds the restraint of an equation between displacements of points, on the first rank only */
+static PetscErrorCode SupportAddEquation(Support *support, const SceneEquation *equation)
+{
+  PetscMPIInt rank;
+
+  PetscFunctionBegin;
+  SupportBeginLink(support, equation->body, equation->to, SUPPORT_FIXED);
+  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)support->dm), &rank));
+  if (rank) PetscFunctionReturn(0);
+  SupportAddMotion(support, equation->body, equation->direction[0], equation->point[0], 1);
+  if (equation->to >= 0) SupportAddMotion(support, equation->to, equation->direction[1], equation->point[1], 1);
+  PetscCall(SupportAddRow(support, 1));
+  PetscFunctionReturn(0);
+}
+
 /* Adds the links of everything in the scene that holds bodies, up to the kind `most` */
 static PetscErrorCode SupportAddScene(Support *support, Scene scene, SupportKind most)
 {
@@ -187,6 +202,7 @@ static PetscErrorCode SupportAddScene(Support *support, Scene scene, SupportKind
     PetscCall(SupportAddFaces(support, scene, SUPPORT_FIXED, spring->to, spring->face, along));
   }
   for (PetscInt c = 0; c < scene->nconnectors; ++c) PetscCall(SupportAddConnector(support, &scene->connectors[c]));
+  for (PetscInt k = 0; k < scene->nequations; ++k) PetscCall(SupportAddEquation(support, &scene->equations[k]));
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *pair = &scene->pairs[p];
     const SupportKind       kind = SceneContactPairHasFriction(pair) ? SUPPORT_FRICTION : SUPPORT_SLIDING;
@@ -202,9 +218,9 @@ static PetscErrorCode SupportAddScene(Support *support, Scene scene, SupportKind
 
 PetscErrorCode SupportCreate(DM dm, Scene scene, Vec u, SupportKind most, Support *support)
 {
-  const MPI_Comm comm = PetscObjectComm((PetscObject)dm);
-  const PetscInt nlinks =
-    scene->ndisplacements + scene->nsprings + scene->nconnectors + scene->npairs + scene->nties + scene->ncyclic;
+  const MPI_Comm comm   = PetscObjectComm((PetscObject)dm);
+  const PetscInt nlinks = scene->ndisplacements + scene->nsprings + scene->nconnectors + scene->nequations +
+                          scene->npairs + scene->nties + scene->ncyclic;
 
   PetscFunctionBegin;
   *support = (Support){.dm = dm, .nbodies = scene->nbodies};

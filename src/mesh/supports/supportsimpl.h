@@ -10,11 +10,11 @@
 
 #define SUPPORT_BLOCK 12 /* number of modes of the two bodies of a link */
 
-/* Kinds of links. Displacements, springs, connectors, ties and cyclic symmetry are fixed; contact pairs have friction
-   or slide. */
+/* Kinds of links. Displacements, springs, connectors, equations, ties and cyclic symmetry are fixed; contact pairs have
+   friction or slide. */
 typedef enum { SUPPORT_FIXED, SUPPORT_FRICTION, SUPPORT_SLIDING } SupportKind;
 
-/* A link: the restraints, as rows of a matrix, of one displacement, spring, connector, contact pair or tie */
+/* A link: the restraints, as rows of a matrix, of one displacement, spring, connector, equation, contact pair or tie */
 typedef struct {
   PetscInt    body[2]; /* The second body is -1 if the link is between the first body and the ground. */
   SupportKind kind;
