@@ -64,17 +64,23 @@ def finite(scene, refine, folder):
     ]
 
 
-def main():
+def print_table(heads, cases, columns):
+    """Prints a row for each case SCENE=REFINE. columns(scene, refine, folder): texts after the scene"""
     os.environ.setdefault("OMP_NUM_THREADS", "1")
-    print("| scene, refinement | unknowns | as chosen over CG by hypre | by AMG over CG | updates, mean | "
-          "updates, most | Newton step over elastic solve |")
-    print("| --- | --- | --- | --- | --- | --- | --- |", flush=True)
+    print("| " + " | ".join(["scene, refinement", "unknowns", *heads]) + " |")
+    print("|" + " --- |" * (2 + len(heads)), flush=True)
     with tempfile.TemporaryDirectory() as folder:
-        for case in sys.argv[1:] or CASES + FINITE:
-            columns = finite if case.split("=")[0] in [name.split("=")[0] for name in FINITE] else linear
+        for case in cases:
             row = [case.replace("=", " "), *columns(*case.split("="), folder)]
             print("| " + " | ".join(map(str, row)) + " |", flush=True)
 
 
+def columns(scene, refine, folder):
+    return (finite if scene in [name.split("=")[0] for name in FINITE] else linear)(scene, refine, folder)
+
+
 if __name__ == "__main__":
-    main()
+    print_table([
+        "as chosen over CG by hypre", "by AMG over CG", "updates, mean", "updates, most",
+        "Newton step over elastic solve"
+    ], sys.argv[1:] or CASES + FINITE, columns)
