@@ -32,6 +32,7 @@ PETSC_INTERN PetscReal      IPAbsoluteTolerance(const TAO_IPFILTER *, PetscReal 
 /* terms.c, in addition to its public functions */
 PETSC_INTERN PetscErrorCode IPTermsDestroy(IPTerms *);
 PETSC_INTERN PetscErrorCode IPTermsSetUp(Tao);
+PETSC_INTERN PetscErrorCode IPTermsSetNone(Tao);
 PETSC_INTERN PetscErrorCode IPTermsValue(Tao, Vec x, Vec);
 PETSC_INTERN void           IPTermRemoveRigid(const PetscScalar rigid[2], PetscScalar v[2]);
 PETSC_INTERN PetscErrorCode IPTermsSum(Tao, Vec x, Vec force, PetscReal *);

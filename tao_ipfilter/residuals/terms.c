@@ -165,6 +165,27 @@ PetscErrorCode IPTermsSetUp(Tao tao)
   PetscFunctionReturn(0);
 }
 
+/* Sets up no terms, as matrix and vectors without rows, unless there are terms */
+PetscErrorCode IPTermsSetNone(Tao tao)
+{
+  IPTerms *terms = ((TAO_IPFILTER *)tao->data)->terms;
+  MPI_Comm comm  = PetscObjectComm((PetscObject)tao);
+  PetscInt n;
+
+  PetscFunctionBegin;
+  if (terms->given) PetscFunctionReturn(0);
+  PetscCall(VecGetLocalSize(tao->solution, &n));
+  PetscCall(MatCreateAIJ(comm, 0, n, 0, PETSC_DETERMINE, 0, NULL, 0, NULL, &terms->given));
+  PetscCall(MatAssemblyBegin(terms->given, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(terms->given, MAT_FINAL_ASSEMBLY));
+  PetscCall(VecCreate(comm, &terms->t));
+  PetscCall(VecSetSizes(terms->t, 0, 0));
+  PetscCall(VecSetType(terms->t, VECSTANDARD));
+  PetscCall(VecDuplicate(terms->t, &terms->limit));
+  PetscCall(IPTermsSetUp(tao));
+  PetscFunctionReturn(0);
+}
+
 /* Subtracts T^T tau from r */
 PetscErrorCode IPTermsSubtractForces(Tao tao, Vec r)
 {

@@ -79,5 +79,7 @@
 #define IP_CLOSE 1e-6 /* residual relative to ||b|| below which rounding errors may stop a Krylov method */
 #define IP_MANY_ITERATIONS \
   500 /* number of Krylov iterations that counts as failure if other systems of the problem took few */
+#define IP_DENSE_ROWS \
+  5792 /* constraints whose dense matrix has 256 MB; with more, no dense matrix of all constraints is used */
 
 #endif

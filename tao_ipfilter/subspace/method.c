@@ -151,7 +151,7 @@ static PetscErrorCode SubspaceTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal fraction = 0.5, rows = 0.25;
-  const PetscInt  largest = 5000; /* with norm terms, which need factors for each system */
+  const PetscInt  largest = 5000; /* by laws, which need factors for each system */
   PetscInt        n, m, touched, most;
   PetscBool       all = PETSC_FALSE;
 
@@ -167,7 +167,8 @@ static PetscErrorCode SubspaceTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
   if (!*few) PetscFunctionReturn(0);
   most = (PetscInt)(fraction * n);
   PetscCall(SubspaceTakesAll(tao, recycle, n, (PetscBool)(touched > most), &all));
-  if (ip->terms->n) most = PetscMin(most, largest);
+  IPSubspaceOf(tao)->by_laws = (PetscBool)(ip->terms->n || (ip->laws && m > IP_DENSE_ROWS));
+  if (IPSubspaceOf(tao)->by_laws) most = PetscMin(most, largest);
   if (all) PetscCall(IPSubspaceTakeAll(tao));
   else PetscCall(SubspaceChooseW(tao, recycle, most, &IPSubspaceOf(tao)->W));
   PetscFunctionReturn(0);
@@ -439,8 +440,8 @@ static PetscErrorCode SubspaceFirst(Tao tao, IPRecycle *recycle, PetscBool *foun
   f->halved                = PETSC_INFINITY;
   f->residual              = 0.0;
   ip->mu                   = 0.0;
-  if (f->newton || ip->terms->n) PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
-  if (!f->newton && ip->terms->n) PetscCall(IPSubspaceBeginLaws(tao));
+  if (f->newton || f->by_laws) PetscCall(VecCopy(ip->at.z[IP_SLACK], ip->at.lambda));
+  if (!f->newton && f->by_laws) PetscCall(IPSubspaceBeginLaws(tao));
   else if (!f->newton) {
     PetscCall(SubspaceCentreHere(tao, &recycle->basis));
     PetscCall(SubspaceSolveReduced(tao, recycle, found));
@@ -493,8 +494,8 @@ static PetscErrorCode SubspaceBegin(Tao tao, PetscBool *begun)
 }
 
 /*
-   Ends the method, at the end of a solve or if it makes no progress. Directions remain for later solves. Without norm
-   terms the constraints remain as well, for TaoIPFilterSolveActive().
+   Ends the method, at the end of a solve or if it makes no progress. Directions remain for later solves. Those of the
+   reduced problem remain as well, for TaoIPFilterSolveActive().
 */
 static PetscErrorCode SubspaceEnd(Tao tao)
 {
@@ -504,7 +505,7 @@ static PetscErrorCode SubspaceEnd(Tao tao)
   PetscFunctionBegin;
   if (ip->method->on) {
     PetscCall(IPRecycleGet(tao, &recycle));
-    if (!ip->terms->n) PetscCall(IPReducedScale(&recycle->reduced, ip->rows->inequality));
+    if (IPSubspaceOf(tao)->reduced) PetscCall(IPReducedScale(&recycle->reduced, ip->rows->inequality));
   }
   PetscCall(IPSubspaceDestroy(IPSubspaceOf(tao)));
   PetscFunctionReturn(0);
@@ -515,7 +516,7 @@ static PetscErrorCode SubspaceStepOfKind(Tao tao, PetscBool *done)
 {
   PetscFunctionBegin;
   if (IPSubspaceOf(tao)->newton) PetscCall(IPNewtonSubspaceStep(tao, done));
-  else if (((TAO_IPFILTER *)tao->data)->terms->n) PetscCall(SubspaceStepTerms(tao, done));
+  else if (IPSubspaceOf(tao)->by_laws) PetscCall(SubspaceStepTerms(tao, done));
   else PetscCall(SubspaceStep(tao, done));
   if (*done) ((TAO_IPFILTER *)tao->data)->method->multipliers = PETSC_TRUE;
   PetscFunctionReturn(0);

@@ -109,7 +109,7 @@ static PetscErrorCode NewtonSolveModel(Tao tao, IPRecycle *recycle, PetscReal ta
   PetscFunctionReturn(0);
 }
 
-/* Solves the model with norm terms until its residual is below `target` and the laws hold */
+/* Solves the model by laws until its residual is below `target` and they hold */
 static PetscErrorCode NewtonSolveLaws(Tao tao, PetscReal target, Vec d, Vec force, PetscBool *solved)
 {
   const PetscReal enough = 1e-6; /* relative violation of the laws: at a larger one, states of contacts are unknown */
@@ -400,7 +400,7 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPRecycle *recycle, Vec d, Vec for
       PetscCall(IPRecycleUpdate(tao, recycle, &convex));
       if (convex) PetscCall(IPSubspaceSetUp(tao, recycle, &convex));
     }
-    if (convex && ip->terms->n) PetscCall(NewtonSolveLaws(tao, target, d, force, &convex));
+    if (convex && IPSubspaceOf(tao)->by_laws) PetscCall(NewtonSolveLaws(tao, target, d, force, &convex));
     else if (convex) PetscCall(NewtonSolveModel(tao, recycle, target, d, force, &convex));
     *found = convex;
     if (!convex) continue;

@@ -343,7 +343,9 @@ PetscErrorCode IPSubspaceSetUp(Tao tao, IPRecycle *recycle, PetscBool *possible)
   PetscFunctionBegin;
   if (!f->centre) PetscCall(SubspaceCreate(tao, &recycle->basis));
   *possible = PETSC_TRUE;
-  if (ip->terms->n) {
+  if (f->by_laws) {
+    PetscCall(IPReducedRelease(&recycle->reduced));
+    PetscCall(IPTermsSetNone(tao));
     if (f->laws) PetscCall(ip->laws->destroy(&f->laws));
     f->lawsops = ip->laws;
     PetscCall(ip->laws->create(tao, recycle, f->W, &f->laws));

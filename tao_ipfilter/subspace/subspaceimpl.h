@@ -109,8 +109,8 @@ typedef struct {
 } IPRecycle;
 
 /*
-   Interface of a solver for problems with norm terms (friction), which works in the same space. register.c stores the
-   implementation. Its functions are collective.
+   Interface of a solver for problems with norm terms (friction) or with many constraints, which works in the same
+   space. register.c stores the implementation. Its functions are collective.
 */
 typedef struct _p_IPLaws *IPLaws;
 typedef struct _n_IPLawsOps {
@@ -129,10 +129,11 @@ typedef struct {
   PetscContainer   recycle; /* contains an IPRecycle */
   IS               W;       /* unknowns that the reduced problem has: those of the constraints, and their neighbours */
   IPReduced       *reduced; /* the reduced problem in `recycle`; NULL: not set up */
+  PetscBool        by_laws; /* whether a solver for contacts with laws is used in place of the reduced problem */
   const IPLawsOps *lawsops;
-  IPLaws           laws;    /* with norm terms, in place of the reduced problem; NULL: not set up */
-  PetscInt         nclosed; /* with norm terms: number of closed contacts */
-  Vec start_t, start_c, start_values, start_force; /* with norm terms: offsets of the terms, values of constraints and
+  IPLaws           laws;                           /* NULL: not set up */
+  PetscInt         nclosed;                        /* by laws: number of closed contacts */
+  Vec start_t, start_c, start_values, start_force; /* by laws: offsets of the norm terms, values of constraints and
                                                       terms, and forces of the constraints when the solve began */
   Vec centre, gradient, c;       /* the point to which the reduced problem is relative; grad f and c_I there */
   PetscReal  f;                  /* f at that point */
