@@ -20,8 +20,8 @@ static PetscErrorCode OptimizerKnowBothNames(void)
 }
 
 /*
-   Applies p->tolerance, the tolerance of early contact updates, to the optimizer. This is done only for the filtered
-   subspace method, which continues from an inexact solution. An interior point method cannot reuse such a solution.
+   Applies p->tolerance, the tolerance of early contact updates, to the optimizer. This is done only for the subspace
+   method, which continues from an inexact solution. An interior point method cannot reuse such a solution.
    ours: true if the optimizer is TAOIPFILTER.
 */
 static PetscErrorCode OptimizerSetTolerance(StepProblem *p, PetscBool ours, Tao tao)
