@@ -149,7 +149,7 @@ PETSC_INTERN PetscErrorCode JointsCreate(const Constraints *, const PetscBool pr
   PetscBool follows[]);
 
 /* equations.c: linear equations between displacements */
-PETSC_INTERN PetscErrorCode EquationsCreate(const Constraints *, Mat others, const PetscBool prescribed[], Mat *C,
+PETSC_INTERN PetscErrorCode EquationsCreate(const Constraints *, Mat D, const PetscBool prescribed[], Mat *C,
   Vec given[], PetscBool follows[]);
 
 /* ties.c: all dependent displacements together */

@@ -72,15 +72,16 @@ static PetscErrorCode EquationCreate(const Constraints *c, const SceneEquation *
   PetscFunctionReturn(0);
 }
 
-/* Collective. Replaces displacements that depend on others by u = others x. others: NULL for the identity */
-static PetscErrorCode EquationsSubstitute(const Constraints *c, Mat others, EquationRow rows[])
+/* Collective. Substitutes u = D x in the equations, for the displacements that other constraints make dependent. D:
+   the matrix of these constraints; NULL: there are none */
+static PetscErrorCode EquationsSubstitute(const Constraints *c, Mat D, EquationRow rows[])
 {
   PetscInt    n = c->bodies.scene->nequations, nlocal, widest = 0;
   PetscMPIInt rank;
   Mat         A, product;
 
   PetscFunctionBegin;
-  if (!others) PetscFunctionReturn(0);
+  if (!D) PetscFunctionReturn(0);
   PetscCallMPI(MPI_Comm_rank(c->bodies.comm, &rank));
   PetscCall(VecGetLocalSize(c->bodies.mass, &nlocal));
   for (PetscInt e = 0; e < n; ++e) widest = PetscMax(widest, rows[e].n);
@@ -90,7 +91,7 @@ static PetscErrorCode EquationsSubstitute(const Constraints *c, Mat others, Equa
     PetscCall(MatSetValues(A, 1, &e, rows[e].n, rows[e].column, rows[e].factor, INSERT_VALUES));
   PetscCall(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatMatMult(A, others, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
+  PetscCall(MatMatMult(A, D, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
   for (PetscInt e = 0; e < n; ++e) {
     EquationRow        row = {.pivot = -1};
     const PetscInt    *columns;
@@ -210,9 +211,10 @@ static PetscErrorCode EquationsAssemble(const Constraints *c, const EquationRow 
 }
 
 /* Collective. Creates the matrix C of the equations, and for each ramp the displacements given[ramp] that their values
-   cause at factor 1; NULL if there are none. With the other constraints, u = others (C x + given). prescribed: rows of
-   this rank that are prescribed; follows: rows that depend on others, to which those of the equations are added */
-PetscErrorCode EquationsCreate(const Constraints *c, Mat others, const PetscBool prescribed[], Mat *C, Vec given[],
+   cause at factor 1; NULL if there are none. With the matrix D of the other constraints, u = D (C x + given).
+   prescribed: rows of this rank that are prescribed; follows: rows that depend on others, to which those of the
+   equations are added */
+PetscErrorCode EquationsCreate(const Constraints *c, Mat D, const PetscBool prescribed[], Mat *C, Vec given[],
   PetscBool follows[])
 {
   Scene        scene = c->bodies.scene;
@@ -230,7 +232,7 @@ PetscErrorCode EquationsCreate(const Constraints *c, Mat others, const PetscBool
   PetscCall(VecRestoreArray(taken, &t));
   PetscCall(PetscCalloc1(scene->nequations, &rows));
   for (PetscInt e = 0; e < scene->nequations; ++e) PetscCall(EquationCreate(c, &scene->equations[e], &rows[e]));
-  PetscCall(EquationsSubstitute(c, others, rows));
+  PetscCall(EquationsSubstitute(c, D, rows));
   for (PetscInt e = 0; e < scene->nequations; ++e) {
     PetscCall(EquationAddValue(&scene->equations[e], taken, &rows[e]));
     PetscCall(EquationChoose(c->bodies.comm, e, taken, rows));

@@ -60,9 +60,9 @@ static PetscErrorCode TiesApplyNext(Mat A, Mat *C)
 }
 
 /*
-   Composes C of all constraints but equations. Tied nodes may depend on nodes on symmetry planes, on hanging vertices
-   and on nodes of the second face of a cyclic symmetry, and may be such nodes themselves. Hanging vertices may lie
-   between nodes on planes. Therefore x is first multiplied by the matrix of the planes, then by that of hanging
+   Computes C of all constraints except equations. Tied nodes may depend on nodes on symmetry planes, on hanging
+   vertices and on nodes of the second face of a cyclic symmetry, and may be such nodes themselves. Hanging vertices may
+   lie between nodes on planes. Therefore x is first multiplied by the matrix of the planes, then by that of hanging
    vertices, then by that of cyclic symmetries. All three follow once more after the ties.
 */
 static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat cyclic, Mat hanging, Mat *C)
@@ -89,7 +89,7 @@ static PetscErrorCode TiesAddEquations(const Constraints *c, const PetscBool pre
   PetscBool *moves)
 {
   Ties *ties = c->ties;
-  Mat   equations, product;
+  Mat   equations;
   Vec   moved;
 
   PetscFunctionBegin;
@@ -107,13 +107,9 @@ static PetscErrorCode TiesAddEquations(const Constraints *c, const PetscBool pre
     PetscCall(VecDestroy(&ties->given[r]));
     ties->given[r] = moved;
   }
-  product = equations;
-  PetscCall(PetscObjectReference((PetscObject)product));
-  if (*C) PetscCall(MatDestroy(&product));
-  if (*C) PetscCall(MatMatMult(*C, equations, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
+  PetscCall(TiesApplyNext(*C, &equations));
   PetscCall(MatDestroy(C));
-  PetscCall(MatDestroy(&equations));
-  *C = product;
+  *C = equations;
   PetscFunctionReturn(0);
 }
 

@@ -353,20 +353,36 @@ PetscErrorCode FrictionRecall(ContactHistory *history)
 PetscErrorCode RowsAddForces(ContactLinearization lin, Mat A, Vec rows, PetscInt pair, Vec force)
 {
   PetscScalar *f;
-  PetscInt     n;
+  PetscInt     n, each;
   Vec          own;
 
   PetscFunctionBegin;
   if (!rows) PetscFunctionReturn(0);
+  if (pair == PETSC_DECIDE) {
+    PetscCall(MatMultTransposeAdd(A, rows, force, force));
+    PetscFunctionReturn(0);
+  }
   PetscCall(VecDuplicate(rows, &own));
   PetscCall(VecCopy(rows, own));
   PetscCall(VecGetLocalSize(own, &n));
   PetscCall(VecGetArray(own, &f));
+  each = n / PetscMax(1, lin->nlocal);
   for (PetscInt i = 0; i < n; ++i) {
-    if (pair != PETSC_DECIDE && lin->pair[i * lin->nlocal / n] != pair) f[i] = 0.0;
+    if (lin->pair[i / each] != pair) f[i] = 0.0;
   }
   PetscCall(VecRestoreArray(own, &f));
   PetscCall(MatMultTransposeAdd(A, own, force, force));
   PetscCall(VecDestroy(&own));
+  PetscFunctionReturn(0);
+}
+
+/* Computes the contact forces of a solution: weighted = mass x pressure of the rows, and force = J^T weighted plus
+   friction at the vertices */
+PetscErrorCode RowsGetForces(ContactLinearization lin, const ContactSolution *sol, Vec weighted, Vec force)
+{
+  PetscFunctionBegin;
+  PetscCall(VecPointwiseMult(weighted, sol->pressure, lin->mass));
+  PetscCall(MatMultTranspose(lin->J, weighted, force));
+  PetscCall(RowsAddForces(lin, lin->slip, sol->shear, PETSC_DECIDE, force));
   PetscFunctionReturn(0);
 }

@@ -167,16 +167,13 @@ static PetscErrorCode MeasurePlastic(Scene scene, Elasticity elasticity, StepRep
 static PetscErrorCode MeasureContact(Model model, State state, PetscReal time, Vec u, const ContactSolution *sol,
   StepReport *report, Vec *weighted, Vec *contact, PetscReal *late)
 {
-  const Measured             at  = MeasuredAt(model, state, NULL);
-  const ContactLinearization lin = state->solved->linearization;
+  const Measured at = MeasuredAt(model, state, NULL);
 
   PetscFunctionBegin;
   PetscCall(MeasureGap(sol, report));
   PetscCall(VecDuplicate(sol->pressure, weighted));
   PetscCall(VecDuplicate(u, contact));
-  PetscCall(VecPointwiseMult(*weighted, sol->pressure, lin->mass));
-  PetscCall(MatMultTranspose(lin->J, *weighted, *contact));
-  PetscCall(RowsAddForces(lin, lin->slip, sol->shear, PETSC_DECIDE, *contact));
+  PetscCall(RowsGetForces(state->solved->linearization, sol, *weighted, *contact));
   PetscCall(ForcesMeasurePairs(&at, u, *weighted, sol->shear, report));
   PetscCall(FrictionMeasure(model, state, time, u, sol, report, late));
   PetscCall(MeasureActionReaction(&at, *contact, report));

@@ -44,6 +44,7 @@ static inline Measured SimulationMeasured(Simulation sim)
 /* friction_work.c */
 PETSC_INTERN PetscErrorCode FrictionGetCoefficient(Scene, PetscReal time, PetscInt pair, PetscReal *coefficient);
 PETSC_INTERN PetscErrorCode RowsAddForces(ContactLinearization, Mat, Vec rows, PetscInt pair, Vec force);
+PETSC_INTERN PetscErrorCode RowsGetForces(ContactLinearization, const ContactSolution *, Vec weighted, Vec force);
 PETSC_INTERN PetscErrorCode FrictionMeasure(Model, State, PetscReal time, Vec u, const ContactSolution *, StepReport *,
   PetscReal *late);
 PETSC_INTERN PetscErrorCode FrictionSettle(Model, State, PetscReal time, Vec u, const ContactSolution *);

@@ -253,8 +253,9 @@ static PetscErrorCode KrylovDrowned(Tao tao, PetscBool *drowned)
 }
 
 /*
-   Finds whether the factors of A, or of the matrix on the subspace, have negative pivots. The latter matrix is
-   a principal submatrix of A. A Krylov method that converges in few iterations might not notice an indefinite matrix.
+   Finds whether the factors of A, or of the matrix on PCAMGF's filtered subspace, have negative pivots. The latter
+   matrix is a principal submatrix of A. A Krylov method that converges in few iterations might not notice an indefinite
+   matrix.
 */
 PetscErrorCode IPKrylovIndefinite(Tao tao, PetscBool *indefinite)
 {

@@ -375,8 +375,9 @@ static PetscErrorCode NewtonEvaluateHessian(Tao tao)
 
 /*
    Computes the Newton step d, and the part of it that the line search takes. The Hessian is shifted until the model is
-   convex. With norm terms the model may have a second solution far away, where the objective is larger: if only
-   friction resists a motion in which the Hessian is indefinite. Then the Hessian is shifted, too. *found: false if no
+   convex. Laws do not find out whether it is: the model may have a second solution far away, where the objective is
+   larger, for example if only friction resists a motion in which the Hessian is indefinite. Then the Hessian is
+   shifted, too. *found: false if no
    moderate shift is sufficient, or the line search fails. At the first point the set-up of the model has already been
    tried.
 */
@@ -405,7 +406,7 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPRecycle *recycle, Vec d, Vec for
     *found = convex;
     if (!convex) continue;
     PetscCall(NewtonSearch(tao, d, force, &downhill, found));
-    if (downhill || !ip->terms->n) break;
+    if (downhill || !IPSubspaceOf(tao)->by_laws) break;
   }
   if (*found) IPRegularized(ip);
   if (*found) IPSubspaceOf(tao)->residual = ip->kkt->dual_norm;

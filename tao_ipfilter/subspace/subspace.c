@@ -103,7 +103,7 @@ static PetscErrorCode SubspaceKeepStart(Tao tao, Vec values, Vec force)
   PetscFunctionReturn(0);
 }
 
-/* Begins the laws of norm terms at the present point */
+/* Begins the laws at the present point */
 PetscErrorCode IPSubspaceBeginLaws(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -127,7 +127,7 @@ PetscErrorCode IPSubspaceBeginLaws(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Takes a step of the laws of norm terms. enough: residual [2-norm] that may be left; x: the point relative to the
+/* Takes a step of the laws. enough: residual [2-norm] that may be left; x: the point relative to the
    begin; force: forces of the constraints */
 PetscErrorCode IPSubspaceStepLaws(Tao tao, PetscReal enough, Vec x, Vec force, PetscReal *violation, PetscBool *done)
 {

@@ -34,7 +34,7 @@ def give(point, value, direction, more="", body="b"):
 STILL = "displacements:\n  - still: {body: b, value: [0, 0, 0]}\n"
 LEVER = [couple("a", (x, y, 2), 0.5, "b", (3 + x, y, 2)) for x, y in CORNERS]
 SCENES = {
-    # the top of b moves down twice as far as that of a moves up
+    # the top of b moves down by twice the displacement by which the top of a moves up
     "lever": BARS + FEET + PULL + equations(*LEVER) + TOPS,
     "ramp": BARS + FEET + PULL + TOPS + "load:\n  steps: 2\nramps:\n  - back: {factors: [1, -2]}\n" + equations(
         *(give((3 + x, y, 2), 0.04, [0, 0, 2], ", ramp: back") for x, y in CORNERS)),

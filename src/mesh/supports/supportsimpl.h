@@ -38,7 +38,8 @@ typedef struct {
   PetscReal       row[SUPPORT_BLOCK];               /* row of the last link that is being computed */
 } Support;
 
-/* links.c: positions of vertices, sizes of the bodies (collective), and rows of the last link */
+/* links.c: positions of vertices; sizes of the bodies (collective); restraints as rows, which are added to the link
+   that was begun last */
 PETSC_INTERN PetscErrorCode SupportGetPlaces(const Support *, PetscInt n, const PetscInt vertices[], PetscReal x[][3]);
 PETSC_INTERN PetscErrorCode SupportMeasureBodies(Support *);
 PETSC_INTERN void           SupportBeginLink(Support *, PetscInt a, PetscInt b, SupportKind);

@@ -80,16 +80,13 @@ PetscErrorCode ContactUpdateSetDirections(StepProblem *p)
 /* After a solve: keeps the contact forces, if rigid bodies turn */
 PetscErrorCode ContactUpdateKeepForces(StepProblem *p, const ContactSolution *sol)
 {
-  const ContactLinearization lin = p->state->solved->linearization;
-  Vec                        forces;
+  Vec weighted;
 
   PetscFunctionBegin;
   if (!p->directions || !p->model->rigid.turns) PetscFunctionReturn(0);
   if (!p->pressed) PetscCall(VecDuplicate(p->base, &p->pressed));
-  PetscCall(VecDuplicate(lin->mass, &forces));
-  PetscCall(VecPointwiseMult(forces, sol->pressure, lin->mass));
-  PetscCall(MatMultTranspose(lin->J, forces, p->pressed));
-  PetscCall(RowsAddForces(lin, lin->slip, sol->shear, PETSC_DECIDE, p->pressed));
-  PetscCall(VecDestroy(&forces));
+  PetscCall(VecDuplicate(sol->pressure, &weighted));
+  PetscCall(RowsGetForces(p->state->solved->linearization, sol, weighted, p->pressed));
+  PetscCall(VecDestroy(&weighted));
   PetscFunctionReturn(0);
 }

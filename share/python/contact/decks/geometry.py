@@ -201,7 +201,8 @@ class Bodies:
         return normal if np.dot(normal, outward) > 0 else -normal
 
     def facets_facing(self, nodes, others):
-        """Boundary sides that have one of the nodes, within 60 degrees opposite to the mean normal of other sides"""
+        """Boundary sides that face the sides `others`: they have one of the nodes, and the angle between their normal
+        and the reversed mean normal of the others is below 60 degrees"""
         mean, inside = sum((self.normal(*side) for side in others), np.zeros(3)), set(nodes)
         found = []
         for side in self.boundary:
