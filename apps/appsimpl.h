@@ -35,6 +35,9 @@ PETSC_INTERN PetscErrorCode AppHandleError(MPI_Comm, int line, const char *funct
 PETSC_INTERN PetscErrorCode AppCrash(int sig, void *ctx);
 PETSC_INTERN void           AppLeave(const AppError *);
 
+/* heap.c */
+PETSC_INTERN void AppLimitHeap(void);
+
 /* help.c: the help, and the texts of commands that run no scene, see AppAsksForText() */
 PETSC_INTERN const char     AppHelp[];
 PETSC_INTERN PetscBool      AppAsksForText(int argc, char **argv);

@@ -9,9 +9,6 @@
 #include <signal.h>
 #include <string.h>
 #include <unistd.h>
-#if defined(__GLIBC__)
-  #include <malloc.h>
-#endif
 
 /* Sets the option that prints one line per Newton step, unless the user has set it. There is no function for this. */
 static PetscErrorCode AppShowProgress(void)
@@ -118,22 +115,6 @@ static PetscErrorCode AppRun(int argc, char **argv, AppError *error, ReportPage 
   }
   if (app.scene[0] && !app.check) PetscCall(AppDescribePage(&app, argc, argv, page));
   PetscFunctionReturn(0);
-}
-
-/*
-   Limits the fragmentation of the heap. Large arrays of the AMG and of matrices are freed and allocated again; in a
-   heap they would leave holes. (two_block on mesh 2 would need 4.9 kB per unknown instead of 4.0.) Large arrays are
-   therefore mapped, and free memory at the end of the heap is returned to the system. SuperLU_DIST, which PETSc may
-   link, switches mapping and returning off when it is loaded, by mallopt(M_MMAP_MAX, 0) and
-   mallopt(M_TRIM_THRESHOLD, -1).
-*/
-static void AppLimitHeap(void)
-{
-#if defined(__GLIBC__)
-  (void)mallopt(M_MMAP_MAX, 1 << 16);
-  (void)mallopt(M_MMAP_THRESHOLD, 1 << 20);
-  (void)mallopt(M_TRIM_THRESHOLD, 1 << 24);
-#endif
 }
 
 /*

@@ -40,6 +40,8 @@ DEFINITION = re.compile(r"^(?!typedef|struct|enum|union)(?P<static>static )?[\w 
                         re.M)
 DECLARATION = re.compile(r"^(?:PETSC_INTERN|PETSC_EXTERN)\s[^;{}=]*?\b(\w+)\(", re.M)
 SECTION = re.compile(r"^/\*\s+(\w+\.c(?:, \w+\.c)*)\b", re.M)  # a comment that begins with one file's name, or several
+# Functions of the C library that apps/heap.c wraps
+ALLOCATOR = {"malloc", "calloc", "realloc", "free", "memalign", "aligned_alloc", "posix_memalign"}
 
 
 def sources(kind):
@@ -76,7 +78,7 @@ def symbols():
 
 def calls(defined, taken):
     """file: the files that it takes something from, and what"""
-    home = {name: path for path, names in defined.items() for name in names}
+    home = {name: path for path, names in defined.items() for name in names - ALLOCATOR}
     graph = {path: collections.defaultdict(set) for path in defined}
     for path, names in taken.items():
         for name in names:
