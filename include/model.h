@@ -330,6 +330,7 @@ typedef struct {
                                     the size of the faces */
   PetscReal   interference;      /* largest intended initial overlap [length]; 0: none, PETSC_INFINITY: any */
   PetscInt    interference_ramp; /* ramp of the interference; PETSC_DECIDE: applied from the start */
+  PetscReal   stiffness;         /* pressure per depth of penetration [force/length^3]; 0: no penetration */
   PetscReal   friction;          /* friction coefficient; 0: none, PETSC_INFINITY: sticks under any force */
   PetscReal   shear_limit;       /* limit of the friction stress [force/length^2]; PETSC_INFINITY: none */
   PetscInt    friction_ramp;     /* ramp of the coefficient; PETSC_DECIDE: constant */

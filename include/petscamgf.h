@@ -99,6 +99,7 @@ PETSC_EXTERN PetscErrorCode PCAMGFReconsiderFactor(PC, PetscBool *);
 PETSC_EXTERN PetscErrorCode PCAMGFApplyProduct(PC, Vec r, Vec z, Vec product);
 
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetSlackMass(Tao, Vec);
+PETSC_EXTERN PetscErrorCode TaoIPFilterSetCompliance(Tao, Vec);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetPrimalMass(Tao, Vec);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetWarmStart(Tao, Vec, Vec);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetWarmStartEquality(Tao, Vec);

@@ -104,7 +104,7 @@ typedef struct {
 typedef struct {
   const char *name;
   PetscReal   kinetic_energy;        /* [force length] */
-  PetscReal   total_energy;          /* kinetic and elastic [force length] */
+  PetscReal   total_energy;          /* kinetic and elastic, also of soft contact pairs [force length] */
   PetscReal   damping_work;          /* energy that damping has dissipated [force length] */
   PetscReal   numerical_dissipation; /* energy that the time integration has lost, also in the normal forces of contact:
                                         work of the loads plus initial kinetic energy, minus total energy, minus the
@@ -139,6 +139,7 @@ typedef struct {
                                   was sufficient for the others. */
   TaoIPFilterFallbacks linear; /* counts of the linear solves for which the Krylov method alone was not sufficient */
   PetscReal            energy; /* strain energy, elastic [force length] */
+  PetscReal            contact_energy; /* elastic energy of soft contact pairs [force length] */
   PetscReal            plastic_work;   /* work of the stresses in the plastic strains since the start [force length] */
   PetscReal            plastic_strain; /* largest equivalent plastic strain of all bodies */
   PetscReal   work; /* work of the dead loads and of the reactions at prescribed displacements since the start, by

@@ -49,6 +49,19 @@ static PetscErrorCode TaoIPFilterSetSlackMass_IPFilter(Tao tao, Vec mass)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode TaoIPFilterSetCompliance_IPFilter(Tao tao, Vec compliance)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  PetscReal     least = 0.0;
+
+  PetscFunctionBegin;
+  if (compliance) PetscCall(VecMin(compliance, NULL, &least));
+  PetscCheck(least >= 0.0, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_OUTOFRANGE,
+    "compliance must not be negative, its smallest entry is %g", (double)least);
+  PetscCall(ReplaceVec(compliance, &ip->given->compliance));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode TaoIPFilterSetPrimalMass_IPFilter(Tao tao, Vec mass)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -167,6 +180,7 @@ static PetscErrorCode TaoIPFilterGetFallbacks_IPFilter(Tao tao, TaoIPFilterFallb
 
 static const AMGFFunction functions[] = {
   AMGF_FUNCTION(TaoIPFilterSetSlackMass, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetCompliance, IPFilter),
   AMGF_FUNCTION(TaoIPFilterSetPrimalMass, IPFilter),
   AMGF_FUNCTION(TaoIPFilterSetWarmStart, IPFilter),
   AMGF_FUNCTION(TaoIPFilterSetWarmStartEquality, IPFilter),
@@ -220,6 +234,40 @@ PetscErrorCode TaoIPFilterSetSlackMass(Tao tao, Vec mass)
   PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   if (mass) PetscValidHeaderSpecific(mass, VEC_CLASSID, 2);
   PetscTryMethod(tao, "TaoIPFilterSetSlackMass_C", (Tao, Vec), (tao, mass));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterSetCompliance - Lets inequality constraints yield in proportion to their multipliers
+
+  Logically Collective
+
+  Input Parameters:
++ tao        - the `TAOIPFILTER`
+- compliance - entries C_i >= 0, laid out as the constraint vector of `TaoSetInequalityConstraintsRoutine()`; NULL for 0
+
+  Level: intermediate
+
+  Notes:
+  The conditions are c_i(x) + C_i lambda_i >= 0, lambda_i >= 0 and (c_i(x) + C_i lambda_i) lambda_i = 0. This minimizes
+  f(x) + sum_i m_i min(c_i(x), 0)^2 / (2 C_i), with the weights m_i of `TaoIPFilterSetSlackMass()`: a layer of springs
+  in the place of each constraint with C_i > 0. Small C_i do not spoil the conditioning, since the method works with
+  lambda_i. The second term is not part of the objective that TAO reports.
+
+  Such constraints require the subspace method: no equality constraints, no bounds, and linear inequalities, each with
+  one bound. The vector is referenced, not copied: it must not change during `TaoSolve()`.
+
+  Errors if an entry is negative; in `TaoSolve()` if the layout is another. The solve ends with `TAO_DIVERGED_USER` if
+  the problem is of another kind.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterSetSlackMass()`, `TaoIPFilterSetSubspace()`
+@*/
+PetscErrorCode TaoIPFilterSetCompliance(Tao tao, Vec compliance)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  if (compliance) PetscValidHeaderSpecific(compliance, VEC_CLASSID, 2);
+  PetscTryMethod(tao, "TaoIPFilterSetCompliance_C", (Tao, Vec), (tao, compliance));
   PetscFunctionReturn(0);
 }
 

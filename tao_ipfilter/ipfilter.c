@@ -281,7 +281,7 @@ static PetscErrorCode SolverCreate(Tao tao)
 - * - C. Graeser and R. Kornhuber, "Multigrid methods for obstacle problems", Journal of Computational Mathematics 27,
         2009: truncated nonsmooth Newton multigrid, the published method most similar to the subspace method.
 
-.seealso: `TaoIPFilterSetSlackMass()`, `TaoIPFilterSetPrimalMass()`, `TaoIPFilterSetWarmStart()`,
+.seealso: `TaoIPFilterSetSlackMass()`, `TaoIPFilterSetCompliance()`, `TaoIPFilterSetPrimalMass()`, `TaoIPFilterSetWarmStart()`,
           `TaoIPFilterSetNormTerms()`, `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`,
           `TaoIPFilterGetKKTError()`, `TaoIPFilterGetReason()`, `TaoIPFilterGetFallbacks()`,
           `TaoIPFilterGetSubspace()`, `TaoIPFilterSetSubspace()`, `PCAMGF`

@@ -237,8 +237,6 @@ BASELINES = {
     "MUMPS Cholesky": ("-options_file", "direct.opts"),
     "AMG-PCG": (IP + "pc_type", "hypre", *boomeramg(IP, "0.7", "l1-Gauss-Seidel", "backward-l1-Gauss-Seidel"), *LONG),
     "GAMG-PCG": (IP + "pc_type", "gamg", *AIJ, *LONG),
-    "penalty, stiffness 10": ("-contact_penalty", "10"),
-    "penalty, stiffness 1000": ("-contact_penalty", "1000"),
     "TAO almm": ("-tao_type", "almm", "-tao_almm_type", "classic"),
     "TAO pdipm": ("-options_file", "pdipm.opts"),
 }

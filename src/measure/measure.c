@@ -24,6 +24,16 @@ static PetscErrorCode MeasureActionReaction(const Measured *at, Vec q, StepRepor
   PetscFunctionReturn(0);
 }
 
+/* Creates *gap, what the laws of contact keep from being negative: the gap plus the depth by which soft pairs yield */
+static PetscErrorCode MeasureGetGap(const ContactSolution *sol, Vec *gap)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(sol->gap, gap));
+  PetscCall(VecCopy(sol->gap, *gap));
+  if (sol->yield) PetscCall(VecAXPY(*gap, 1.0, sol->yield));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode MeasureGap(const ContactSolution *sol, StepReport *report)
 {
   Vec       product;
@@ -34,8 +44,8 @@ static PetscErrorCode MeasureGap(const ContactSolution *sol, StepReport *report)
   PetscCall(VecGetSize(sol->gap, &report->constraints));
   if (!report->constraints) PetscFunctionReturn(0);
   PetscCall(VecMin(sol->gap, NULL, &report->gap_min));
-  PetscCall(VecDuplicate(sol->gap, &product));
-  PetscCall(VecPointwiseMult(product, sol->gap, sol->pressure));
+  PetscCall(MeasureGetGap(sol, &product));
+  PetscCall(VecPointwiseMult(product, product, sol->pressure));
   PetscCall(VecNorm(product, NORM_INFINITY, &largest));
   report->complementarity = largest;
   PetscCall(VecDestroy(&product));
@@ -96,8 +106,8 @@ static PetscErrorCode MeasureAlgebraicError(Vec u, Vec residual, const ContactSo
   if (moves) PetscFunctionReturn(0);
   PetscCall(VecDot(u, residual, &work));
   if (weighted) {
-    PetscCall(VecDuplicate(weighted, &products));
-    PetscCall(VecPointwiseMult(products, weighted, sol->gap));
+    PetscCall(MeasureGetGap(sol, &products));
+    PetscCall(VecPointwiseMult(products, weighted, products));
     PetscCall(VecAbs(products));
     PetscCall(VecSum(products, &duality));
     PetscCall(VecDestroy(&products));
@@ -167,13 +177,16 @@ static PetscErrorCode MeasurePlastic(Scene scene, Elasticity elasticity, StepRep
 static PetscErrorCode MeasureContact(Model model, State state, PetscReal time, Vec u, const ContactSolution *sol,
   StepReport *report, Vec *weighted, Vec *contact, PetscReal *late)
 {
-  const Measured at = MeasuredAt(model, state, NULL);
+  const Measured at   = MeasuredAt(model, state, NULL);
+  PetscScalar    work = 0.0;
 
   PetscFunctionBegin;
   PetscCall(MeasureGap(sol, report));
   PetscCall(VecDuplicate(sol->pressure, weighted));
   PetscCall(VecDuplicate(u, contact));
   PetscCall(RowsGetForces(state->solved->linearization, sol, *weighted, *contact));
+  if (sol->yield) PetscCall(VecDot(*weighted, sol->yield, &work));
+  report->contact_energy = 0.5 * PetscRealPart(work);
   PetscCall(ForcesMeasurePairs(&at, u, *weighted, sol->shear, report));
   PetscCall(FrictionMeasure(model, state, time, u, sol, report, late));
   PetscCall(MeasureActionReaction(&at, *contact, report));

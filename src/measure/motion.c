@@ -17,13 +17,13 @@ PetscErrorCode MotionMeasure(Model model, State state, Vec u, StepReport *report
 
   PetscFunctionBegin;
   for (PetscInt p = 0; p < model->scene->npairs; ++p)
-    if (model->scene->pairs[p].interference > 0.0) taken = report->contact_work;
+    if (model->scene->pairs[p].interference > 0.0) taken = report->contact_work - report->contact_energy;
   if (!report->motions) PetscCall(PetscCalloc1(1, &report->motions));
   report->nmotions = 1;
   motion           = report->motions;
   motion->name     = "dynamics";
   PetscCall(MassMeasure(&constraints, d, u, &motion->kinetic_energy, motion->momentum, motion->angular_momentum));
-  motion->total_energy   = motion->kinetic_energy + report->energy;
+  motion->total_energy   = motion->kinetic_energy + report->energy + report->contact_energy;
   motion->damping_work   = d->damped;
   motion->rejected_steps = state->control->time_step.rejected;
   motion->shortest_step  = state->control->time_step.shortest * SceneTimeStep(model->scene);

@@ -3,7 +3,6 @@
    that single vertices may penetrate.
 */
 #include "measureimpl.h"
-#include "src/state/control.h"
 
 /* Returns whether the pair carries a force that is not a rounding error */
 static PetscBool PenetrationHasForce(const StepReport *report, PetscInt p)
@@ -33,16 +32,11 @@ PetscErrorCode PenetrationMeasure(Model model, State state, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Returns whether an initial overlap of the pair remains at the end of a load step because its ramp has not ended */
+/* Returns whether a pair may penetrate at the end of a load step: it is soft, or the ramp of its overlap has not ended */
 static PetscBool PenetrationIsMeant(const SceneContactPair *pair, const StepReport *report)
 {
-  return (PetscBool)(pair->interference_ramp >= 0 && report->ramps[pair->interference_ramp].factor < 1.0);
-}
-
-/* Returns whether penetration is expected: the penalty method and a single contact update leave it */
-static PetscBool PenetrationIsAllowed(Scene scene, StepControl *control)
-{
-  return (PetscBool)(control->penalty > 0.0 || scene->contact_updates == 1);
+  return (PetscBool)(pair->stiffness > 0.0 ||
+                     (pair->interference_ramp >= 0 && report->ramps[pair->interference_ramp].factor < 1.0));
 }
 
 /* Returns the largest displacement of the load steps so far [length] */
@@ -75,8 +69,7 @@ PetscErrorCode PenetrationTest(Simulation sim, StepReport *report)
   char            share[64];
 
   PetscFunctionBegin;
-  if (PenetrationIsAllowed(sim->model->scene, sim->state->control) || ModelIsDynamic(sim->model) || motion == 0.0)
-    PetscFunctionReturn(0);
+  if (sim->model->scene->contact_updates == 1 || ModelIsDynamic(sim->model) || motion == 0.0) PetscFunctionReturn(0);
   if (report->step < sim->model->scene->nsteps) PetscFunctionReturn(0);
   for (PetscInt p = 0; p < report->npairs && report->converged; ++p) {
     const SceneContactPair *pair = &sim->model->scene->pairs[p];
@@ -134,7 +127,7 @@ PetscErrorCode PenetrationWarn(Simulation sim)
   const PetscReal  motion = PenetrationMotion(run);
 
   PetscFunctionBegin;
-  if (PenetrationIsAllowed(sim->model->scene, sim->state->control)) PetscFunctionReturn(0);
+  if (sim->model->scene->contact_updates == 1) PetscFunctionReturn(0); /* leaves penetration */
   for (PetscInt p = 0; p < sim->model->scene->npairs; ++p) {
     const SceneContactPair *pair  = &sim->model->scene->pairs[p];
     PetscReal               depth = 0.0;

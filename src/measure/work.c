@@ -151,7 +151,7 @@ PetscErrorCode WorkAdd(Simulation sim, Vec load, Vec u, Vec unbalanced, Vec rigi
   report->work         = path->work;
   report->contact_work = path->contact_work;
   if (!sim->state->history->frictional) PetscFunctionReturn(0);
-  report->normal_work = report->contact_work - report->dissipated;
+  report->normal_work = report->contact_work - report->dissipated - report->contact_energy;
   if (!sim->model->scene->ntemperatures && !ModelIsDynamic(sim->model))
     PetscCall(WorkBalance(path, path->work - work, path->contact_work - taken,
       MODEL_ROUNDING * sim->model->stiffness * place * way, report));

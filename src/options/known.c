@@ -24,7 +24,6 @@ static const struct {
   {"contact_gap", OPTION_WORD, {"auto", "mortar", "node", "dual", NULL}},
   {"contact_gap_tol", OPTION_NUMBER, {NULL}},
   {"contact_normals", OPTION_WORD, {"nodal", "facet", NULL}},
-  {"contact_penalty", OPTION_NUMBER, {NULL}},
   {"contact_quadrature", OPTION_COUNT, {NULL}},
   {"contact_search_depth", OPTION_NUMBER, {NULL}},
   {"contact_smooth", OPTION_SWITCH, {NULL}},
@@ -84,7 +83,7 @@ static const struct {
 
 /* Options prefixes of PETSc objects that are created later */
 static const char *const OptionsPrefixes[] = {"tao_ipfilter_augmented_", "tao_ipfilter_direct_", "tao_ipfilter_",
-  "amgf_amg_", "amgf_factor_", "amgf_filter_", "elasticity_", "penalty_", NULL};
+  "amgf_amg_", "amgf_factor_", "amgf_filter_", "elasticity_", NULL};
 
 /* Beginnings of PETSc's own options, which are too many to list. A misspelt one is found by -options_left. */
 static const char *const OptionsKinds[] = {"adapt", "ao_", "blas_", "characteristic_", "check_pointer",

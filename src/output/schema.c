@@ -192,6 +192,7 @@ static const ReportField step_fields[] = {
     .columns = {COLUMN(TABLE_BALANCE, "work", "", 13, .format = "%.5e")}),
   FIELD(StepReport, dissipated, FIELD_REAL, "force length",
     .columns = {COLUMN(TABLE_BALANCE, "dissipated", "", 13, .format = "%.5e", .behind = PETSC_TRUE)}),
+  FIELD(StepReport, contact_energy, FIELD_REAL, "force length"),
   FIELD(StepReport, contact_work, FIELD_REAL, "force length"),
   FIELD(StepReport, normal_work, FIELD_REAL, "force length",
     .columns = {COLUMN(TABLE_BALANCE, "normal forces", "", 13, .format = "%.5e", .behind = PETSC_TRUE)}),

@@ -24,13 +24,6 @@ static PetscErrorCode SimulationSetUpElasticity(Simulation sim)
   PetscCall(PetscFree2(materials, elements));
   PetscCall(ElasticityIsLinear(sim->model->elasticity, &linear));
   sim->model->quadratic = (PetscBool)(linear || scene->model == MODEL_QUADRATIC);
-  PetscCheck(sim->state->control->penalty == 0.0 || SchemeShare(&scene->dynamics) == 1.0, sim->model->comm,
-    PETSC_ERR_SUP,
-    "-contact_penalty does not support scheme impact of dynamics: omit the option, or use generalized_alpha");
-  PetscCheck(sim->state->control->penalty == 0.0 || (sim->model->quadratic && !scene->displacement_bounds),
-    sim->model->comm, PETSC_ERR_SUP,
-    "-contact_penalty needs load steps that are quadratic and without displacement bounds: linear bodies, or model "
-    "quadratic");
   PetscCall(VertexPlacesCreate(sim->model->dm, &sim->model->places));
   PetscCall(PrescribedCreate(sim->model->dm, scene, &sim->model->places, &sim->model->prescribed));
   PetscCall(
@@ -77,10 +70,15 @@ static PetscErrorCode SimulationSetUpContact(Model model, State state)
   PetscCall(ContactSetFromOptions(model->contact));
   PetscCall(ContactSetDisplacements(model->contact, scene->ndisplacements, scene->displacements));
   PetscCall(ContactSetCyclic(model->contact, scene->ncyclic, scene->cyclic));
-  for (PetscInt p = 0; p < scene->npairs; ++p)
-    PetscCheck(state->control->penalty == 0.0 || !SceneContactPairHasFriction(&scene->pairs[p]), model->comm,
-      PETSC_ERR_SUP, "-contact_penalty does not support friction, but contact pair \"%s\" has friction",
-      scene->pairs[p].name);
+  for (PetscInt p = 0; p < scene->npairs; ++p) {
+    const SceneContactPair *pair = &scene->pairs[p];
+
+    SceneCheck(pair->stiffness == 0.0 || (!SchemeIsImpact(&scene->dynamics) && !scene->displacement_bounds),
+      model->comm, PETSC_ERR_SUP, pair,
+      "contact pair \"%s\" has contact_stiffness, which cannot be combined with displacement_bounds or the scheme "
+      "impact of dynamics; use the scheme generalized_alpha",
+      pair->name);
+  }
   PetscCall(ContactHistoryCreate(model->dm, scene, state->history));
   PetscFunctionReturn(0);
 }

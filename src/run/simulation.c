@@ -173,12 +173,8 @@ PetscErrorCode SimulationSetFields(Simulation sim, PetscBool nodes, PetscBool po
 .  -error_estimate <bool>     - estimate the discretization error at the end of every load step; default true
 .  -contact_update_tol <1e-6> - contact updates end when the gap changes by less than this, relative to the largest
                                 displacement
-.  -contact_gap_tol <1e-5>    - a load step has not converged if the last change of the gap is larger than this,
+-  -contact_gap_tol <1e-5>    - a load step has not converged if the last change of the gap is larger than this,
                                 relative to the largest displacement, unless the scene allows only one linearization
--  -contact_penalty <0>       - if positive, quadratic load steps are solved by the penalty method instead of
-                                TAOIPFILTER: the stiffness of the contact, as a multiple of that of the bodies at a row.
-                                Its PETSc solvers have the prefix penalty_. The faces penetrate by about pressure times
-                                the bodies' flexibility over this
 
    Level: beginner
 
@@ -206,13 +202,7 @@ PetscErrorCode SimulationSetFromOptions(Simulation sim)
     "Change of the gap, relative to the largest displacement, beyond which a load step has not converged",
     "SimulationStep", sim->state->control->tolerances.gap_unconverged, &sim->state->control->tolerances.gap_unconverged,
     NULL));
-  PetscCall(PetscOptionsReal("-contact_penalty",
-    "Penalty method: stiffness of a contact constraint relative to that of the bodies there; 0: no penalty",
-    "SimulationStep", sim->state->control->penalty, &sim->state->control->penalty, NULL));
   PetscOptionsEnd();
-  PetscCheck(sim->state->control->penalty >= 0.0 && !PetscIsInfOrNanReal(sim->state->control->penalty),
-    sim->model->comm, PETSC_ERR_ARG_OUTOFRANGE, "-contact_penalty must not be negative, but is %g",
-    (double)sim->state->control->penalty);
   PetscCheck(sim->run->progress.every >= 0.0 && !PetscIsInfOrNanReal(sim->run->progress.every), sim->model->comm,
     PETSC_ERR_ARG_OUTOFRANGE, "-progress_every is a number of seconds, not negative, but is %g",
     (double)sim->run->progress.every);

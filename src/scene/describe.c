@@ -219,7 +219,7 @@ static PetscErrorCode DescribeSides(DM dm, const SceneContactPair *pair, PetscVi
   PetscFunctionReturn(0);
 }
 
-/* Prints friction and interference of a pair */
+/* Prints friction, stiffness and interference of a pair */
 static PetscErrorCode DescribeLaw(Scene scene, const SceneContactPair *pair, PetscViewer viewer)
 {
   const PetscBool sticks = (PetscBool)(pair->friction == PETSC_INFINITY);
@@ -233,6 +233,8 @@ static PetscErrorCode DescribeLaw(Scene scene, const SceneContactPair *pair, Pet
     PetscCall(PetscViewerASCIIPrintf(viewer, " times %s", scene->ramps[pair->friction_ramp].name));
   if (SceneContactPairHasFriction(pair) && pair->shear_limit < PETSC_INFINITY)
     PetscCall(PetscViewerASCIIPrintf(viewer, ", at most %.6g per area", (double)pair->shear_limit));
+  if (pair->stiffness > 0.0)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "; soft: pressure %.6g times depth", (double)pair->stiffness));
   if (pair->interference == PETSC_INFINITY) PetscCall(PetscViewerASCIIPrintf(viewer, "; interference: any"));
   else if (pair->interference > 0.0)
     PetscCall(PetscViewerASCIIPrintf(viewer, "; interference of at most %.6g", (double)pair->interference));

@@ -44,13 +44,13 @@ PetscInt ContactHistoryIndex(const ContactHistory *m, ContactLinearization lin, 
 }
 
 /*
-   Stores the pressures and slacks of a solve by vertex. slack: slacks of the rows of lin [length]; stiffness: stiffness
-   of the bodies [force/length].
+   Stores the pressures and slacks of a solve by vertex; slacks of soft pairs are negative where they yield. slack:
+   slacks of the rows of lin [length]; stiffness: stiffness of the bodies [force/length].
 */
 PetscErrorCode ContactHistoryStore(ContactHistory *m, ContactLinearization lin, const ContactSolution *sol, Vec slack,
   PetscReal stiffness)
 {
-  const PetscScalar *z, *s, *mass;
+  const PetscScalar *z, *s, *mass, *yield = NULL;
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(m->pressure, m->npairs * m->nowned));
@@ -58,13 +58,15 @@ PetscErrorCode ContactHistoryStore(ContactHistory *m, ContactLinearization lin, 
   PetscCall(VecGetArrayRead(lin->mass, &mass));
   PetscCall(VecGetArrayRead(sol->pressure, &z));
   PetscCall(VecGetArrayRead(slack, &s));
+  if (sol->yield) PetscCall(VecGetArrayRead(sol->yield, &yield));
   for (PetscInt i = 0; i < lin->nlocal; ++i) {
     const PetscInt k = ContactHistoryIndex(m, lin, i);
 
     m->pressure[k] = PetscRealPart(z[i]);
-    m->slack[k]    = PetscRealPart(s[i]);
+    m->slack[k]    = PetscRealPart(s[i]) - (yield ? PetscRealPart(yield[i]) : 0.0);
     m->open[k]     = (PetscBool)(m->pressure[k] * PetscRealPart(mass[i]) <= open_share * stiffness * m->slack[k]);
   }
+  if (sol->yield) PetscCall(VecRestoreArrayRead(sol->yield, &yield));
   PetscCall(VecRestoreArrayRead(slack, &s));
   PetscCall(VecRestoreArrayRead(sol->pressure, &z));
   PetscCall(VecRestoreArrayRead(lin->mass, &mass));
@@ -89,7 +91,7 @@ PetscErrorCode ContactHistoryRecall(const ContactHistory *m, ContactLinearizatio
     const PetscInt k = ContactHistoryIndex(m, lin, i);
 
     z[i] = scale * m->pressure[k];
-    s[i] = m->pressure[k] > 0.0 ? m->slack[k] : 0.0;
+    s[i] = m->pressure[k] > 0.0 ? PetscMax(m->slack[k], 0.0) : 0.0;
     if (m->pressure[k] > 0.0) found = PETSC_TRUE;
   }
   PetscCall(VecRestoreArrayWrite(slack, &s));

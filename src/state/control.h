@@ -48,9 +48,7 @@ struct _n_StepControl {
   PetscReal       increment;  /* time increment of the next attempt within the current load step; 0: the rest of the
                                 load step */
   TimeStepControl time_step;
-  PetscReal       penalty; /* value of -contact_penalty: contact stiffness divided by the stiffness of the bodies;
-                                0: contact is a constraint */
-  KSP             ksp;     /* linear solver for quadratic load steps without contact; NULL until it is needed */
+  KSP             ksp; /* linear solver for quadratic load steps without contact; NULL until it is needed */
   Forecast        forecast;
   StepObserver    observer;
   PetscBool       lost_contact; /* true after a warning of a body that has lost contact */

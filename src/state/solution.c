@@ -20,6 +20,7 @@ PetscErrorCode ContactSolutionDestroy(ContactSolution *sol)
   PetscFunctionBegin;
   PetscCall(VecDestroy(&sol->pressure));
   PetscCall(VecDestroy(&sol->gap));
+  PetscCall(VecDestroy(&sol->yield));
   PetscCall(VecDestroy(&sol->shear));
   PetscCall(VecDestroy(&sol->slip));
   PetscFunctionReturn(0);

@@ -187,7 +187,7 @@ static PetscErrorCode SimulationReportStep(Simulation sim, StepReport *report)
 static PetscErrorCode SimulationWarnOfGain(Simulation sim, const StepReport *report)
 {
   const PetscReal allowed = PetscMax(1e-2, 2.0 * sim->state->path->told),
-                  taken   = report->contact_work - report->dissipated;
+                  taken   = report->contact_work - report->dissipated - report->contact_energy;
   PetscReal energy;
   PetscBool intended = PETSC_FALSE;
 

@@ -183,6 +183,7 @@ static PetscErrorCode TakeFirst(Tao tao, PetscBool *finite)
   PetscCall(EvaluateFirst(tao, finite));
   if (!*finite) PetscFunctionReturn(0);
   PetscCall(ScaleRows(tao));
+  PetscCall(IPSlackSetCompliance(tao));
   PetscCall(MeasureFirst(tao, finite));
   PetscFunctionReturn(0);
 }

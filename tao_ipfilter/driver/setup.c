@@ -266,6 +266,7 @@ PetscErrorCode TaoDestroy_IPFilter(Tao tao)
   if (ip->method->ops) PetscCall(ip->method->ops->destroy(tao));
   PetscCall(VecDestroy(&ip->given->slack_mass));
   PetscCall(VecDestroy(&ip->given->primal_mass));
+  PetscCall(VecDestroy(&ip->given->compliance));
   PetscCall(MatDestroy(&ip->given->modes));
   PetscCall(VecDestroy(&ip->given->warm_s));
   PetscCall(VecDestroy(&ip->given->warm_z));

@@ -46,9 +46,9 @@ static PetscErrorCode ResetSolve(Tao tao)
 
 /*
    Returns whether the present iterate is better than the best one. It is if its violation is smaller, or if both
-   violations are within the tolerance and its objective is not larger. If one of the two iterates is acceptable, or
-   norm terms are present, which no objective contains, the KKT errors are compared. If both are equally good, the
-   present one is better.
+   violations are within the tolerance and its objective is not larger. If one of the two iterates is acceptable, or the
+   objective does not contain all energy, the KKT errors are compared. If both are equally good, the present one is
+   better.
 */
 static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
 {
@@ -58,7 +58,7 @@ static PetscBool BetterThanBest(const TAO_IPFILTER *ip)
 
   if (acceptable || ip->rec->best_error <= IP_ACCEPTABLE_TOL)
     return (PetscBool)(acceptable && (ip->rec->falls || IPBothErrors(ip) <= same * ip->rec->best_error));
-  if (ip->terms->n)
+  if (IPNeedsMethod(ip))
     return (PetscBool)(violation < best || (violation == best && IPBothErrors(ip) <= same * ip->rec->best_error));
   return (PetscBool)(violation < best || (violation == best && ip->at.f <= ip->best.f));
 }
@@ -366,11 +366,8 @@ static PetscErrorCode LeaveMethod(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/*
-   Ends the solve of a problem with norm terms, since the alternative method failed and no other method can treat such
-   terms
-*/
-static PetscErrorCode EndTerms(Tao tao)
+/* Ends the solve of a problem that only the alternative method can solve, since that failed */
+static PetscErrorCode EndMethodOnly(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
@@ -379,6 +376,10 @@ static PetscErrorCode EndTerms(Tao tao)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: nothing reduces the KKT error %g further; the tolerance is %g", (double)ip->rec->best_error,
       (double)ip->tol));
+  else if (!ip->terms->n)
+    PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
+      "constraints with compliance: the subspace method, which they require, did not solve the problem. It requires a "
+      "problem without equality constraints and bounds, with linear constraints that involve few unknowns"));
   else if (ip->rec->best_error < PETSC_INFINITY)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
       "friction: no equilibrium with stick and slip consistent everywhere was found (KKT error %g)",
@@ -400,7 +401,7 @@ static PetscErrorCode TakeStep(Tao tao)
   PetscFunctionBegin;
   if (ip->method->on) {
     PetscCall(ip->method->ops->step(tao, &done));
-    if (!done && ip->terms->n) PetscCall(EndTerms(tao));
+    if (!done && IPNeedsMethod(ip)) PetscCall(EndMethodOnly(tao));
     else if (!done) PetscCall(LeaveMethod(tao));
   } else PetscCall(TakeNewtonStep(tao));
   PetscFunctionReturn(0);
@@ -449,8 +450,8 @@ static PetscErrorCode BeginSolve(Tao tao, PetscBool *finite)
   PetscCall(IPTermsSetUp(tao));
   PetscCall(IPTermsResistance(tao));
   PetscCall(BeginMethod(tao));
-  if (!ip->method->on && ip->terms->n) {
-    PetscCall(EndTerms(tao));
+  if (!ip->method->on && IPNeedsMethod(ip)) {
+    PetscCall(EndMethodOnly(tao));
     PetscFunctionReturn(0);
   }
   PetscCall(IPSetUpIteration(tao));

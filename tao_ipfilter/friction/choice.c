@@ -22,11 +22,30 @@ static PetscErrorCode ChoiceBalance(Contacts *c, const ContactBodies *bodies, Pe
   PetscCall(PetscArrayzero(c->s, 3 * c->n));
   PetscCall(bodies->residual(bodies->data, c->f, NULL));
   PetscCall(ContactsStep(c, bodies, 1.0, 0.0, du, df, solved));
-  for (PetscInt r = 0; r < 3 * c->n && *solved; r++) c->f[r] += df[r];
+  for (PetscInt i = 0; i < c->n && *solved; i++) {
+    ContactsSetForce(c, i, c->f[3 * i] + df[3 * i]);
+    for (PetscInt a = 1; a < 3; a++) c->f[3 * i + a] += df[3 * i + a];
+  }
   PetscFunctionReturn(0);
 }
 
-/* Moves the force f of a contact to the nearest one within its bounds */
+/* Removes the force of a contact, except a normal force that the contact's own compliance determines */
+static void ChoiceRemove(const Contacts *c, PetscInt i)
+{
+  for (PetscInt a = c->own[i] > 0.0; a < 3; a++) c->f[3 * i + a] = 0.0;
+}
+
+/* Sets the forces f */
+static void ChoiceReturn(const Contacts *c, const PetscReal f[])
+{
+  for (PetscInt i = 0; i < c->n; i++) {
+    ContactsSetForce(c, i, f[3 * i]);
+    for (PetscInt a = 1; a < 3; a++) c->f[3 * i + a] = f[3 * i + a];
+  }
+}
+
+/* Moves the force f of a contact to the nearest one within its bounds. A contact with a compliance of its own keeps its
+   normal force. */
 static void ChoiceBound(const Contacts *c, PetscInt i, PetscReal f[3])
 {
   const PetscReal  stretch = PetscSqrtReal(c->compliance[2 * i + 1] / c->compliance[2 * i]);
@@ -34,7 +53,8 @@ static void ChoiceBound(const Contacts *c, PetscInt i, PetscReal f[3])
   const ContactLaw law = c->law[i];
   PetscReal        most;
 
-  if ((law == CONTACT_COULOMB || law == CONTACT_LIMITED) && stretch * size > m * f[0])
+  if (c->own[i] > 0.0) f[0] = c->f[3 * i];
+  else if ((law == CONTACT_COULOMB || law == CONTACT_LIMITED) && stretch * size > m * f[0])
     f[0] = (f[0] + m * stretch * size) / (1.0 + m * m);
   f[0] = PetscMax(f[0], 0.0);
   most = ContactsBound(c, i, f[0]);
@@ -93,7 +113,7 @@ static void ChoiceSetSprings(Contacts *c, PetscBool free[])
     for (PetscInt k = 0; k < 9; k++) c->D[9 * i + k] = 0.0;
     for (PetscInt a = 0; a < 3 && free[i]; a++)
       if (!a || c->law[i] != CONTACT_SMOOTH) c->D[9 * i + 4 * a] = 1.0 / (CONTACT_WEAK * compliance[a > 0]);
-    ContactsProjectLaw(c, i);
+    ContactsFinishLaw(c, i);
   }
 }
 
@@ -130,8 +150,8 @@ static PetscErrorCode ChoiceIsNeeded(Contacts *c, const ContactBodies *bodies, c
   for (PetscInt i = 0; i < c->n; i++) {
     const PetscBool sticks = ContactsLinearize(c, i);
 
-    if (c->closed[i] && (sticks || c->law[i] == CONTACT_SMOOTH)) PetscCall(PetscArrayzero(&c->f[3 * i], 3));
-    ContactsProjectLaw(c, i);
+    if (c->closed[i] && (sticks || c->law[i] == CONTACT_SMOOTH)) ChoiceRemove(c, i);
+    ContactsFinishLaw(c, i);
   }
   PetscCall(bodies->prepare(bodies->data, c->D, &solved));
   for (PetscInt k = 0; k < most && solved; k++) PetscCall(ChoiceBalance(c, bodies, du, df, &solved));
@@ -151,16 +171,16 @@ PetscErrorCode ContactsChoose(Contacts *c, const ContactBodies *bodies, PetscBoo
   PetscCall(PetscCalloc5(n, &du, n, &df, n, &f, n, &p, c->n, &free));
   PetscCall(PetscArraycpy(f, c->f, n));
   PetscCall(ChoiceIsNeeded(c, bodies, f, du, df, chosen));
-  PetscCall(PetscArraycpy(c->f, f, n));
+  ChoiceReturn(c, f);
   if (*chosen) {
     ChoiceSetSprings(c, free);
     PetscCall(bodies->prepare(bodies->data, c->D, chosen));
   }
-  for (PetscInt r = 0; r < n && *chosen; r++)
-    if (free[r / 3]) c->f[r] = 0.0;
+  for (PetscInt i = 0; i < c->n && *chosen; i++)
+    if (free[i]) ChoiceRemove(c, i);
   if (*chosen) PetscCall(ChoiceIterate(c, bodies, free, du, df, p, chosen));
   if (*chosen) PetscCall(ChoiceDiffers(c, f, chosen));
-  if (!*chosen) PetscCall(PetscArraycpy(c->f, f, n));
+  if (!*chosen) ChoiceReturn(c, f);
   PetscCall(PetscFree5(du, df, f, p, free));
   PetscFunctionReturn(0);
 }

@@ -285,7 +285,7 @@ static PetscErrorCode ConesSetLaws(Cones s, PetscBool matrix, PetscBool *ready)
   for (PetscInt i = 0; i < s->c->n; i++) {
     *ready = (PetscBool)(ConeLaw(&s->cone[i], &s->c->D[9 * i], &s->c->s[3 * i]) && *ready);
     if (s->c->held[i]) ContactsSetNoSlip(s->c, i);
-    ContactsProjectLaw(s->c, i);
+    ContactsFinishLaw(s->c, i);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, ready, 1, MPI_PETSCBOOL, MPI_LAND, s->c->comm));
   if (matrix && *ready) PetscCall(s->bodies->prepare(s->bodies->data, s->c->D, ready));
@@ -302,6 +302,7 @@ static PetscErrorCode ConesFindSizes(Cones s, PetscBool *found)
   PetscReal least = PETSC_SQRT_MACHINE_EPSILON;
 
   PetscFunctionBegin;
+  for (PetscInt i = 0; i < c->n; i++) ContactsSetForce(c, i, 0.0);
   PetscCall(PetscArrayzero(c->f, 3 * c->n));
   for (PetscInt i = 0; i < c->n; i++) {
     PetscCall(PetscArrayzero(&c->D[9 * i], 9));
@@ -309,7 +310,7 @@ static PetscErrorCode ConesFindSizes(Cones s, PetscBool *found)
       c->D[9 * i + 4 * r] = PetscSqr(s->cone[i].scale[r > 0]);
       c->s[3 * i + r]     = -c->D[9 * i + 4 * r] * c->u[3 * i + r];
     }
-    ContactsProjectLaw(c, i);
+    ContactsFinishLaw(c, i);
   }
   PetscCall(s->bodies->residual(s->bodies->data, c->f, &s->force));
   PetscCall(s->bodies->prepare(s->bodies->data, c->D, found));
@@ -349,6 +350,7 @@ PetscErrorCode ConesStart(Cones s, PetscBool *started)
     if (k->n) k->f[0] = s->force;
     if (k->limited) k->z[0] = s->length * PetscMax(1.0, s->force / k->limit);
   }
+  for (PetscInt i = 0; i < s->c->n; i++) ContactsSetForce(s->c, i, s->cone[i].scale[0] * s->cone[i].f[0]);
   ConesSetForces(s);
   PetscFunctionReturn(0);
 }

@@ -11,6 +11,7 @@ PetscErrorCode ContactsDestroy(Contacts *c)
   PetscCall(PetscFree5(c->law, c->normal, c->closed, c->held, c->released));
   PetscCall(PetscFree5(c->coefficient, c->limit, c->rigid, c->f_start, c->u_start));
   PetscCall(PetscFree7(c->compliance, c->f, c->u, c->shift, c->place, c->D, c->s));
+  PetscCall(PetscFree(c->own));
   PetscCall(PetscMemzero(c, sizeof(*c)));
   PetscFunctionReturn(0);
 }
@@ -25,6 +26,7 @@ PetscErrorCode ContactsCreate(MPI_Comm comm, PetscInt n, Contacts *c)
   PetscCall(PetscCalloc5(n, &c->coefficient, n, &c->limit, 2 * n, &c->rigid, 3 * n, &c->f_start, 3 * n, &c->u_start));
   PetscCall(PetscCalloc7(2 * n, &c->compliance, 3 * n, &c->f, 3 * n, &c->u, 2 * n, &c->shift, 2 * n, &c->place, 9 * n,
     &c->D, 3 * n, &c->s));
+  PetscCall(PetscCalloc1(n, &c->own));
   PetscFunctionReturn(0);
 }
 
@@ -70,8 +72,15 @@ void ContactsSetNoSlip(const Contacts *c, PetscInt i)
   }
 }
 
+/* Sets the normal force of a contact in its present position */
+void ContactsSetForce(const Contacts *c, PetscInt i, PetscReal normal_force)
+{
+  c->u[3 * i] += c->own[i] * (normal_force - c->f[3 * i]);
+  c->f[3 * i] = normal_force;
+}
+
 /* Projects D and s of a contact such that they leave out the direction in which it cannot slip */
-void ContactsProjectLaw(const Contacts *c, PetscInt i)
+static void ContactsProjectLaw(const Contacts *c, PetscInt i)
 {
   const PetscReal *rigid = &c->rigid[2 * i];
   PetscReal       *D     = &c->D[9 * i];
@@ -84,6 +93,25 @@ void ContactsProjectLaw(const Contacts *c, PetscInt i)
 
     ContactsRemoveRigid(c, i, column);
     for (PetscInt r = 0; r < 3; r++) D[3 * r + k] = column[r];
+  }
+}
+
+/*
+   Finishes D and s of a contact: projects them, and puts them in series with the compliance of the contact itself, so
+   that they relate changes of forces to those of the bodies' motions. With du = R dx + own df_n e_n, the law is
+   df = (I + own D e_n e_n^T)^-1 (s - D R dx).
+*/
+void ContactsFinishLaw(const Contacts *c, PetscInt i)
+{
+  PetscReal *D = &c->D[9 * i], *s = &c->s[3 * i], normal[3], force = s[0];
+
+  ContactsProjectLaw(c, i);
+  for (PetscInt k = 0; k < 3; k++) normal[k] = D[k];
+  for (PetscInt r = 0; r < 3 && c->own[i] > 0.0; r++) {
+    const PetscReal part = c->own[i] * D[3 * r] / (1.0 + c->own[i] * normal[0]);
+
+    for (PetscInt k = 0; k < 3; k++) D[3 * r + k] -= part * normal[k];
+    s[r] -= part * force;
   }
 }
 
@@ -149,6 +177,7 @@ PetscErrorCode ContactsStep(Contacts *c, const ContactBodies *bodies, PetscReal 
     ContactsRemoveRigid(c, i, &du[3 * i]);
     ConeMultiply(&c->D[9 * i], &du[3 * i], &df[3 * i]);
     for (PetscInt r = 3 * i; r < 3 * i + 3; r++) df[r] = c->s[r] - df[r];
+    du[3 * i] += c->own[i] * df[3 * i];
   }
   PetscFunctionReturn(0);
 }

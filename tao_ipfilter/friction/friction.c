@@ -28,6 +28,23 @@ static PetscErrorCode LawsDestroy(IPLaws *laws)
   PetscFunctionReturn(0);
 }
 
+/* Adds the compliance of the constraints themselves to those of the contacts */
+static PetscErrorCode LawsAddCompliance(IPLaws laws)
+{
+  const Vec          own = ((TAO_IPFILTER *)laws->tao->data)->sides->compliance;
+  const PetscScalar *a;
+
+  PetscFunctionBegin;
+  if (!own) PetscFunctionReturn(0);
+  PetscCall(VecGetArrayRead(own, &a));
+  for (PetscInt i = 0; i < laws->m; i++) {
+    laws->contacts.own[i] = PetscRealPart(a[i]);
+    laws->contacts.compliance[2 * i] += PetscRealPart(a[i]);
+  }
+  PetscCall(VecRestoreArrayRead(own, &a));
+  PetscFunctionReturn(0);
+}
+
 /* Finds which components of contacts some unknown moves. The compliance of the others is a rounding error. */
 static PetscErrorCode LawsFindMoved(IPLaws laws)
 {
@@ -41,6 +58,7 @@ static PetscErrorCode LawsFindMoved(IPLaws laws)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, c->comm));
   for (PetscInt i = 0; i < 2 * c->n; i++)
     if (c->compliance[i] <= rounding * largest) c->compliance[i] = 0.0;
+  PetscCall(LawsAddCompliance(laws));
   for (PetscInt i = 0; i < laws->m; i++) c->normal[i] = (PetscBool)(c->compliance[2 * i] > 0.0);
   PetscFunctionReturn(0);
 }
@@ -135,6 +153,8 @@ static PetscErrorCode LawsBegin(IPLaws laws, Vec g, Vec c, Vec values, Vec force
     ContactsRemoveRigid(contacts, i, &contacts->f[3 * i]);
     if (!contacts->normal[i]) contacts->f[3 * i] = 0.0;
     if (contacts->law[i] == CONTACT_SMOOTH) contacts->f[3 * i + 1] = contacts->f[3 * i + 2] = 0.0;
+    contacts->u[3 * i] += contacts->own[i] * contacts->f[3 * i];
+    contacts->u_start[3 * i] += contacts->own[i] * contacts->f_start[3 * i];
   }
   PetscCall(ContactIterationBegin(contacts, SubspaceBodiesInterface(laws->bodies),
     (PetscBool)!IPSubspaceOf(laws->tao)->newton, &laws->iteration));

@@ -39,7 +39,8 @@ typedef struct {
   PetscReal  *rigid;               /* two per contact: unit direction along which it cannot slip; zeros: none */
   PetscReal
     *compliance;    /* two per contact: estimates for the normal and for the tangential components [length/force] */
-  PetscReal *f, *u; /* three per contact: forces, and motions: the gap and the slip */
+  PetscReal *own;   /* compliance of the normal component itself, which is part of compliance[2 i]; 0: rigid */
+  PetscReal *f, *u; /* three per contact: forces, and motions: the gap, plus own x normal force, and the slip */
   PetscReal *f_start, *u_start; /* the same at the begin of the solve */
   PetscReal *shift, *place; /* two per contact: by how much the place was moved from which the slip is measured; slip at
                                which the contact closed last */
@@ -65,9 +66,9 @@ typedef struct {
     *solve)(void *, const PetscReal s[], PetscReal fraction, PetscReal target, PetscReal du[], PetscBool *solved);
   PetscErrorCode (*work)(void *, PetscReal *); /* computes the work r^T dx of the residual */
   /* solves K dx = R^T df - r with the linearized laws df = s - D du of tangential components, and f >= s, u >= 0 and
-     (f - s) u = 0 for the normal ones */
-  PetscErrorCode (*solve_normal)(void *, const PetscReal D[], const PetscReal s[], const PetscReal f[],
-    const PetscReal u[], PetscReal du[], PetscReal df[], PetscBool *solved);
+     (f - s) u = 0 for the normal ones, where own[i] df is added to du of normal components */
+  PetscErrorCode (*solve_normal)(void *, const PetscReal own[], const PetscReal D[], const PetscReal s[],
+    const PetscReal f[], const PetscReal u[], PetscReal du[], PetscReal df[], PetscBool *solved);
   PetscErrorCode (*load)(void *, PetscReal fraction);    /* leaves out all but that fraction of the residual that was
                                                          computed before the first call */
   PetscErrorCode (*advance)(void *, PetscReal fraction); /* adds fraction dx to x */
@@ -90,7 +91,8 @@ PETSC_INTERN PetscErrorCode ContactsDestroy(Contacts *);
 PETSC_INTERN void           ContactsSetLaw(Contacts *, PetscInt i, PetscReal limit, PetscReal coefficient);
 PETSC_INTERN PetscReal      ContactsBound(const Contacts *, PetscInt i, PetscReal normal_force);
 PETSC_INTERN void           ContactsRemoveRigid(const Contacts *, PetscInt i, PetscReal u[3]);
-PETSC_INTERN void           ContactsProjectLaw(const Contacts *, PetscInt i);
+PETSC_INTERN void           ContactsFinishLaw(const Contacts *, PetscInt i);
+PETSC_INTERN void           ContactsSetForce(const Contacts *, PetscInt i, PetscReal normal_force);
 PETSC_INTERN void           ContactsSetNoSlip(const Contacts *, PetscInt i);
 PETSC_INTERN PetscErrorCode ContactsViolation(const Contacts *, const PetscReal force[], const PetscReal motion[],
   PetscReal *violation, PetscReal *rounding);

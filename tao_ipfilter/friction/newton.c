@@ -158,7 +158,7 @@ PetscErrorCode ContactsNewtonStep(Contacts *c, const ContactBodies *bodies, Pets
   PetscCall(PetscCalloc2(3 * c->n, &du, 3 * c->n, &df));
   for (PetscInt i = 0; i < c->n; i++) {
     ContactsLinearize(c, i);
-    ContactsProjectLaw(c, i);
+    ContactsFinishLaw(c, i);
   }
   PetscCall(bodies->residual(bodies->data, c->f, NULL));
   PetscCall(bodies->prepare(bodies->data, c->D, solved));

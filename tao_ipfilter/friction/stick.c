@@ -140,7 +140,7 @@ static PetscErrorCode StickPredict(ContactStick *s)
   for (PetscInt i = 0; i < c->n; i++) {
     needed = (PetscBool)(needed || (ContactSticks(c, i) && !c->closed[i]));
     ContactsLinearize(c, i);
-    ContactsProjectLaw(c, i);
+    ContactsFinishLaw(c, i);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &needed, 1, MPI_PETSCBOOL, MPI_LOR, c->comm));
   if (!needed) PetscFunctionReturn(0);
@@ -167,10 +167,10 @@ static PetscErrorCode StickSolve(ContactStick *s, PetscBool *solved)
     c->s[3 * i] = c->normal[i] ? -s->tension : 0.0;
     for (PetscInt a = 1; a < 3; a++) c->s[3 * i + a] = -c->f[3 * i + a];
     if (c->held[i]) ContactsSetNoSlip(c, i);
-    ContactsProjectLaw(c, i);
+    ContactsFinishLaw(c, i);
   }
   PetscCall(s->bodies->residual(s->bodies->data, c->f, NULL));
-  PetscCall(s->bodies->solve_normal(s->bodies->data, c->D, c->s, c->f, c->u, s->du, s->df, solved));
+  PetscCall(s->bodies->solve_normal(s->bodies->data, c->own, c->D, c->s, c->f, c->u, s->du, s->df, solved));
   if (!*solved) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < c->n; i++) {
     c->closed[i] = (PetscBool)(s->df[3 * i] > c->s[3 * i] - c->f[3 * i]);

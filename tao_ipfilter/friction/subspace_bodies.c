@@ -706,10 +706,12 @@ static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fra
   PetscFunctionReturn(0);
 }
 
-/* Sets up the problem of the normal laws for the matrix A_WW. gaps: the normal components of motions */
-static PetscErrorCode BodiesSetUpNormal(SubspaceBodies b, Vec gaps, PetscBool *definite)
+/* Sets up the problem of the normal laws for the matrix A_WW. gaps: the normal components of motions; own: compliance
+   of contacts */
+static PetscErrorCode BodiesSetUpNormal(SubspaceBodies b, const PetscReal own[], Vec gaps, PetscBool *definite)
 {
   PetscInt start, end;
+  Vec      compliance;
 
   PetscFunctionBegin;
   if (!b->JW) {
@@ -723,7 +725,11 @@ static PetscErrorCode BodiesSetUpNormal(SubspaceBodies b, Vec gaps, PetscBool *d
     PetscCall(ISDestroy(&rows));
     b->places = columns;
   }
-  PetscCall(IPReducedSetUp(&b->normal, b->A, b->JW, b->places, b->W, b->x, gaps, &b->recycle->basis, definite));
+  PetscCall(VecGetLocalSize(gaps, &end));
+  PetscCall(VecCreateMPIWithArray(PetscObjectComm((PetscObject)gaps), 1, end, PETSC_DETERMINE, own, &compliance));
+  PetscCall(
+    IPReducedSetUp(&b->normal, b->A, b->JW, compliance, b->places, b->W, b->x, gaps, &b->recycle->basis, definite));
+  PetscCall(VecDestroy(&compliance));
   PetscFunctionReturn(0);
 }
 
@@ -825,8 +831,8 @@ static PetscErrorCode BodiesIterateNormal(SubspaceBodies b, const PetscReal D[],
 }
 
 /* Computes du = R dx, and the changes of the forces */
-static PetscErrorCode BodiesGetChanges(SubspaceBodies b, const PetscReal D[], const PetscReal s[], const PetscReal f[],
-  Vec force, PetscReal du[], PetscReal df[])
+static PetscErrorCode BodiesGetChanges(SubspaceBodies b, const PetscReal own[], const PetscReal D[],
+  const PetscReal s[], const PetscReal f[], Vec force, PetscReal du[], PetscReal df[])
 {
   const PetscScalar *a, *normal;
   PetscInt           n;
@@ -843,14 +849,15 @@ static PetscErrorCode BodiesGetChanges(SubspaceBodies b, const PetscReal D[], co
     ConeMultiply(&D[9 * i], &du[3 * i], change);
     for (PetscInt c = 0; c < 3; c++) df[3 * i + c] = s[3 * i + c] - change[c];
     df[3 * i] = PetscRealPart(normal[i]) + s[3 * i] - f[3 * i];
+    du[3 * i] += own[i] * df[3 * i];
   }
   PetscCall(VecRestoreArrayRead(force, &normal));
   PetscCall(VecRestoreArrayRead(b->rows, &a));
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode BodiesSolveNormal(void *data, const PetscReal D[], const PetscReal s[], const PetscReal f[],
-  const PetscReal u[], PetscReal du[], PetscReal df[], PetscBool *solved)
+static PetscErrorCode BodiesSolveNormal(void *data, const PetscReal own[], const PetscReal D[], const PetscReal s[],
+  const PetscReal f[], const PetscReal u[], PetscReal du[], PetscReal df[], PetscBool *solved)
 {
   const SubspaceBodies b = (SubspaceBodies)data;
   PetscScalar         *g;
@@ -864,7 +871,7 @@ static PetscErrorCode BodiesSolveNormal(void *data, const PetscReal D[], const P
   PetscCall(VecDuplicate(gaps, &force));
   PetscCall(VecGetArrayWrite(gaps, &g));
   for (PetscInt i = 0; i < n; i++) {
-    g[i] = u[3 * i];
+    g[i] = u[3 * i] + own[i] * (s[3 * i] - f[3 * i]); /* with the force s */
     for (PetscInt c = 0; c < 3; c++) df[3 * i + c] = s[3 * i + c] - (c ? 0.0 : f[3 * i]);
   }
   PetscCall(VecRestoreArrayWrite(gaps, &g));
@@ -872,9 +879,9 @@ static PetscErrorCode BodiesSolveNormal(void *data, const PetscReal D[], const P
   PetscCall(VecAYPX(b->rhs, -1.0, b->r));
   PetscCall(IPFixedZero(b->tao, b->rhs));
   PetscCall(BodiesAssemble(b, D));
-  PetscCall(BodiesSetUpNormal(b, gaps, solved));
+  PetscCall(BodiesSetUpNormal(b, own, gaps, solved));
   if (*solved) PetscCall(BodiesIterateNormal(b, D, gaps, force, solved));
-  if (*solved) PetscCall(BodiesGetChanges(b, D, s, f, force, du, df));
+  if (*solved) PetscCall(BodiesGetChanges(b, own, D, s, f, force, du, df));
   PetscCall(VecDestroy(&force));
   PetscCall(VecDestroy(&gaps));
   PetscFunctionReturn(0);

@@ -22,6 +22,7 @@ PetscErrorCode IPSidesDestroy(IPSides *sides)
   PetscCall(VecDestroy(&sides->base));
   PetscCall(VecDestroy(&sides->range));
   PetscCall(VecDestroy(&sides->width));
+  PetscCall(VecDestroy(&sides->compliance));
   PetscCall(PetscFree(sides->equal));
   PetscCall(PetscMemzero(sides, sizeof(*sides)));
   PetscFunctionReturn(0);

@@ -61,6 +61,7 @@ PetscErrorCode IPGivenCheck(Tao tao)
   PetscCall(CheckProblem(tao));
   PetscCall(CheckLayout(tao, given->primal_mass, "Primal mass", x, unknowns));
   PetscCall(CheckLayout(tao, given->slack_mass, "Slack mass", c, rows));
+  PetscCall(CheckLayout(tao, given->compliance, "Compliance", c, rows));
   PetscCall(CheckLayout(tao, tao->XL, "Lower bounds of the variables", x, unknowns));
   PetscCall(CheckLayout(tao, tao->XU, "Upper bounds of the variables", x, unknowns));
   PetscCall(CheckLayout(tao, tao->IL, "Lower bounds of the inequality constraints", c, rows));

@@ -86,6 +86,8 @@ PETSC_INTERN PetscErrorCode IPSlackForce(Tao, Vec);
 PETSC_INTERN PetscErrorCode IPSlackPressure(Tao, Vec);
 PETSC_INTERN PetscErrorCode IPSlackDirection(Tao);
 PETSC_INTERN PetscErrorCode IPSlackDistance(Tao, Vec, PetscBool trial);
+PETSC_INTERN PetscErrorCode IPSlackSetCompliance(Tao);
+PETSC_INTERN PetscErrorCode IPSlackYield(Tao, Vec, Vec);
 PETSC_INTERN PetscErrorCode IPSlackViolation(Tao, Vec, Vec);
 PETSC_INTERN PetscErrorCode IPSlackCentral(Tao, Vec, PetscReal, Vec, Vec);
 PETSC_INTERN PetscErrorCode IPSlackKeepInside(Tao, Vec, PetscReal);

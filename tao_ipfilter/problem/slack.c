@@ -1,5 +1,6 @@
 /* Operations on the slacks of c_I, 0 <= s or 0 <= s <= width, which combine their one or two pairs */
 #include "problemimpl.h"
+#include "tao_ipfilter/solver/options.h"
 #include "tao_ipfilter/solver/rows.h"
 #include "tao_ipfilter/solver/stiffness.h"
 
@@ -91,6 +92,35 @@ PetscErrorCode IPSlackDistance(Tao tao, Vec s, PetscBool trial)
   PetscCall(VecRestoreArrayWrite(trial ? ceiling->trial : ceiling->t, &t));
   PetscCall(VecRestoreArrayRead(s, &slack));
   PetscCall(VecRestoreArrayRead(ip->sides->width, &width));
+  PetscFunctionReturn(0);
+}
+
+/* Sets the compliance of the scaled rows, by which their values grow per force */
+PetscErrorCode IPSlackSetCompliance(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&ip->sides->compliance));
+  if (!ip->given->compliance || !ip->mi) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(ip->at.c, &ip->sides->compliance));
+  PetscCall(VecPointwiseDivide(ip->sides->compliance, ip->given->compliance, ip->pair[IP_SLACK].w));
+  for (PetscInt k = 0; k < 2 && ip->rows->inequality; k++)
+    PetscCall(VecPointwiseMult(ip->sides->compliance, ip->sides->compliance, ip->rows->inequality));
+  PetscFunctionReturn(0);
+}
+
+/* Computes v = c_I + compliance x force, where the force is M times the multiplier; this is what must not be negative */
+PetscErrorCode IPSlackYield(Tao tao, Vec multiplier, Vec v)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (ip->sides->compliance) {
+    PetscCall(VecPointwiseMult(v, multiplier, ip->pair[IP_SLACK].w));
+    PetscCall(VecPointwiseMult(v, v, ip->sides->compliance));
+    PetscCall(VecAXPY(v, 1.0, ip->at.c));
+  } else PetscCall(VecCopy(ip->at.c, v));
   PetscFunctionReturn(0);
 }
 

@@ -118,7 +118,7 @@ static PetscReal FirstSize(const TAO_IPFILTER *ip, PetscReal values, PetscReal j
 }
 
 /*
-   Sets ip->rc = c_I - s. *primal: largest violation of the constraints and of the laws of norm terms, relative to their
+   Sets ip->rc = c_I - s, with the compliance of rows. *primal: largest violation of the constraints and of the laws of norm terms, relative to their
    scales; *largest: largest violation of the constraints in the caller's units.
 */
 static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest)
@@ -129,10 +129,12 @@ static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest
   PetscFunctionBegin;
   *primal = *largest = ip->kkt->violation = 0.0;
   if (ip->mi) {
-    PetscCall(IPSlackViolation(tao, ip->at.c, ip->rc));
+    PetscCall(IPSlackYield(tao, ip->at.lambda, ip->rc));
+    PetscCall(IPSlackViolation(tao, ip->rc, ip->rc));
     PetscCall(VecNorm(ip->rc, NORM_INFINITY, &norm));
     ip->kkt->violation = norm / FirstSize(ip, ip->first->length, ip->first->jacobian, ip->scale->length);
-    PetscCall(VecWAXPY(ip->rc, -1.0, ip->pair[IP_SLACK].t, ip->at.c));
+    PetscCall(IPSlackYield(tao, ip->at.lambda, ip->rc));
+    PetscCall(VecAXPY(ip->rc, -1.0, ip->pair[IP_SLACK].t));
     PetscCall(VecNorm(ip->rc, NORM_INFINITY, &norm));
     *primal = norm / ip->scale->length;
     PetscCall(IPRowScaleNorm(tao, IP_INEQUALITIES, ip->rc, largest));

@@ -42,6 +42,7 @@ PETSC_INTERN PetscReal      IPTermViolation(const PetscScalar tau[2], const Pets
        PetscReal bound);
 PETSC_INTERN PetscErrorCode IPTermsViolation(Tao, PetscReal *largest);
 PETSC_INTERN PetscErrorCode IPTermsSetUnmoved(Tao);
+PETSC_INTERN PetscBool      IPNeedsMethod(const TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode TaoIPFilterSetNormTerms_IPFilter(Tao, Mat, Vec, Vec, Vec);
 PETSC_INTERN PetscErrorCode TaoIPFilterSetNormTermForces_IPFilter(Tao, Vec);
 PETSC_INTERN PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao, Vec *);

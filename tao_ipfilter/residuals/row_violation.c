@@ -95,7 +95,8 @@ PetscErrorCode IPOwnViolation(Tao tao, PetscReal *own)
   *own = 0.0;
   if (ip->mi) {
     PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v));
-    PetscCall(IPSlackViolation(tao, ip->at.c, v));
+    PetscCall(IPSlackYield(tao, ip->at.lambda, v));
+    PetscCall(IPSlackViolation(tao, v, v));
     PetscCall(OwnLargest(tao, IP_INEQUALITIES, ip->jac->inequality, ip->at.c, v, trace, rows, own));
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &v));
   }

@@ -134,6 +134,12 @@ PetscErrorCode IPTermsValue(Tao tao, Vec x, Vec v)
   PetscFunctionReturn(0);
 }
 
+/* Returns whether only the alternative to the interior point method can solve the problem */
+PetscBool IPNeedsMethod(const TAO_IPFILTER *ip)
+{
+  return (PetscBool)(ip->terms->n > 0 || ip->sides->compliance);
+}
+
 /* Sets up the terms for a solve, except for their resistances */
 PetscErrorCode IPTermsSetUp(Tao tao)
 {

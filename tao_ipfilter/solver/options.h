@@ -37,6 +37,7 @@ struct _n_IPOptions {
 struct _n_IPGiven {
   Mat       modes;                   /* motions that the Hessian hardly resists; NULL: none */
   Vec       slack_mass, primal_mass; /* weights M_s of the slacks and M_u of the unknowns; NULL: all weights are 1 */
+  Vec       compliance;              /* compliance of the rows of c_I; NULL: all rows are rigid */
   Vec       warm_s, warm_z;          /* initial slacks and their multipliers */
   Vec       warm_y;                  /* initial multipliers of the equality constraints */
   Vec       warm_lower, warm_upper;  /* initial multipliers of the bounds */

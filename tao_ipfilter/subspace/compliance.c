@@ -1,5 +1,6 @@
 /*
-   Compliance of the constraints on their own unknowns W: C = J_W K_WW^-1 J_W^T. Columns are computed when they are
+   Compliance of the constraints on their own unknowns W: C = J_W K_WW^-1 J_W^T, with the compliance of the rows
+   themselves on its diagonal. Columns are computed when they are
    needed first. All data are on the first rank.
 */
 #include "subspaceimpl.h"
@@ -82,6 +83,7 @@ PetscErrorCode IPComplianceSetRows(IPCompliance *c, Mat J, PetscInt most)
   PetscCall(PetscFree(c->column));
   PetscCall(PetscFree(c->C));
   PetscCall(PetscFree(c->X));
+  PetscCall(PetscFree(c->own));
   c->m = c->ncolumns = c->maxcolumns = 0;
   c->most                            = most;
   if (!J) PetscFunctionReturn(0);
@@ -89,6 +91,7 @@ PetscErrorCode IPComplianceSetRows(IPCompliance *c, Mat J, PetscInt most)
   c->J = J;
   PetscCall(MatGetSize(J, &c->m, NULL));
   PetscCall(PetscMalloc1(c->m, &c->column));
+  PetscCall(PetscCalloc1(c->m, &c->own));
   for (PetscInt i = 0; i < c->m; i++) c->column[i] = -1;
   PetscFunctionReturn(0);
 }
@@ -161,7 +164,10 @@ static PetscErrorCode ComplianceAppend(IPCompliance *c, PetscInt n, const PetscI
   }
   PetscCall(IPComplianceSolve(c, n, b, x));
   PetscCall(IPComplianceMultiply(c, n, x, c->C + (size_t)c->ncolumns * (size_t)c->m));
-  for (PetscInt k = 0; k < n; k++) c->column[rows[k]] = c->ncolumns++;
+  for (PetscInt k = 0; k < n; k++) {
+    c->column[rows[k]] = c->ncolumns++;
+    IPComplianceColumn(c, rows[k])[rows[k]] += c->own[rows[k]];
+  }
   PetscCall(PetscFree(b));
   if (!c->most) PetscCall(PetscFree(x));
   PetscFunctionReturn(0);

@@ -48,10 +48,10 @@ static PetscErrorCode SubspaceApplies(Tao tao, PetscBool *applies)
 
   PetscFunctionBegin;
   f->newton = (PetscBool)(ip->method->linear && !ip->method->constant);
-  *applies =
-    (PetscBool)((opt->subspace != IP_SUBSPACE_FALSE || ip->terms->n) && ip->mi && !ip->me && !ip->pair[IP_CEILING].n &&
-                !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->qn->B && !ip->hess->products);
-  if (!*applies || opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n) PetscFunctionReturn(0);
+  *applies  = (PetscBool)((opt->subspace != IP_SUBSPACE_FALSE || IPNeedsMethod(ip)) && ip->mi && !ip->me &&
+                         !ip->pair[IP_CEILING].n && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->qn->B &&
+                         !ip->hess->products);
+  if (!*applies || opt->subspace == IP_SUBSPACE_TRUE || IPNeedsMethod(ip)) PetscFunctionReturn(0);
   PetscCall(SubspaceIsServed(tao, &amg, &factored));
   *applies = (PetscBool)(factored || (amg && opt->forcing == IP_FORCING_ADAPTIVE));
   if (!ip->method->linear || opt->direct_always || opt->measure != IP_KKT_RELATIVE || opt->start != IP_START_WARM)
@@ -145,7 +145,7 @@ static PetscErrorCode SubspaceTakesAll(Tao tao, const IPRecycle *recycle, PetscI
 
 /*
    Sets W. *few: whether there are constraints, and they involve few unknowns or are few themselves. What is few is
-   decided only with -tao_ipfilter_subspace auto and without norm terms.
+   decided only with -tao_ipfilter_subspace auto and if another method could solve the problem.
 */
 static PetscErrorCode SubspaceTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
 {
@@ -161,8 +161,8 @@ static PetscErrorCode SubspaceTakeW(Tao tao, IPRecycle *recycle, PetscBool *few)
   PetscCall(VecGetSize(tao->solution, &n));
   PetscCall(ISGetSize(ip->cond->constrained, &touched));
   PetscCall(VecGetSize(ip->at.c, &m));
-  *few = (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || ip->terms->n || touched <= fraction * n ||
-                                      (n <= IP_WHOLE && m <= rows * n)));
+  *few = (PetscBool)(touched > 0 && (ip->opt->subspace == IP_SUBSPACE_TRUE || IPNeedsMethod(ip) ||
+                                      touched <= fraction * n || (n <= IP_WHOLE && m <= rows * n)));
   PetscCall(ISDestroy(&IPSubspaceOf(tao)->W));
   if (!*few) PetscFunctionReturn(0);
   most = (PetscInt)(fraction * n);

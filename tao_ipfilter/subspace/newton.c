@@ -5,6 +5,7 @@
    is solved in V as in method.c, until its residual is a given fraction of that of the iterate.
    The step d minimizes the model in V, with multipliers M lambda. Hence grad f^T d = -d^T H d - lambda^T M c_I, and d
    is a descent direction of f + nu sum m max(-c_I, 0) for any nu above the multipliers, however few directions V has.
+   The energy of soft rows is part of f; being convex, it falls along d at least in proportion to its fall in the model.
    Since c_I is linear, a feasible point remains feasible for step lengths up to 1. V is used again in the next step;
    for a new H only the products H P are computed again.
 */
@@ -14,6 +15,7 @@
 #include "tao_ipfilter/solver/kkt.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/options.h"
+#include "tao_ipfilter/solver/rows.h"
 #include "tao_ipfilter/solver/search.h"
 #include "tao_ipfilter/solver/terms.h"
 
@@ -132,20 +134,32 @@ static PetscErrorCode NewtonSolveLaws(Tao tao, PetscReal target, Vec d, Vec forc
   PetscFunctionReturn(0);
 }
 
-/* Computes violation = sum m max(-c, 0) */
-static PetscErrorCode NewtonViolation(Tao tao, Vec c, PetscReal *violation)
+/*
+   Computes violation = sum m max(-c, 0) over the rigid rows, and the elastic energy = sum min(c, 0)^2 / (2 compliance)
+   of the others
+*/
+static PetscErrorCode NewtonViolation(Tao tao, Vec c, PetscReal *violation, PetscReal *energy)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscScalar   sum;
-  Vec           v;
+  TAO_IPFILTER      *ip      = (TAO_IPFILTER *)tao->data;
+  const Vec          v[3]    = {c, ip->pair[IP_SLACK].w, ip->sides->compliance};
+  const PetscInt     nv      = v[2] ? 3 : 2;
+  const PetscScalar *a[3]    = {NULL, NULL, NULL};
+  PetscReal          sums[2] = {0.0, 0.0};
+  PetscInt           n;
 
   PetscFunctionBegin;
-  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v));
-  PetscCall(VecSet(v, 0.0));
-  PetscCall(VecPointwiseMin(v, v, c));
-  PetscCall(VecDot(v, ip->pair[IP_SLACK].w, &sum));
-  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &v));
-  *violation = -PetscRealPart(sum);
+  PetscCall(VecGetLocalSize(c, &n));
+  for (PetscInt k = 0; k < nv; k++) PetscCall(VecGetArrayRead(v[k], &a[k]));
+  for (PetscInt i = 0; i < n; i++) {
+    const PetscReal depth = PetscMax(-PetscRealPart(a[0][i]), 0.0), soft = a[2] ? PetscRealPart(a[2][i]) : 0.0;
+
+    if (soft > 0.0) sums[1] += 0.5 * depth * depth / soft;
+    else sums[0] += PetscRealPart(a[1][i]) * depth;
+  }
+  for (PetscInt k = 0; k < nv; k++) PetscCall(VecRestoreArrayRead(v[k], &a[k]));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)tao)));
+  *violation = sums[0];
+  *energy    = sums[1];
   PetscFunctionReturn(0);
 }
 
@@ -177,8 +191,9 @@ static PetscErrorCode NewtonRounding(Tao tao, PetscReal *rounding)
   PetscFunctionReturn(0);
 }
 
-/* Computes the violation of the model's constraints at d. It is not zero if norm terms are solved to a tolerance. */
-static PetscErrorCode NewtonModelViolation(Tao tao, Vec d, PetscReal *left)
+/* Computes the violation of the model's constraints at d, and the energy of soft rows. The violation is not zero if norm
+   terms are solved to a tolerance. */
+static PetscErrorCode NewtonModelViolation(Tao tao, Vec d, PetscReal *left, PetscReal *energy)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   Vec           c;
@@ -186,7 +201,7 @@ static PetscErrorCode NewtonModelViolation(Tao tao, Vec d, PetscReal *left)
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &c));
   PetscCall(MatMultAdd(ip->jac->inequality, d, ip->at.c, c));
-  PetscCall(NewtonViolation(tao, c, left));
+  PetscCall(NewtonViolation(tao, c, left, energy));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &c));
   PetscFunctionReturn(0);
 }
@@ -225,7 +240,7 @@ typedef struct {
 static PetscErrorCode NewtonTry(Tao tao, const NewtonLine *line, PetscReal alpha, PetscReal *merit)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     violation, terms;
+  PetscReal     violation, terms, soft;
 
   PetscFunctionBegin;
   ip->search->alpha = ip->search->alpha_dual = alpha;
@@ -234,9 +249,9 @@ static PetscErrorCode NewtonTry(Tao tao, const NewtonLine *line, PetscReal alpha
   *merit = PETSC_INFINITY;
   if (IPUndefined(ip->trial.f)) PetscFunctionReturn(0);
   PetscCall(IPEvaluateConstraints(tao, ip->trial.x, ip->trial.c, ip->trial.ce));
-  PetscCall(NewtonViolation(tao, ip->trial.c, &violation));
+  PetscCall(NewtonViolation(tao, ip->trial.c, &violation, &soft));
   PetscCall(IPTermsSum(tao, ip->trial.x, line->force, &terms));
-  *merit = ip->trial.f + line->nu * (violation - alpha * line->left) + terms - alpha * line->slack;
+  *merit = ip->trial.f + soft + line->nu * (violation - alpha * line->left) + terms - alpha * line->slack;
   PetscFunctionReturn(0);
 }
 
@@ -287,21 +302,21 @@ static PetscErrorCode NewtonSearch(Tao tao, Vec d, Vec force, PetscBool *downhil
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
   const PetscReal armijo = 1e-4, least = 1e-4, noise = 1e3;
   NewtonLine      line = {.d = d, .force = force, .nu = 0.0};
-  PetscReal       violation, rounding = 0.0, terms[2], slope, before, merit = 0.0;
+  PetscReal       violation, rounding = 0.0, terms[2], soft[2], slope, before, merit = 0.0;
   PetscScalar     gd;
 
   PetscFunctionBegin;
   PetscCall(NewtonPenalty(tao, force, &line.nu));
   PetscCall(NewtonRounding(tao, &rounding));
-  PetscCall(NewtonViolation(tao, ip->at.c, &violation));
-  PetscCall(NewtonModelViolation(tao, d, &line.left));
+  PetscCall(NewtonViolation(tao, ip->at.c, &violation, &soft[0]));
+  PetscCall(NewtonModelViolation(tao, d, &line.left, &soft[1]));
   PetscCall(VecDot(tao->gradient, d, &gd));
   PetscCall(IPTermsSum(tao, tao->solution, force, &terms[0]));
   PetscCall(VecWAXPY(ip->trial.x, 1.0, d, tao->solution));
   PetscCall(IPTermsSum(tao, ip->trial.x, force, &terms[1]));
   PetscCall(NewtonModelSlack(tao, ip->trial.x, terms[1], &line.slack));
-  slope               = PetscRealPart(gd) - line.nu * violation + terms[1] - terms[0] - line.slack;
-  before              = ip->at.f + line.nu * violation + terms[0];
+  slope               = PetscRealPart(gd) - line.nu * violation + terms[1] - terms[0] - line.slack + soft[1] - soft[0];
+  before              = ip->at.f + line.nu * violation + terms[0] + soft[0];
   ip->search->ntrials = 0;
   *ok                 = PETSC_FALSE;
   *downhill           = (PetscBool)(slope < rounding);

@@ -1,7 +1,7 @@
 /*
    The reduced problem: the contact problem in the subspace span{e_i : i in W} + span(P),
-     min 1/2 v^T K v + g^T v,  J v + c >= 0,  v = E w + P y,
-   where E has the columns e_i, i in W. Its data have the size of the constraints. They are gathered on the first rank,
+     min 1/2 v^T K v + g^T v,  J v + c + compliance x lambda >= 0,  v = E w + P y,
+   where lambda are the forces of the constraints, whose own compliance is usually zero, and E has the columns e_i, i in W. Its data have the size of the constraints. They are gathered on the first rank,
    which solves the problem. K_WW is factored once as long as W and K are unchanged, with companions (companions.c) if
    it is singular.
 */
@@ -233,8 +233,8 @@ static PetscErrorCode ReducedSetLocalRows(IPReduced *r, Mat JW)
   PetscFunctionReturn(0);
 }
 
-/* Sets up the constraints for the present space and its directions */
-static PetscErrorCode ReducedSetRows(IPReduced *r, Mat J, Vec c)
+/* Sets up the constraints for the present space and its directions. compliance: that of the rows, or NULL */
+static PetscErrorCode ReducedSetRows(IPReduced *r, Mat J, Vec compliance, Vec c)
 {
   IS              all;
   Mat             JW;
@@ -252,6 +252,7 @@ static PetscErrorCode ReducedSetRows(IPReduced *r, Mat J, Vec c)
   PetscCall(ISDestroy(&all));
   PetscCall(VecScatterCreateToZero(c, &r->to_rows, &r->on_rows));
   PetscCall(IPReducedAgree(r, ReducedSetLocalRows(r, JW)));
+  if (compliance) PetscCall(IPReducedFetch(r->to_rows, compliance, r->on_rows, r->m, r->compliance.own));
   PetscCall(MatDestroy(&JW));
   PetscFunctionReturn(0);
 }
@@ -269,11 +270,11 @@ static PetscErrorCode ReducedIsOf(const IPReduced *r, Mat K, PetscBool *same)
 
 /*
    Sets up the reduced problem. The factors of K_WW are reused while K and W are unchanged, and K_WW^-1 Q_W while the
-   directions are unchanged. own: the rows of K, and columns of J, that belong to W: W itself, or the numbers in W if K
+   directions are unchanged. compliance: that of the rows, change of their values per force; NULL: none; own: the rows of K, and columns of J, that belong to W: W itself, or the numbers in W if K
    and J have only these. *definite: false if K_WW is not positive definite.
 */
-PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, IS own, IS W, Vec x, Vec c, const IPBasis *basis,
-  PetscBool *definite)
+PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, Vec compliance, IS own, IS W, Vec x, Vec c,
+  const IPBasis *basis, PetscBool *definite)
 {
   PetscFunctionBegin;
   PetscCall(ReducedIsOf(r, K, definite));
@@ -284,7 +285,7 @@ PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, IS own, IS W, Vec x, V
     PetscCall(PetscLogEventEnd(TAO_IPFilterFactor, K, NULL, NULL, NULL));
   } else if (r->generation != basis->generation) r->system.k = r->companions.n;
   r->generation = basis->generation;
-  if (*definite) PetscCall(ReducedSetRows(r, J, c));
+  if (*definite) PetscCall(ReducedSetRows(r, J, compliance, c));
   if (!*definite) PetscCall(IPReducedDestroy(r));
   PetscFunctionReturn(0);
 }
@@ -505,8 +506,8 @@ PetscErrorCode IPReducedScale(IPReduced *r, Vec scale)
 }
 
 /*
-   Solves K v - J^T lambda = f in the subspace, with J v = c in the rows that were active at the last solution and
-   lambda = 0 in the others. Only the entries of f in W are used. *solved: false if there are no constraints.
+   Solves K v - J^T lambda = f in the subspace, with J v + compliance x lambda = c in the rows that were active at the
+   last solution and lambda = 0 in the others. Only the entries of f in W are used. *solved: false if there are no constraints.
 */
 PetscErrorCode IPReducedSolveActive(IPReduced *r, const IPBasis *basis, Vec f, Vec c, Vec v, Vec force,
   PetscBool *solved)

@@ -326,7 +326,8 @@ static PetscErrorCode SubspaceSetUpReduced(Tao tao, const IPBasis *basis, Mat K,
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
-  PetscCall(IPReducedSetUp(f->reduced, K, ip->jac->inequality, f->W, f->W, tao->solution, ip->at.c, basis, possible));
+  PetscCall(IPReducedSetUp(f->reduced, K, ip->jac->inequality, ip->sides->compliance, f->W, f->W, tao->solution,
+    ip->at.c, basis, possible));
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
 }

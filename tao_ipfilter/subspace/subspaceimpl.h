@@ -22,7 +22,7 @@ typedef struct {
   PetscBool     has_modes;     /* whether the given motions are in the span of W and P */
 } IPBasis;
 
-/* Compliance C = J_W K_WW^-1 J_W^T of the constraints, on the first rank */
+/* Compliance C = J_W K_WW^-1 J_W^T of the constraints plus that of their own, on the first rank */
 typedef struct {
   PetscInt   m, n;
   Mat        F, J; /* factors of K_WW; J_W */
@@ -30,6 +30,7 @@ typedef struct {
   PetscInt  *column; /* for each row the number of its column in C; negative: not computed yet */
   PetscReal *C;      /* computed columns of C */
   PetscReal *X;      /* the same columns of K_WW^-1 J_W^T */
+  PetscReal *own;    /* compliance of each row itself, which the caller sets; zeros if rows are rigid */
   PetscInt   most;   /* number of columns up to which X is kept; 0: it is not kept */
 } IPCompliance;
 
@@ -210,8 +211,8 @@ PETSC_INTERN PetscErrorCode IPReducedSpread(VecScatter, PetscInt n, const PetscR
 
 /* reduced.c */
 
-PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, Mat K, Mat J, IS own, IS W, Vec x, Vec c, const IPBasis *,
-  PetscBool *definite);
+PETSC_INTERN PetscErrorCode IPReducedSetUp(IPReduced *, Mat K, Mat J, Vec compliance, IS own, IS W, Vec x, Vec c,
+  const IPBasis *, PetscBool *definite);
 PETSC_INTERN PetscErrorCode IPReducedRelease(IPReduced *);
 PETSC_INTERN PetscErrorCode IPReducedScale(IPReduced *, Vec scale);
 PETSC_INTERN PetscErrorCode IPReducedDestroy(IPReduced *);

@@ -31,7 +31,7 @@ VALUES = [
 ]
 OPTIONS = [
     "refine", "load_steps", "contact_updates", "contact_update_tol", "contact_gap_tol", "contact_gap", "accuracy",
-    "accuracy_max_dofs", "accuracy_share", "load_max_cuts", "checkpoint_every", "contact_penalty", "tao_ipfilter_tol",
+    "accuracy_max_dofs", "accuracy_share", "load_max_cuts", "checkpoint_every", "tao_ipfilter_tol",
     "tao_max_it", "tao_ipfilter_mu_init", "elasticity_quadrature", "tao_ipfilter_scaling", "tao_type",
     "load_warm_start", "tao_ipfilter_subspace", "accuracy_of", "elasticity_ksp_rtol", "tao_ipfilter_pc_amgf_cycle",
     "tao_ipfilter_pc_amgf_factor", "restart", "summary"

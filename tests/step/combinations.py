@@ -196,7 +196,6 @@ EFFECTS = {
     "library": library,
     "local refinement": entry("refinements", "spot: {lower: [0, 0, 0.5], upper: [1.6, 2, 1.4]}"),
     "refined": option("-refine", "1"),
-    "penalty": option("-contact_penalty", "100"),
     "interior point": option("-tao_ipfilter_subspace", "false"),
     "direct": option("-options_file", os.path.join(os.environ["AMGF_DIR"], "share", "options", "direct.opts")),
     "output": option("-output", "combination", "-output_gauss"),

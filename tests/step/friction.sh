@@ -38,6 +38,5 @@ refuse 's/friction: 0.3/shear_limit: -1/'
 refuse 's/friction: 0.3/stick: true, friction_ramp: across/'
 refuse 's/friction: 0.3/friction: 0.3, friction_ramp: across/'
 refuse 's/^load/displacement_bounds: 3\nload/'
-refuse '' -contact_penalty 100
 refuse '' -tao_type almm
 refuse '' -contact_normals facet

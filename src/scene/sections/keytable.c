@@ -240,6 +240,11 @@ static const SceneKey contact_rows[] = {TEXT("mortar", NULL, SceneContactPair, m
   NUMBER_OF("ramp", RAMP, SceneContactPair, interference_ramp, "the whole overlap is closed in the first load step",
     "a ramp, or `load`, that an `interference` given as a length follows. The gap is increased by `interference` "
     "times (1 - factor)"),
+  REALS("contact_stiffness", NULL, 1, SceneContactPair, stiffness, OPTIONAL, ABOVE_0, "F/L³",
+    "none: faces do not "
+    "penetrate",
+    "soft contact: the pressure is this stiffness times the depth by which the faces penetrate, as if one of them had "
+    "a thin elastic layer"),
   REALS("friction", NULL, 1, SceneContactPair, friction, OPTIONAL, FROM_0, "", "0: none",
     "Coulomb's coefficient of friction"),
   NUMBER_OF("friction_ramp", RAMP, SceneContactPair, friction_ramp, "constant", "a ramp that the coefficient follows"),

@@ -1,7 +1,8 @@
 /*
    Newton's method for the contact updates. Let the gap be linearized at x, let u and lambda be the solution with this
    linearization, and let A be the set of its rows under pressure. At u the residuals of the forces and of the gap are
-       r = J(u)^T lambda - J(x)^T lambda,  -g_A(u).
+       r = J(u)^T lambda - J(x)^T lambda,  -g_A(u),
+     where g includes the depth by which soft pairs yield.
      The next x is u + d, where (d, dlambda) solves
        K d - d(J^T lambda) = r,  dg_A = -g_A(u).
      The differentials d(J^T lambda) and dg_A at u along (d, dlambda) are computed as finite differences of the gap's
@@ -39,6 +40,7 @@ typedef struct {
                                             followed [force] */
   Vec                  followed;         /* 1 in rows under pressure that exist at u; 0 in the other rows, whose
                                             differentials remain those of the linearization at x */
+  Vec                  yield;            /* depth by which soft pairs yield, or NULL [length] */
   Vec                  force, gap;       /* force: J(u)^T lambda [force]; gap: g(u) on the rows of
                                             state->solved->linearization [length] */
   PetscReal            rtol;             /* relative tolerance of GMRES */
@@ -271,8 +273,9 @@ static PetscErrorCode NewtonBegin(GapNewton *s, Vec b, PetscBool *solved)
   if (!s->gaps_only) PetscCall(VecCopy(s->d, s->force));
   PetscCall(MatMultTranspose(s->p->J, s->lambda, s->f));
   PetscCall(VecAYPX(s->f, -1.0, s->d));
-  PetscCall(VecCopy(s->gap, s->c));
-  PetscCall(VecScale(s->c, -1.0));
+  PetscCall(VecZeroEntries(s->c));
+  if (s->yield) PetscCall(VecPointwiseMult(s->c, s->yield, s->followed));
+  PetscCall(VecAXPBY(s->c, -1.0, -1.0, s->gap));
   PetscCall(NewtonPrecondition(s, NEWTON_APPLICATIONS, NEWTON_FORCES * s->rtol, solved));
   if (!*solved) PetscFunctionReturn(0);
   PetscCall(VecNorm(s->lambdas, NORM_2, &forces));
@@ -412,7 +415,7 @@ static PetscErrorCode NewtonFindKinks(Model model, PetscBool *kinks)
 PetscErrorCode ContactUpdateNewton(StepProblem *p, const ContactSolution *sol, ContactLinearization at_u, Vec x, Vec u,
   Vec next, StepReport *report, PetscBool *found)
 {
-  GapNewton s = {.p = p, .at_u = at_u, .u = u, .smooth = PETSC_TRUE};
+  GapNewton s = {.p = p, .at_u = at_u, .u = u, .yield = sol->yield, .smooth = PETSC_TRUE};
   PetscInt  n, m;
   PetscBool kinks;
   Vec       b, z;

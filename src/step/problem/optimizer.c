@@ -89,6 +89,10 @@ static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ou
   PetscCall(VecScale(sol->pressure, StepProblemShare(p)));
   PetscCall(FrictionKeep(p, tao, u, sol));
   if (ours) PetscCall(TaoIPFilterGetSlack(tao, &slack));
+  if (p->compliance) {
+    PetscCall(VecDuplicate(sol->pressure, &sol->yield));
+    PetscCall(VecPointwiseMult(sol->yield, sol->pressure, p->compliance));
+  }
   PetscCall(ContactHistoryStore(p->state->history, lin, sol, slack ? slack : sol->gap,
     p->model->stiffness)); /* `slack` is NULL if there are no rows, or for another optimizer than TAOIPFILTER */
   PetscFunctionReturn(0);

@@ -138,6 +138,25 @@ PetscErrorCode StepProblemAdvanceBolts(StepProblem *p, Vec u, StepReport *report
   PetscFunctionReturn(0);
 }
 
+/* Sets the compliance of the rows of a linearization */
+static PetscErrorCode StepProblemSetCompliance(StepProblem *p, ContactLinearization lin)
+{
+  const SceneContactPair *pairs = p->model->scene->pairs;
+  PetscBool               soft  = PETSC_FALSE;
+  PetscScalar            *a;
+
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&p->compliance));
+  for (PetscInt k = 0; k < p->model->scene->npairs; ++k) soft = (PetscBool)(soft || pairs[k].stiffness > 0.0);
+  if (!soft) PetscFunctionReturn(0);
+  PetscCall(VecDuplicate(lin->g, &p->compliance));
+  PetscCall(VecGetArrayWrite(p->compliance, &a));
+  for (PetscInt r = 0; r < lin->nlocal; ++r)
+    a[r] = pairs[lin->pair[r]].stiffness > 0.0 ? 1.0 / pairs[lin->pair[r]].stiffness : 0.0;
+  PetscCall(VecRestoreArrayWrite(p->compliance, &a));
+  PetscFunctionReturn(0);
+}
+
 /*
    Sets gap and matrix of the linearized contact: c(u) = g + J_full (u - u_linearized) = p->g + p->J (u - base) with
    p->g = g + J_full (base - u_linearized). p->J is J_full with zero columns for prescribed displacements.
@@ -150,6 +169,7 @@ PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, V
   PetscCall(VecDestroy(&p->g));
   PetscCall(MatDestroy(&p->J));
   PetscCall(VecDuplicate(lin->g, &p->g));
+  PetscCall(StepProblemSetCompliance(p, lin));
   PetscCall(VecWAXPY(p->w, -1.0, u_linearized, p->base));
   PetscCall(MatMultAdd(lin->J, p->w, lin->g, p->g));
   if (p->model->ties.C) PetscCall(MatMatMult(lin->J, p->model->ties.C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &p->J));
@@ -202,6 +222,7 @@ PetscErrorCode StepProblemDestroy(StepProblem *p)
   PetscCall(MatDestroy(&p->K));
   PetscCall(MatDestroy(&p->J));
   PetscCall(VecDestroy(&p->g));
+  PetscCall(VecDestroy(&p->compliance));
   PetscCall(VecDestroy(&p->base));
   PetscCall(ProximalEnd(p));
   PetscCall(VecDestroy(&p->followed));

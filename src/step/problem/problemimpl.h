@@ -60,6 +60,8 @@ typedef struct {
   PetscReal  energy; /* objective at base for the quadratic model [force length] */
   Mat        J;      /* NULL without contact; columns of prescribed rows are zero */
   Vec        g;
+  Vec        compliance;       /* of each row, 1 / stiffness of its pair, 0 if rigid [length^3/force]; NULL if no pair
+                                  is soft */
   Vec        lower, upper;     /* NULL if there are no bounds */
   Anderson   secants;          /* secants of the follower loads */
   Vec        followed;         /* centre at which follower loads are linearized [length]; NULL: no follower
@@ -186,7 +188,7 @@ PETSC_INTERN PetscErrorCode WeakSpringsReportMotion(const StepProblem *, Vec u_l
 PETSC_INTERN PetscErrorCode OptimizerCreate(StepProblem *, Tao *, PetscBool *ours);
 
 /*
-   linear.c, optimizer.c, penalty.c: the three solvers. resume: true if the solve starts from u and from the pressures
+   linear.c, optimizer.c: the two solvers. resume: true if the solve starts from u and from the pressures
    of the last solve
 */
 #define STEP_INVERTED \
@@ -194,7 +196,6 @@ PETSC_INTERN PetscErrorCode OptimizerCreate(StepProblem *, Tao *, PetscBool *our
 
 PETSC_INTERN PetscErrorCode LinearSolve(StepProblem *, PetscBool resume, Vec u, StepReport *);
 PETSC_INTERN PetscErrorCode OptimizerSolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
-PETSC_INTERN PetscErrorCode PenaltySolve(StepProblem *, PetscBool resume, Vec u, StepReport *, ContactSolution *);
 
 /* starting_point.c: the starting point of a solve */
 PETSC_INTERN PetscErrorCode StepProblemStart(StepProblem *, PetscBool resume, Tao, Vec u, PetscBool *valid);

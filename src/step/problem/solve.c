@@ -22,8 +22,6 @@ PetscErrorCode StepProblemSolve(StepProblem *p, PetscBool resume, Vec u, StepRep
     if (!EnergyIsFinite(p->energy)) PetscCall(ReportReason(report, PETSC_FALSE, STEP_INVERTED));
     else if (p->model->quadratic && !p->J && !p->lower)
       PetscCall(LinearSolve(p, (PetscBool)(resume || nsolves), u, report));
-    else if (p->state->control->penalty > 0.0 && p->J)
-      PetscCall(PenaltySolve(p, (PetscBool)(resume || nsolves), u, report, sol));
     else PetscCall(OptimizerSolve(p, (PetscBool)(resume || nsolves), u, report, sol));
     if (report->converged) PetscCall(TiesFollow(&p->model->ties, u));
     PetscCall(ProximalAdvance(p, u, ++nsolves, report, &again));
