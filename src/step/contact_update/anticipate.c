@@ -7,7 +7,8 @@
      The gap g of rows under pressure is therefore replaced by a gap g'. The solution with J and g' closes these rows
      approximately as a solution with B and g would. The response of the bodies is approximated by D = diag(K)^-1:
        B D J^T w = g,  g' = J D J^T w.
-     At the solution of the load step g = g' = 0 in these rows.
+     At the solution of the load step g = g' = 0 in these rows. Soft rows have a compliance C and yielded by y in the last
+     solution: there B D J^T w + C w = g + y and g' = J D J^T w + C w - y, so that g = g' = -y at the solution.
 */
 #include "contact_updateimpl.h"
 #include "src/state/contact_history.h"
@@ -18,20 +19,24 @@
 typedef struct {
   Mat J, B;
   Vec closed;         /* 1 for rows under pressure, 0 for other rows */
+  Vec own, yield;     /* compliance of the rows [length/force]; depth by which they yielded in the last solution
+                         [length]; zeros in rigid rows */
   Vec D;              /* diag(K)^-1; 0 in prescribed rows [length/force] */
   Vec row, force, du; /* work vectors: one in the space of the rows, two displacement vectors */
 } GapResponse;
 
-/* Computes y = A D J^T x in the rows under pressure and y = x in the other rows. A: J or B. */
+/* Computes y = (A D J^T + C) x in the rows under pressure and y = x in the other rows. A: J or B. */
 static PetscErrorCode ResponseApply(GapResponse *r, Mat A, Vec x, Vec y)
 {
   PetscFunctionBegin;
   PetscCall(VecPointwiseMult(r->row, r->closed, x));
   PetscCall(MatMultTranspose(r->J, r->row, r->force));
   PetscCall(VecPointwiseMult(r->du, r->D, r->force));
-  PetscCall(MatMult(A, r->du, y));
-  PetscCall(VecAYPX(r->row, -1.0, x));
+  PetscCall(VecPointwiseMult(r->row, r->own, r->row));
+  PetscCall(MatMultAdd(A, r->du, r->row, y));
   PetscCall(VecPointwiseMult(y, r->closed, y));
+  PetscCall(VecPointwiseMult(r->row, r->closed, x));
+  PetscCall(VecAYPX(r->row, -1.0, x));
   PetscCall(VecAXPY(y, 1.0, r->row));
   PetscFunctionReturn(0);
 }
@@ -62,6 +67,23 @@ static PetscErrorCode ResponseDiagonal(StepProblem *p, Vec D)
   PetscFunctionReturn(0);
 }
 
+/* Sets compliance and yield of the rows of lin */
+static PetscErrorCode ResponseSetSoft(StepProblem *p, ContactLinearization lin, GapResponse *r)
+{
+  PetscBool any;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(p->g, &r->own));
+  PetscCall(VecDuplicate(p->g, &r->yield));
+  PetscCall(VecZeroEntries(r->own));
+  PetscCall(VecZeroEntries(r->yield));
+  if (!p->compliance) PetscFunctionReturn(0);
+  PetscCall(ContactHistoryRecall(p->state->history, lin, 1.0, r->own, r->yield, &any)); /* pressures in r->yield */
+  PetscCall(VecPointwiseMult(r->yield, r->yield, p->compliance));
+  PetscCall(VecPointwiseDivide(r->own, p->compliance, lin->mass));
+  PetscFunctionReturn(0);
+}
+
 /*
    Replaces g by g' (see the top of this file) in p->g, in the rows whose vertices were under pressure in the last
    solution. Does nothing if no pair has smooth surfaces, or if the system for w is not solved.
@@ -83,10 +105,13 @@ PetscErrorCode ContactUpdateAnticipate(StepProblem *p, ContactLinearization lin)
   PetscCall(VecDuplicate(p->base, &r.du));
   PetscCall(ContactHistoryFindClosed(p->state->history, lin, r.closed));
   PetscCall(ResponseDiagonal(p, r.D));
-  PetscCall(VecPointwiseMult(g, r.closed, lin->g));
+  PetscCall(ResponseSetSoft(p, lin, &r));
+  PetscCall(VecWAXPY(g, 1.0, lin->g, r.yield));
+  PetscCall(VecPointwiseMult(g, r.closed, g));
   PetscCall(MatrixFreeSolve(g, w, &r, ResponseMult, ANTICIPATE_TOLERANCE, ANTICIPATE_ITERATIONS, &found));
   if (found) {
     PetscCall(ResponseApply(&r, r.J, w, g));
+    PetscCall(VecAXPY(g, -1.0, r.yield));
     PetscCall(VecPointwiseMult(g, r.closed, g));
     PetscCall(VecPointwiseMult(r.row, r.closed, lin->g));
     PetscCall(VecAXPY(p->g, -1.0, r.row));
@@ -94,6 +119,8 @@ PetscErrorCode ContactUpdateAnticipate(StepProblem *p, ContactLinearization lin)
   }
   PetscCall(VecDestroy(&r.closed));
   PetscCall(VecDestroy(&r.row));
+  PetscCall(VecDestroy(&r.own));
+  PetscCall(VecDestroy(&r.yield));
   PetscCall(VecDestroy(&g));
   PetscCall(VecDestroy(&w));
   PetscCall(VecDestroy(&r.D));

@@ -59,10 +59,10 @@ def numbers(where, data):
 
 
 class Interaction:
-    """A surface interaction: law of the pressure, coefficient of friction at each load step"""
+    """A surface interaction: law of the pressure with its stiffness, coefficient of friction at each load step"""
 
     def __init__(self, where):
-        self.where, self.law, self.friction, self.constants = where, "HARD", 0.0, []
+        self.where, self.law, self.stiffness, self.friction = where, "HARD", 0.0, 0.0
         self.frictions = []
 
 
@@ -166,6 +166,11 @@ class Translator:
         self.interaction.law = law
         if law not in ("HARD", "LINEAR", "EXPONENTIAL", "TABULAR", "TIED"):
             self.notes.refuse("SURFACE BEHAVIOR", where, f"the pressure-overclosure law {law} is not supported")
+        elif law == "LINEAR":
+            rows = numbers(where, data)
+            if not rows or not rows[0][0] > 0.0:
+                raise MeshError(f"{where}: a linear pressure-overclosure law needs a stiffness")
+            self.interaction.stiffness = rows[0][0]
         elif law not in ("HARD", "TIED"):
             self.notes.approximate(
                 "SURFACE BEHAVIOR", where, f"{law.lower()} pressure-overclosure: hard contact, so "
