@@ -1,0 +1,107 @@
+# contact_stiffness: soft contact is a layer of springs between the faces, in series with the bodies
+blocks() { # keys of the pair, material, displacement of the lid, further lines
+  cat <<SCENE
+bodies:
+  - cube: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [3, 3, 2], material: $2, young: 100, poisson: 0}
+  - lid: {lower: [0, 0, 1], upper: [1, 1, 2], cells: [2, 2, 2], material: $2, young: 100, poisson: 0}
+displacements:
+  - top: {face: lid.zmax, value: [0, 0, $3]}
+  - foot: {face: cube.zmin, value: [0, 0, 0]}
+contact:
+  - joint: {mortar: lid.zmin, nonmortar: cube.zmax, contact_stiffness: $1}
+load: {steps: 2}
+$4
+SCENE
+}
+rings() { # keys of the pair
+  cat <<SCENE
+bodies:
+  - inner: {shape: tube_arc, axis: z, radii: [15, 25.015], angles: [0, 90], extent: [0, 2], cells: [3, 12, 1],
+            young: 210000, poisson: 0.3, order: 2}
+  - outer: {shape: tube_arc, axis: z, radii: [24.985, 40], angles: [0, 90], extent: [0, 2], cells: [3, 15, 1],
+            young: 210000, poisson: 0.3, order: 2}
+symmetry: [inner.amin, inner.amax, inner.lmin, inner.lmax, outer.amin, outer.amax, outer.lmin, outer.lmax]
+contact:
+  - fit: {mortar: outer.inner, nonmortar: inner.outer, interference: true$1}
+SCENE
+}
+run() { # name, ranks, options
+  local name=$1 ranks=$2
+  shift 2
+  mpiexec --oversubscribe -n "$ranks" "$AMGF_DIR/bin/contact" "$name.yaml" -quiet -summary "$name$ranks.json" "$@" ||
+    echo "$name on $ranks ranks: exit code $?"
+}
+refuse() { # name, options
+  "$AMGF_DIR/bin/contact" "$@" -quiet 2>&1 | head -1
+}
+
+for gap in mortar dual; do
+  blocks "50, gap: $gap" linear -0.04 > $gap.yaml
+  blocks "50, gap: $gap, friction: 0.3" linear -0.04 > ${gap}_friction.yaml
+done
+blocks "50, stick: true" linear -0.04 > stick.yaml
+blocks "50, friction: 0.3, shear_limit: 0.1" linear -0.04 > limit.yaml
+for name in mortar dual mortar_friction dual_friction stick limit; do
+  for ranks in 1 2 3; do run $name $ranks; done
+done
+blocks 1e9 linear -0.04 > stiff.yaml
+blocks 50 linear 0.01 > open.yaml
+for law in neohookean saint_venant; do
+  blocks 50 $law -0.04 > $law.yaml
+  blocks "50, friction: 0.3" $law -0.04 > ${law}_friction.yaml
+  run $law 2
+  run ${law}_friction 2
+done
+for name in stiff open; do run $name 1; done
+for keys in "" ", contact_stiffness: 1e4" ", contact_stiffness: 2e4" ", contact_stiffness: 1e4, friction: 0.2"; do
+  rings "$keys" > fit.yaml
+  run fit 1
+  mv fit1.json "press$((++fits)).json"
+done
+blocks 50 linear -0.04 "dynamics: {time_step: 0.002, end_time: 0.2, scheme: generalized_alpha, spectral_radius: 1}" |
+  sed '/^load/d; /- top/d; s/poisson: 0}/poisson: 0, density: 0.01}/' |
+  sed '/- lid/s/}$/, initial_velocity: [0, 0, -0.5]}/' > bounce.yaml
+run bounce 1 -error_estimate 0
+PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'PY'
+from summaries import load, say, within
+
+for name in ("mortar", "dual", "mortar_friction", "dual_friction", "stick", "limit"):
+    steps = [load(f"{name}{ranks}")["steps"][-1] for ranks in (1, 2, 3)]
+    forces = [step["pairs"][0]["normal_force"] for step in steps]
+    say(f"{name}: force 0.04/(1/100 + 1/100 + 1/50) on 1, 2 and 3 ranks", all(within(f, 1, 1e-8) for f in forces), forces)
+    energies = [(step["energy"], step["contact_energy"]) for step in steps]
+    say(f"{name}: bodies and layer store the same energy", all(within(e, 0.01, 1e-8) for both in energies for e in both),
+        energies)
+    say(f"{name}: the depth is the gap", within(steps[0]["gap_min"], -0.02, 1e-8), steps[0]["gap_min"])
+    say(f"{name}: work", within(steps[0]["work"], 0.02, 1e-8), steps[0]["work"])
+step = load("stiff1")["steps"][-1]
+say("a stiffness of 1e9 is hard contact", within(step["pairs"][0]["normal_force"], 2, 1e-6), step["pairs"][0])
+step = load("open1")["steps"][-1]
+say("no tension", step["pairs"][0]["normal_force"] == 0 and step["contact_energy"] == 0, step["pairs"][0])
+for law in ("neohookean", "saint_venant"):
+    for name in (law, law + "_friction"):
+        step = load(name + "2")["steps"][-1]
+        force = step["pairs"][0]["normal_force"]
+        say(f"{name}: pressure = stiffness x depth", within(force, -50 * step["gap_min"], 1e-3), (force, step["gap_min"]))
+        say(f"{name}: work is stored", within(step["work"], step["energy"] + step["contact_energy"], 2e-2),
+            (step["work"], step["energy"], step["contact_energy"]))
+motion = [step["motions"][0] for step in load("bounce1")["steps"]]
+start = 0.5 * 0.01 * 0.5**2
+say("a lid that falls on the layer bounces without loss",
+    all(within(step["total_energy"], start, 2e-2) for step in motion) and motion[-1]["momentum"][2] > 0,
+    (start, [step["total_energy"] for step in motion], motion[-1]["momentum"]))
+hard, soft, twice, rubs = (load(f"press{k}")["steps"][-1]["pairs"][0]["normal_force"] for k in (1, 2, 3, 4))
+area = 0.5 * 3.14159265 * 25 * 2
+say("press fit: interference/force of rings and layer add", within(1 / soft - 1 / hard, 1 / (1e4 * 0.03 * area), 5e-3),
+    (hard, soft))
+say("and with twice the stiffness", within(2 * (1 / twice - 1 / hard), 1 / soft - 1 / hard, 5e-3), (hard, soft, twice))
+say("and with friction", within(rubs, soft, 1e-3), (soft, rubs))
+PY
+blocks 50 linear -0.04 "displacement_bounds: 2" > bounds.yaml
+refuse bounds.yaml
+blocks 50 linear -0.04 > refused.yaml
+refuse refused.yaml -tao_type almm
+sed 's/load: .*/dynamics: {time_step: 0.01, end_time: 1}/; s/poisson: 0}/poisson: 0, density: 1}/' refused.yaml > impact.yaml
+refuse impact.yaml
+blocks -1 linear -0.04 > negative.yaml
+refuse negative.yaml
