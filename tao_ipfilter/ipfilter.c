@@ -281,9 +281,9 @@ static PetscErrorCode SolverCreate(Tao tao)
 - * - C. Graeser and R. Kornhuber, "Multigrid methods for obstacle problems", Journal of Computational Mathematics 27,
         2009: truncated nonsmooth Newton multigrid, the published method most similar to the subspace method.
 
-.seealso: `TaoIPFilterSetSlackMass()`, `TaoIPFilterSetCompliance()`, `TaoIPFilterSetPrimalMass()`, `TaoIPFilterSetWarmStart()`,
-          `TaoIPFilterSetNormTerms()`, `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`,
-          `TaoIPFilterGetKKTError()`, `TaoIPFilterGetReason()`, `TaoIPFilterGetFallbacks()`,
+.seealso: `TaoIPFilterSetSlackMass()`, `TaoIPFilterSetCompliance()`, `TaoIPFilterSetPrimalMass()`,
+          `TaoIPFilterSetWarmStart()`, `TaoIPFilterSetNormTerms()`, `TaoIPFilterGetSlack()`,
+          `TaoIPFilterGetMultiplier()`, `TaoIPFilterGetKKTError()`, `TaoIPFilterGetReason()`, `TaoIPFilterGetFallbacks()`,
           `TaoIPFilterGetSubspace()`, `TaoIPFilterSetSubspace()`, `PCAMGF`
 M*/
 PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao tao)

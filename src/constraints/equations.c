@@ -46,12 +46,13 @@ static PetscReal EquationGet(const EquationRow *row, PetscInt column)
 static PetscErrorCode EquationAddPoint(const Constraints *c, const SceneEquation *equation, PetscInt end,
   EquationRow *row)
 {
-  const PetscReal rounding = 1e-7;
-  BodyPoint       point;
+  const PetscReal   rounding = 1e-7;
+  const SceneEntry *entry    = (const SceneEntry *)equation;
+  BodyPoint         point;
 
   PetscFunctionBegin;
-  PetscCall(BodyPointLocate(c->bodies.dm, c->bodies.scene, "equation", (const SceneEntry *)equation,
-    end ? equation->to : equation->body, equation->point[end], &point));
+  PetscCall(BodyPointsLocate(c->bodies.dm, c->bodies.scene, "equation", 1, &entry,
+    end ? &equation->to : &equation->body, &equation->point[end], &point));
   for (PetscInt k = 0; k < 3 * point.n; ++k) {
     PetscInt    column = 3 * point.node[k / 3] + k % 3;
     PetscReal   factor = point.N[k / 3] * equation->direction[end][k % 3];

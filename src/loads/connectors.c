@@ -79,11 +79,12 @@ PetscErrorCode ConnectorsCreate(const Bodies *bodies, Springs *springs)
   if (!bodies->scene->nconnectors) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(bodies->scene->nconnectors, &springs->connectors));
   for (PetscInt c = 0; c < bodies->scene->nconnectors; ++c) {
-    const SceneConnector *here = &bodies->scene->connectors[c];
+    const SceneConnector *here  = &bodies->scene->connectors[c];
+    const SceneEntry     *entry = (const SceneEntry *)here;
 
     for (PetscInt end = 0; end < (here->to < 0 ? 1 : 2); ++end)
-      PetscCall(BodyPointLocate(bodies->dm, bodies->scene, "connector", (const SceneEntry *)here,
-        end ? here->to : here->body, here->point[end], &springs->connectors[c].end[end]));
+      PetscCall(BodyPointsLocate(bodies->dm, bodies->scene, "connector", 1, &entry, end ? &here->to : &here->body,
+        &here->point[end], &springs->connectors[c].end[end]));
     ConnectorSetStiffness(here, &springs->connectors[c]);
     damped = (PetscBool)(damped || here->damping > 0.0);
   }

@@ -13,23 +13,42 @@ static PetscErrorCode DeadLoadsGetRamp(DM dm, DeadLoads *loads, PetscInt ramp, V
   PetscFunctionReturn(0);
 }
 
-/* Adds a force at a point of an elastic body to the load */
-static PetscErrorCode DeadLoadsAddPoint(Scene scene, DM dm, const SceneTraction *point, Vec force)
+/* Adds the forces at points of elastic bodies */
+static PetscErrorCode DeadLoadsAddPoints(Scene scene, DM dm, DeadLoads *loads)
 {
-  BodyPoint place;
-  PetscInt  start, end;
+  const SceneEntry **entry;
+  BodyPoint         *place;
+  PetscReal(*x)[3];
+  PetscInt *body, n = 0, start, end;
+  Vec       force;
 
   PetscFunctionBegin;
-  PetscCall(VecGetOwnershipRange(force, &start, &end));
-  PetscCall(BodyPointLocate(dm, scene, "force", (const SceneEntry *)point, point->body, point->point, &place));
-  for (PetscInt k = 0; k < 3 * place.n; ++k) {
-    const PetscInt row = 3 * place.node[k / 3] + k % 3;
+  PetscCall(PetscMalloc4(scene->ntractions, &entry, scene->ntractions, &place, scene->ntractions, &x, scene->ntractions,
+    &body));
+  for (PetscInt i = 0; i < scene->ntractions; ++i) {
+    const SceneTraction *point = &scene->tractions[i];
 
-    if (row < start || row >= end) continue;
-    PetscCall(VecSetValue(force, row, point->value[k % 3] * place.N[k / 3], ADD_VALUES));
+    if (!SceneForceIsAtPoint(scene, point)) continue;
+    entry[n] = (const SceneEntry *)point;
+    body[n]  = point->body;
+    PetscCall(PetscArraycpy(x[n++], point->point, 3));
   }
-  PetscCall(VecAssemblyBegin(force));
-  PetscCall(VecAssemblyEnd(force));
+  if (n) PetscCall(BodyPointsLocate(dm, scene, "force", n, entry, body, x, place));
+  for (PetscInt i = 0; i < n; ++i) {
+    const SceneTraction *point = (const SceneTraction *)entry[i];
+
+    PetscCall(DeadLoadsGetRamp(dm, loads, point->ramp, &force));
+    PetscCall(VecGetOwnershipRange(force, &start, &end));
+    for (PetscInt k = 0; k < 3 * place[i].n; ++k) {
+      const PetscInt row = 3 * place[i].node[k / 3] + k % 3;
+
+      if (row < start || row >= end) continue;
+      PetscCall(VecSetValue(force, row, point->value[k % 3] * place[i].N[k / 3], ADD_VALUES));
+    }
+    PetscCall(VecAssemblyBegin(force));
+    PetscCall(VecAssemblyEnd(force));
+  }
+  PetscCall(PetscFree4(entry, place, x, body));
   PetscFunctionReturn(0);
 }
 
@@ -52,13 +71,14 @@ PetscErrorCode DeadLoadsCreate(Scene scene, DM dm, Elasticity elasticity, DeadLo
   for (PetscInt i = 0; i < scene->ntractions; ++i) {
     const SceneTraction *traction = &scene->tractions[i];
 
+    if (SceneForceIsAtPoint(scene, traction)) continue;
     PetscCall(DeadLoadsGetRamp(dm, loads, traction->ramp, &force));
-    if (SceneForceIsAtPoint(scene, traction)) PetscCall(DeadLoadsAddPoint(scene, dm, traction, force));
-    else if (traction->resultant)
+    if (traction->resultant)
       PetscCall(ElasticityAddForce(elasticity, traction->face, traction->value, traction->moment,
         traction->placed ? traction->point : NULL, force));
     else PetscCall(ElasticityAddFaceField(elasticity, traction->face, traction->value, force));
   }
+  PetscCall(DeadLoadsAddPoints(scene, dm, loads));
   for (PetscInt i = 0; i < scene->nforces; ++i) {
     const SceneBodyForce *density = &scene->forces[i];
     const PetscInt        first   = density->body < 0 ? 0 : density->body;

@@ -20,13 +20,14 @@ typedef struct {
 } Bodies;
 
 /* points.c: a point of a body, known on all ranks: number of nodes of its cell, their global numbers, and the values of
-   their shape functions. BodyPointLocate() is collective; what, entry: named in messages. */
+   their shape functions. BodyPointsLocate() is collective and passes over the mesh once; what, entry: named in
+   messages. */
 typedef struct {
   PetscInt  n, node[MESH_MAX_NODES];
   PetscReal N[MESH_MAX_NODES];
 } BodyPoint;
-PETSC_INTERN PetscErrorCode BodyPointLocate(DM, Scene, const char what[], const SceneEntry *entry, PetscInt body,
-  const PetscReal x[3], BodyPoint *);
+PETSC_INTERN PetscErrorCode BodyPointsLocate(DM, Scene, const char what[], PetscInt n, const SceneEntry *const entry[],
+  const PetscInt body[], const PetscReal x[][3], BodyPoint[]);
 
 /* loads.c: dead loads at factor 1 of each ramp. A ramp without loads has NULL; force itself is NULL if there are no
    loads. */

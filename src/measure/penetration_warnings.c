@@ -32,7 +32,7 @@ PetscErrorCode PenetrationMeasure(Model model, State state, StepReport *report)
   PetscFunctionReturn(0);
 }
 
-/* Returns whether a pair may penetrate at the end of a load step: it is soft, or the ramp of its overlap has not ended */
+/* Returns whether a pair may penetrate at the end of a load step: it is soft, or its overlap's ramp has not ended */
 static PetscBool PenetrationIsMeant(const SceneContactPair *pair, const StepReport *report)
 {
   return (PetscBool)(pair->stiffness > 0.0 ||

@@ -110,7 +110,7 @@ PetscErrorCode IPSlackSetCompliance(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Computes v = c_I + compliance x force, where the force is M times the multiplier; this is what must not be negative */
+/* Computes v = c_I + compliance x force with the force M x multiplier, which is what must not be negative */
 PetscErrorCode IPSlackYield(Tao tao, Vec multiplier, Vec v)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

@@ -118,8 +118,8 @@ static PetscReal FirstSize(const TAO_IPFILTER *ip, PetscReal values, PetscReal j
 }
 
 /*
-   Sets ip->rc = c_I - s, with the compliance of rows. *primal: largest violation of the constraints and of the laws of norm terms, relative to their
-   scales; *largest: largest violation of the constraints in the caller's units.
+   Sets ip->rc = c_I - s, with the compliance of rows. *primal: largest violation of the constraints and of the laws of
+   norm terms, relative to their scales; *largest: largest violation of the constraints in the caller's units.
 */
 static PetscErrorCode PrimalError(Tao tao, PetscReal *primal, PetscReal *largest)
 {

@@ -191,8 +191,8 @@ static PetscErrorCode NewtonRounding(Tao tao, PetscReal *rounding)
   PetscFunctionReturn(0);
 }
 
-/* Computes the violation of the model's constraints at d, and the energy of soft rows. The violation is not zero if norm
-   terms are solved to a tolerance. */
+/* Computes the violation of the model's constraints at d, and the energy of soft rows. The violation is not zero if
+   norm terms are solved to a tolerance. */
 static PetscErrorCode NewtonModelViolation(Tao tao, Vec d, PetscReal *left, PetscReal *energy)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;

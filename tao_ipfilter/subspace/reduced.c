@@ -1,9 +1,9 @@
 /*
    The reduced problem: the contact problem in the subspace span{e_i : i in W} + span(P),
      min 1/2 v^T K v + g^T v,  J v + c + compliance x lambda >= 0,  v = E w + P y,
-   where lambda are the forces of the constraints, whose own compliance is usually zero, and E has the columns e_i, i in W. Its data have the size of the constraints. They are gathered on the first rank,
-   which solves the problem. K_WW is factored once as long as W and K are unchanged, with companions (companions.c) if
-   it is singular.
+   where lambda are the forces of the constraints, whose own compliance is usually zero, and E has the columns e_i, i in
+   W. Its data have the size of the constraints. They are gathered on the first rank, which solves the problem. K_WW is
+   factored once as long as W and K are unchanged, with companions (companions.c) if it is singular.
 */
 #include "subspaceimpl.h"
 #include <petscblaslapack.h>
@@ -270,8 +270,9 @@ static PetscErrorCode ReducedIsOf(const IPReduced *r, Mat K, PetscBool *same)
 
 /*
    Sets up the reduced problem. The factors of K_WW are reused while K and W are unchanged, and K_WW^-1 Q_W while the
-   directions are unchanged. compliance: that of the rows, change of their values per force; NULL: none; own: the rows of K, and columns of J, that belong to W: W itself, or the numbers in W if K
-   and J have only these. *definite: false if K_WW is not positive definite.
+   directions are unchanged. compliance: change of the rows' values per force; NULL: none; own: the rows of K, and
+   columns of J, that belong to W: W itself, or the numbers in W if K and J have only these. *definite: false if K_WW is
+   not positive definite.
 */
 PetscErrorCode IPReducedSetUp(IPReduced *r, Mat K, Mat J, Vec compliance, IS own, IS W, Vec x, Vec c,
   const IPBasis *basis, PetscBool *definite)
@@ -507,7 +508,8 @@ PetscErrorCode IPReducedScale(IPReduced *r, Vec scale)
 
 /*
    Solves K v - J^T lambda = f in the subspace, with J v + compliance x lambda = c in the rows that were active at the
-   last solution and lambda = 0 in the others. Only the entries of f in W are used. *solved: false if there are no constraints.
+   last solution and lambda = 0 in the others. Only the entries of f in W are used. *solved: false if there are no
+   constraints.
 */
 PetscErrorCode IPReducedSolveActive(IPReduced *r, const IPBasis *basis, Vec f, Vec c, Vec v, Vec force,
   PetscBool *solved)

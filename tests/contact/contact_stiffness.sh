@@ -52,7 +52,8 @@ for law in neohookean saint_venant; do
   run $law 2
   run ${law}_friction 2
 done
-for name in stiff open; do run $name 1; done
+run stiff 1
+run open 1 2> /dev/null # warns that the pair stayed open
 for keys in "" ", contact_stiffness: 1e4" ", contact_stiffness: 2e4" ", contact_stiffness: 1e4, friction: 0.2"; do
   rings "$keys" > fit.yaml
   run fit 1
@@ -68,10 +69,11 @@ from summaries import load, say, within
 for name in ("mortar", "dual", "mortar_friction", "dual_friction", "stick", "limit"):
     steps = [load(f"{name}{ranks}")["steps"][-1] for ranks in (1, 2, 3)]
     forces = [step["pairs"][0]["normal_force"] for step in steps]
-    say(f"{name}: force 0.04/(1/100 + 1/100 + 1/50) on 1, 2 and 3 ranks", all(within(f, 1, 1e-8) for f in forces), forces)
+    say(f"{name}: force 0.04/(1/100 + 1/100 + 1/50) on 1, 2 and 3 ranks", all(within(f, 1, 1e-8) for f in forces),
+        forces)
     energies = [(step["energy"], step["contact_energy"]) for step in steps]
-    say(f"{name}: bodies and layer store the same energy", all(within(e, 0.01, 1e-8) for both in energies for e in both),
-        energies)
+    say(f"{name}: bodies and layer store the same energy",
+        all(within(e, 0.01, 1e-8) for both in energies for e in both), energies)
     say(f"{name}: the depth is the gap", within(steps[0]["gap_min"], -0.02, 1e-8), steps[0]["gap_min"])
     say(f"{name}: work", within(steps[0]["work"], 0.02, 1e-8), steps[0]["work"])
 step = load("stiff1")["steps"][-1]
@@ -82,7 +84,8 @@ for law in ("neohookean", "saint_venant"):
     for name in (law, law + "_friction"):
         step = load(name + "2")["steps"][-1]
         force = step["pairs"][0]["normal_force"]
-        say(f"{name}: pressure = stiffness x depth", within(force, -50 * step["gap_min"], 1e-3), (force, step["gap_min"]))
+        say(f"{name}: pressure = stiffness x depth", within(force, -50 * step["gap_min"], 1e-3),
+            (force, step["gap_min"]))
         say(f"{name}: work is stored", within(step["work"], step["energy"] + step["contact_energy"], 2e-2),
             (step["work"], step["energy"], step["contact_energy"]))
 motion = [step["motions"][0] for step in load("bounce1")["steps"]]
@@ -101,7 +104,8 @@ blocks 50 linear -0.04 "displacement_bounds: 2" > bounds.yaml
 refuse bounds.yaml
 blocks 50 linear -0.04 > refused.yaml
 refuse refused.yaml -tao_type almm
-sed 's/load: .*/dynamics: {time_step: 0.01, end_time: 1}/; s/poisson: 0}/poisson: 0, density: 1}/' refused.yaml > impact.yaml
+sed 's/load: .*/dynamics: {time_step: 0.01, end_time: 1}/; s/poisson: 0}/poisson: 0, density: 1}/' refused.yaml \
+  > impact.yaml
 refuse impact.yaml
 blocks -1 linear -0.04 > negative.yaml
 refuse negative.yaml

@@ -10,6 +10,7 @@ from summaries import load, say
 CORNERS = ((0, 0), (1, 0), (1, 1), (0, 1))
 ELASTIC = "*ELASTIC\n1000., 0."
 HARD = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD"
+SOFT = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n1000., 3."
 TIED = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TIED\n1.E7"
 PAIR = "*CONTACT PAIR, INTERACTION=SI, TYPE=SURFACE TO SURFACE\nover, under"
 PRESS = "*DLOAD\n2, P2, 10."
@@ -133,6 +134,8 @@ DECKS = {
                          mesh=MESH + "\n*SURFACE, NAME=slave, TYPE=NODE\n9"), {"energy": 0.1}),
     "dsload": (deck(step("*DSLOAD\nhead, P, 10."), mesh=MESH + "\n*SURFACE, NAME=head\n2, S2"), {"energy": 0.1}),
     "nodes": (deck(step("*CLOAD\ntop, 3, -1.", "*CLOAD\ntop, 3, -1.5")), {"energy": 0.1, "reaction": 10}),
+    # the layer between the cubes is as stiff as each of them
+    "soft": (deck(push(-0.03), law=SOFT), {"reaction": 10, "energy": 0.1}),
     "push": (deck(push(-0.01), push(-0.02)), {"reactions": [5, 10]}),
     "increments": (deck(push(-0.02, procedure="*STATIC, DIRECT\n0.25, 1.")), {"reactions": [2.5, 5, 7.5, 10]}),
     "amplitude": (deck(step("*BOUNDARY, AMPLITUDE=A\ntop, 3, 3, -0.02", procedure="*STATIC, DIRECT\n0.5, 1."),

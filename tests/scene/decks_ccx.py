@@ -62,9 +62,10 @@ def judge():
     close("order2: displacement in the file .dat", [float(rows[-20][3]), float(rows[-1][3])], [0, -0.01])
 
 
-if sys.argv[1] == "write":
-    for key, text in (("pressure", DECKS["pressure"][0]), ("order2", order2())):
-        with open(key + ".inp", "w") as out:
-            out.write(text)
-else:
-    judge()
+if __name__ == "__main__":
+    if sys.argv[1] == "write":
+        for key, text in (("pressure", DECKS["pressure"][0]), ("order2", order2())):
+            with open(key + ".inp", "w") as out:
+                out.write(text)
+    else:
+        judge()

@@ -3,7 +3,7 @@ static char help[] =
 
 #include "ipfilter_problem.h"
 
-/* A string of n points, held at both ends, with a support below every third point; all but every second support yield */
+/* A string of n points, held at both ends, with a support below every third point; every second support yields */
 typedef struct {
   QuadraticProgram q;
   PetscReal        quartic; /* factor of the sum of x^4 / 4 in the objective */
@@ -104,8 +104,8 @@ static PetscErrorCode DestroyString(String *s)
   PetscFunctionReturn(0);
 }
 
-/* Checks c + C lambda >= 0, lambda >= 0, and that one of them is zero, in the unit of each row. Some row must be soft and
-   closed. */
+/* Checks c + C lambda >= 0, lambda >= 0, and that one of them is zero, in the unit of each row. Some row must be soft
+   and closed. */
 static PetscErrorCode Check(Tao tao, String *s, Vec x, const char name[])
 {
   Vec                c, z, v[4];

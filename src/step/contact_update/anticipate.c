@@ -7,8 +7,8 @@
      The gap g of rows under pressure is therefore replaced by a gap g'. The solution with J and g' closes these rows
      approximately as a solution with B and g would. The response of the bodies is approximated by D = diag(K)^-1:
        B D J^T w = g,  g' = J D J^T w.
-     At the solution of the load step g = g' = 0 in these rows. Soft rows have a compliance C and yielded by y in the last
-     solution: there B D J^T w + C w = g + y and g' = J D J^T w + C w - y, so that g = g' = -y at the solution.
+     At the solution of the load step g = g' = 0 in these rows. Soft rows have a compliance C and yielded by y in the
+     last solution: there B D J^T w + C w = g + y and g' = J D J^T w + C w - y, so that g = g' = -y at the solution.
 */
 #include "contact_updateimpl.h"
 #include "src/state/contact_history.h"
