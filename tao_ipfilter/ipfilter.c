@@ -283,8 +283,8 @@ static PetscErrorCode SolverCreate(Tao tao)
 
 .seealso: `TaoIPFilterSetSlackMass()`, `TaoIPFilterSetCompliance()`, `TaoIPFilterSetPrimalMass()`,
           `TaoIPFilterSetWarmStart()`, `TaoIPFilterSetNormTerms()`, `TaoIPFilterGetSlack()`,
-          `TaoIPFilterGetMultiplier()`, `TaoIPFilterGetKKTError()`, `TaoIPFilterGetReason()`, `TaoIPFilterGetFallbacks()`,
-          `TaoIPFilterGetSubspace()`, `TaoIPFilterSetSubspace()`, `PCAMGF`
+          `TaoIPFilterGetMultiplier()`, `TaoIPFilterGetKKTError()`, `TaoIPFilterGetReason()`,
+          `TaoIPFilterGetFallbacks()`, `TaoIPFilterGetSubspace()`, `TaoIPFilterSetSubspace()`, `PCAMGF`
 M*/
 PETSC_EXTERN PetscErrorCode TaoCreate_IPFilter(Tao tao)
 {

@@ -1,5 +1,5 @@
 # Decks as FreeCAD and PrePoMax export them: contact-ccx runs them, and its results have the fields they look for
-judge() { PYTHONPATH=$AMGF_DIR/tests/lib:$AMGF_DIR/tests/scene "$PYTHON" -B "$AMGF_DIR/tests/scene/decks_programs.py" "$@"; }
+judge() { "$PYTHON" -B "$AMGF_DIR/tests/scene/decks_programs.py" "$@"; }
 judge write
 for name in $(judge names); do
   "$AMGF_DIR/bin/contact-ccx" -i "$name" -quiet > said 2> wrong || { echo "$name: exit code $?"; cat wrong; }
