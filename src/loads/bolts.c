@@ -126,6 +126,7 @@ PetscErrorCode BoltsBegin(const Bodies *bodies, Bolts *bolts, PetscReal time, Ve
     bolts->now[b]    = bolt->shortens ? factor * bolt->shortening : bolts->shortening[b];
     bolts->target[b] = bolts->driven[b] ? factor * bolt->force : 0.0;
   }
+  bolts->tries = PETSC_FALSE;
   PetscCall(BoltsApply(bodies, bolts));
   if (!bolts->nslopes) PetscCall(BoltsGuess(bodies, bolts, u));
   BoltsFollow(bolts, bolts->force);
@@ -133,19 +134,23 @@ PetscErrorCode BoltsBegin(const Bodies *bodies, Bolts *bolts, PetscReal time, Ve
   PetscFunctionReturn(0);
 }
 
-/* Updates the compliance with the changes of force and shortening between the last two solves of this load step */
-static PetscErrorCode BoltsLearn(Bolts *bolts, const PetscReal force[])
+/*
+   Updates the compliance with the changes of force and shortening between the last two solves of this load step. least:
+   change of the forces below which it may be due to the accuracy of the solves, or to an update of the contact
+*/
+static PetscErrorCode BoltsLearn(Bolts *bolts, const PetscReal force[], PetscReal least)
 {
   const PetscInt  n    = bolts->n;
   const PetscReal most = 30.0; /* largest factor by which the compliance grows in one update. Before the bolts clamp
                                   their parts, the measured compliance may be much too large. */
-  PetscReal      *s, *y, *Hy, ys = 0.0, yHy = 0.0, scale;
+  PetscReal      *s, *y, *Hy, ys = 0.0, yHy = 0.0, change = 0.0, scale;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc3(n, &s, n, &y, n, &Hy));
   for (PetscInt b = 0; b < n; ++b) {
-    s[b] = bolts->driven[b] ? bolts->now[b] - bolts->tried[0][b] : 0.0;
-    y[b] = bolts->driven[b] ? force[b] - bolts->tried[1][b] : 0.0;
+    s[b]   = bolts->driven[b] ? bolts->now[b] - bolts->tried[0][b] : 0.0;
+    y[b]   = bolts->driven[b] ? force[b] - bolts->tried[1][b] : 0.0;
+    change = PetscMax(change, PetscAbsReal(y[b]));
   }
   for (PetscInt b = 0; b < n; ++b) {
     Hy[b] = 0.0;
@@ -154,6 +159,10 @@ static PetscErrorCode BoltsLearn(Bolts *bolts, const PetscReal force[])
     yHy += y[b] * Hy[b];
   }
   scale = ys > 0.0 && yHy > 0.0 ? ys / yHy : PETSC_INFINITY;
+  if (change < least) {
+    PetscCall(PetscFree3(s, y, Hy));
+    PetscFunctionReturn(0);
+  }
   if (scale > most || !bolts->nslopes) {
     for (PetscInt i = 0; i < n * n; ++i) bolts->compliance[i] *= PetscMin(scale, most);
     for (PetscInt b = 0; b < n; ++b) Hy[b] *= PetscMin(scale, most);
@@ -190,10 +199,12 @@ PetscErrorCode BoltsAdvance(const Bodies *bodies, Bolts *bolts, PetscReal tolera
     off   = PetscAbsReal(force[b] - bolts->target[b]);
     worst = b;
   }
-  if (bolts->nsolves++) PetscCall(BoltsLearn(bolts, force));
+  if (bolts->tries) PetscCall(BoltsLearn(bolts, force, 100.0 * tolerance * largest));
+  ++bolts->nsolves;
+  bolts->tries = PETSC_TRUE;
+  PetscCall(PetscArraycpy(bolts->tried[0], bolts->now, bolts->n));
+  PetscCall(PetscArraycpy(bolts->tried[1], force, bolts->n));
   if (off > tolerance * largest) {
-    PetscCall(PetscArraycpy(bolts->tried[0], bolts->now, bolts->n));
-    PetscCall(PetscArraycpy(bolts->tried[1], force, bolts->n));
     BoltsFollow(bolts, force);
     PetscCall(BoltsApply(bodies, bolts));
     for (PetscInt b = 0; b < bolts->n; ++b) {

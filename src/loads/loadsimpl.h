@@ -100,7 +100,8 @@ typedef struct {
   PetscReal *compliance;   /* [n x n] derivative of the shortenings with respect to the forces [length/force] */
   PetscReal *most;         /* largest permitted shortenings [length] */
   PetscReal *tried[2];     /* shortenings and forces of the previous solve in this load step */
-  PetscInt   nsolves;      /* number of solves in this load step so far */
+  PetscInt   nsolves;      /* number of solves with the present linearization of contact so far */
+  PetscBool  tries;        /* whether `tried` belongs to a solve of this load step */
   PetscInt   nslopes;      /* number of updates of the compliance so far */
 } Bolts;
 

@@ -151,7 +151,8 @@ static PetscErrorCode NewtonChooseFraction(const Contacts *c, const PetscReal du
 PetscErrorCode ContactsNewtonStep(Contacts *c, const ContactBodies *bodies, PetscReal *merit, PetscReal *change,
   PetscBool *solved)
 {
-  const PetscReal forcing = 0.1; /* residual of a system, relative to that with the directions there are */
+  const PetscReal forcing = 1e-2; /* residual of a system, relative to that with the directions there are: factors cost
+                                    more than directions */
   PetscReal       fraction, work, *du, *df;
 
   PetscFunctionBegin;

@@ -38,25 +38,42 @@ static PetscErrorCode PreconditionApply(Tao tao, IPRecycle *recycle, Vec r, Vec 
 /*
    Finds whether K is singular up to rounding, or negative, along a preconditioned residual d. Together with the
    constraints K may still be positive, for example for bodies under pressure that are held by contact only. Newton's
-   method without norm terms shifts a negative K instead; *singular is then false.
+   method without norm terms shifts a negative K instead; *singular is then false. energy: d^T K d
 */
-static PetscErrorCode PreconditionFindSingular(Tao tao, Vec d, PetscBool *singular, PetscBool *negative)
+static PetscErrorCode PreconditionFindSingular(Tao tao, Vec d, PetscReal energy, PetscBool *singular,
+  PetscBool *negative)
 {
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal rounding = 1e-11;
-  PetscScalar     energy, size;
-  Vec             Kd;
+  PetscScalar     size;
+  Vec             work;
 
   PetscFunctionBegin;
-  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Kd));
-  PetscCall(MatMult(ip->hess->H, d, Kd));
-  PetscCall(VecDot(d, Kd, &energy));
-  PetscCall(VecPointwiseMult(Kd, d, ip->stiff->hdiag));
-  PetscCall(VecDot(d, Kd, &size));
-  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Kd));
-  *singular = (PetscBool) !(PetscRealPart(energy) > rounding * PetscRealPart(size));
-  *negative = (PetscBool)(PetscRealPart(energy) < -rounding * PetscRealPart(size));
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &work));
+  PetscCall(VecPointwiseMult(work, d, ip->stiff->hdiag));
+  PetscCall(VecDot(d, work, &size));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &work));
+  *singular = (PetscBool) !(energy > rounding * PetscRealPart(size));
+  *negative = (PetscBool)(energy < -rounding * PetscRealPart(size));
   if (*negative && IPSubspaceOf(tao)->newton && !ip->terms->n) *singular = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/* Computes the energy d^T K d of the preconditioned residual d = B r. product: r^T B r, which is about the energy, but
+   positive where K is negative and B is not. first: whether d is the first one of this solve */
+static PetscErrorCode PreconditionEnergy(Tao tao, PetscReal product, PetscBool first, Vec d, PetscReal *energy)
+{
+  PetscScalar dot;
+  Vec         Kd;
+
+  PetscFunctionBegin;
+  *energy = product;
+  if (product > 0.0 && !first) PetscFunctionReturn(0);
+  PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Kd));
+  PetscCall(MatMult(((TAO_IPFILTER *)tao->data)->hess->H, d, Kd));
+  PetscCall(VecDot(d, Kd, &dot));
+  PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Kd));
+  *energy = PetscRealPart(dot);
   PetscFunctionReturn(0);
 }
 
@@ -124,14 +141,13 @@ static PetscErrorCode PreconditionMayImprove(Tao tao, const IPRecycle *recycle, 
 
 /*
    Computes the direction d for the residual r, which is zero on W. If K alone is singular along B r, B is set up
-   again with the constraints. This is checked once per solve, and whenever B fails. *definite: false if r^T B r is not
-   positive.
+   again with the constraints. *definite: false if r^T B r is not positive.
 */
 PetscErrorCode IPSubspacePrecondition(Tao tao, IPRecycle *recycle, Vec r, Vec d, PetscBool *definite)
 {
   const PetscInt before   = ((TAO_IPFILTER *)tao->data)->rec->napplications;
   PetscBool      singular = PETSC_FALSE, negative = PETSC_FALSE, possible = PETSC_TRUE, improve = PETSC_FALSE;
-  PetscReal      product;
+  PetscReal      product, energy;
   Vec            q;
 
   PetscFunctionBegin;
@@ -142,7 +158,10 @@ PetscErrorCode IPSubspacePrecondition(Tao tao, IPRecycle *recycle, Vec r, Vec d,
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &q));
   PetscCall(PreconditionApply(tao, recycle, r, d, improve ? q : NULL, &product));
   *definite = (PetscBool)(product > 0.0 && !PetscIsInfOrNanReal(product));
-  if (!recycle->held && (!*definite || !before)) PetscCall(PreconditionFindSingular(tao, d, &singular, &negative));
+  if (!recycle->held) {
+    PetscCall(PreconditionEnergy(tao, product, (PetscBool)!before, d, &energy));
+    PetscCall(PreconditionFindSingular(tao, d, energy, &singular, &negative));
+  }
   if (singular) {
     PetscCall(IPRecycleHold(tao, recycle, &possible));
     recycle->negative = negative;
