@@ -11,6 +11,7 @@
 #include <petscsf.h>
 #include <petscamgf.h>
 #include <float.h>
+#include <math.h>
 #include <stdint.h>
 
 /* Largest number of unknowns, on all ranks, of a level that is solved by a dense inverse */
@@ -34,10 +35,12 @@ static inline float BlockInverseUnit(float unit)
   return unit > FLT_MIN && unit <= FLT_MAX ? 1.0f / unit : 0.0f;
 }
 
-/* Returns the nearest integer, or 0 for what is not in the range of int16_t or not a number */
+/* Returns the nearest integer, or 0 for what is not in the range of int16_t or not a number; without branches */
 static inline int16_t BlockRound(float v)
 {
-  return (int16_t)(v > -32768.0f && v < 32768.0f ? (int)(v < 0.0f ? v - 0.5f : v + 0.5f) : 0);
+  const float nearest = v + copysignf(0.5f, v);
+
+  return (int16_t)(int)(nearest > -32769.0f && nearest < 32768.0f ? nearest : 0.0f);
 }
 
 /*

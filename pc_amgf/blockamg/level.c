@@ -3,6 +3,7 @@
    unknowns, inverses of the diagonal blocks and entries in columns of other ranks in single precision
 */
 #include "blockamgimpl.h"
+#include <clones.h>
 #include <math.h>
 
 /* Blocks of L in the block rows processed so far; capacity: number of allocated blocks */
@@ -96,10 +97,10 @@ static PetscErrorCode LevelCollectBlocks(const BlockLevel *level, const BlockRow
    Sorts the blocks of block row i of L by their columns and rounds them to integers, with a unit for each row. first:
    number of the row's first block. slot: see LevelCollectBlocks().
 */
-static void LevelRound(BlockLevel *level, int i, int first, LevelBlocks *blocks, const int slot[])
+AMGF_CLONES static void LevelRound(BlockLevel *level, int i, int first, LevelBlocks *blocks, const int slot[])
 {
   const int B = level->B, n = blocks->n - first;
-  float     largest[16] = {0.0f}, inverse[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+  float     largest[16] = {0.0f}, factor[16];
 
   for (int k = 0; k < n; k++) {
     for (int m = 0; m < 4 * B; m++) {
@@ -113,7 +114,7 @@ static void LevelRound(BlockLevel *level, int i, int first, LevelBlocks *blocks,
 
     for (int c = 1; c < 4; c++) unit = largest[4 * r + c] <= unit ? unit : largest[4 * r + c];
     unit /= BLOCKAMG_LARGEST;
-    inverse[r]                     = BlockInverseUnit(unit);
+    for (int c = 0; c < 4; c++) factor[4 * r + c] = BlockInverseUnit(unit);
     level->unit[4 * (size_t)i + r] = unit / 65536.0f; /* Vec8LoadShorts() multiplies by 65536 */
   }
   LevelSort(n, blocks->col + first);
@@ -121,9 +122,7 @@ static void LevelRound(BlockLevel *level, int i, int first, LevelBlocks *blocks,
     const float *from = blocks->row + 4 * B * (slot[blocks->col[k] / 4] - first);
     int16_t     *to   = blocks->val + 4 * (size_t)B * k;
 
-    for (int r = 0; r < B; r++) {
-      for (int c = 0; c < 4; c++) to[4 * r + c] = BlockRound(inverse[r] * from[4 * r + c]);
-    }
+    for (int m = 0; m < 4 * B; m++) to[m] = BlockRound(factor[m] * from[m]);
   }
 }
 

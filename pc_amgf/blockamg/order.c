@@ -12,18 +12,24 @@ PetscErrorCode BlockOrderNodes_Private(const BlockRows *rows, PetscInt bs, int p
 /* Number of unknowns that are compared in detail before one enters a block */
 #define ORDER_CANDIDATES 8
 
+/* Candidates are chosen by one column in so many, in a quarter of the time of a choice by all columns */
+#define ORDER_STEP 4
+
 /* Marks the columns of unknown u as columns of the block that begins with `seed` */
 static void GroupMark(const BlockRows *rows, PetscInt u, PetscInt seed, PetscInt mark[])
 {
   for (PetscInt k = rows->ia[u]; k < rows->ia[u + 1]; k++) mark[rows->ja[k]] = seed;
 }
 
-/* Returns twice the number of columns that unknown j shares with the marked ones, minus the number of its columns */
-static PetscInt GroupShared(const BlockRows *rows, PetscInt j, PetscInt seed, const PetscInt mark[])
+/*
+   Returns twice the number of columns that unknown j shares with the marked ones, minus the number of its columns,
+   estimated from every `step`-th column
+*/
+static PetscInt GroupShared(const BlockRows *rows, PetscInt j, PetscInt seed, const PetscInt mark[], PetscInt step)
 {
   PetscInt shared = rows->ia[j] - rows->ia[j + 1];
 
-  for (PetscInt m = rows->ia[j]; m < rows->ia[j + 1]; m++) shared += mark[rows->ja[m]] == seed ? 2 : 0;
+  for (PetscInt m = rows->ia[j]; m < rows->ia[j + 1]; m += step) shared += mark[rows->ja[m]] == seed ? 2 * step : 0;
   return shared;
 }
 
@@ -43,7 +49,7 @@ static int GroupFindCandidates(const BlockRows *rows, PetscInt seed, const int p
     int            w;
 
     if (position[j] >= 0) continue;
-    s = GroupShared(rows, j, seed, mark);
+    s = GroupShared(rows, j, seed, mark, ORDER_STEP);
     if (n == ORDER_CANDIDATES && s <= shared[n - 1]) continue;
     if (n < ORDER_CANDIDATES) n++;
     for (w = n - 1; w > 0 && s > shared[w - 1]; w--) {
@@ -66,7 +72,7 @@ static PetscInt GroupFindBest(const BlockRows *rows, PetscInt seed, const int po
     PetscInt shared;
 
     if (position[candidates[w]] >= 0) continue;
-    shared = GroupShared(rows, candidates[w], seed, mark);
+    shared = GroupShared(rows, candidates[w], seed, mark, 1);
     if (best >= 0 && shared <= most) continue;
     best = candidates[w];
     most = shared;
