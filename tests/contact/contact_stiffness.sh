@@ -46,6 +46,11 @@ for name in mortar dual mortar_friction dual_friction stick limit; do
 done
 blocks 1e9 linear -0.04 > stiff.yaml
 blocks 50 linear 0.01 > open.yaml
+for keys in "" ", friction: 0.3"; do # a lid on half of the cube, whose edge is within cells; both almost rigid
+  blocks "50$keys" linear -0.04 | sed 's/upper: \[1, 1, 2\]/upper: [0.5, 1, 2]/; s/young: 100/young: 1e8/' > half.yaml
+  run half 1
+  mv half1.json "covered$((++halves)).json"
+done
 for law in neohookean saint_venant; do
   blocks 50 $law -0.04 > $law.yaml
   blocks "50, friction: 0.3" $law -0.04 > ${law}_friction.yaml
@@ -80,6 +85,11 @@ step = load("stiff1")["steps"][-1]
 say("a stiffness of 1e9 is hard contact", within(step["pairs"][0]["normal_force"], 2, 1e-6), step["pairs"][0])
 step = load("open1")["steps"][-1]
 say("no tension", step["pairs"][0]["normal_force"] == 0 and step["contact_energy"] == 0, step["pairs"][0])
+for name in ("covered1", "covered2"):
+    step = load(name)["steps"][-1]
+    say(f"{name}: only the covered half yields",
+        within(step["pairs"][0]["normal_force"], 50 * 0.5 * 0.04, 1e-4) and within(step["contact_energy"], 0.02, 1e-4),
+        (step["pairs"][0]["normal_force"], step["contact_energy"]))
 for law in ("neohookean", "saint_venant"):
     for name in (law, law + "_friction"):
         step = load(name + "2")["steps"][-1]

@@ -7,37 +7,52 @@
 #include "src/state/path.h"
 
 /*
+   Computes by how much a unit translation of the mortar face along the normal of each row changes the gap of the pair's
+   rows: the part of the row's area that the mortar face covers. size: [nlocal], set in the rows of this pair
+*/
+PetscErrorCode InterferenceGetCover(Model model, Vec like, PetscInt pair, ContactLinearization lin, PetscReal size[])
+{
+  const SceneContactPair *here = &model->scene->pairs[pair];
+  const PetscScalar      *v;
+  Vec                     mark, moved;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(like, &mark));
+  PetscCall(VecDuplicate(lin->g, &moved));
+  for (PetscInt c = 0; c < 3; ++c) {
+    PetscCall(VecZeroEntries(mark));
+    PetscCall(MeshFaceSet(model->dm, here->mortar, c, 1.0, mark));
+    PetscCall(MatMult(here->self ? lin->mortar : lin->J, mark, moved));
+    PetscCall(VecGetArrayRead(moved, &v));
+    for (PetscInt r = 0; r < lin->nlocal; ++r) {
+      if (lin->pair[r] != pair) continue;
+      size[r] = PetscSqrtReal((c ? PetscSqr(size[r]) : 0.0) + PetscSqr(PetscRealPart(v[r])));
+    }
+    PetscCall(VecRestoreArrayRead(moved, &v));
+  }
+  PetscCall(VecDestroy(&moved));
+  PetscCall(VecDestroy(&mark));
+  PetscFunctionReturn(0);
+}
+
+/*
    Increases the gap in the pair's rows as a rigid translation of the mortar face by `distance` along the normal of each
    row would.
 */
 static PetscErrorCode InterferenceStandOff(Model model, State state, PetscInt pair, PetscReal distance,
   ContactLinearization lin)
 {
-  PetscScalar       *g;
-  const PetscScalar *v;
-  PetscReal         *size;
-  Vec                mark, moved;
+  PetscScalar *g;
+  PetscReal   *size;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(state->path->u, &mark));
-  PetscCall(VecDuplicate(lin->g, &moved));
-  PetscCall(PetscCalloc1(lin->nlocal, &size));
-  for (PetscInt c = 0; c < 3; ++c) {
-    PetscCall(VecZeroEntries(mark));
-    PetscCall(MeshFaceSet(model->dm, model->scene->pairs[pair].mortar, c, 1.0, mark));
-    PetscCall(MatMult(lin->J, mark, moved));
-    PetscCall(VecGetArrayRead(moved, &v));
-    for (PetscInt r = 0; r < lin->nlocal; ++r) size[r] += PetscSqr(PetscRealPart(v[r]));
-    PetscCall(VecRestoreArrayRead(moved, &v));
-  }
+  PetscCall(PetscMalloc1(lin->nlocal, &size));
+  PetscCall(InterferenceGetCover(model, state->path->u, pair, lin, size));
   PetscCall(VecGetArray(lin->g, &g));
-  for (PetscInt r = 0; r < lin->nlocal; ++r) {
-    if (lin->pair[r] == pair) g[r] += distance * PetscSqrtReal(size[r]);
-  }
+  for (PetscInt r = 0; r < lin->nlocal; ++r)
+    if (lin->pair[r] == pair) g[r] += distance * size[r];
   PetscCall(VecRestoreArray(lin->g, &g));
   PetscCall(PetscFree(size));
-  PetscCall(VecDestroy(&moved));
-  PetscCall(VecDestroy(&mark));
   PetscFunctionReturn(0);
 }
 

@@ -138,22 +138,32 @@ PetscErrorCode StepProblemAdvanceBolts(StepProblem *p, Vec u, StepReport *report
   PetscFunctionReturn(0);
 }
 
-/* Sets the compliance of the rows of a linearization */
+/*
+   Sets the compliance of the rows of a linearization. A row of which the mortar face covers a share a has the gap of
+   this part times a, and its force on the bodies is a times its multiplier. So the compliance is a / stiffness.
+*/
 static PetscErrorCode StepProblemSetCompliance(StepProblem *p, ContactLinearization lin)
 {
   const SceneContactPair *pairs = p->model->scene->pairs;
-  PetscBool               soft  = PETSC_FALSE;
+  PetscReal              *size;
   PetscScalar            *a;
 
   PetscFunctionBegin;
   PetscCall(VecDestroy(&p->compliance));
-  for (PetscInt k = 0; k < p->model->scene->npairs; ++k) soft = (PetscBool)(soft || pairs[k].stiffness > 0.0);
-  if (!soft) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(lin->g, &p->compliance));
-  PetscCall(VecGetArrayWrite(p->compliance, &a));
-  for (PetscInt r = 0; r < lin->nlocal; ++r)
-    a[r] = pairs[lin->pair[r]].stiffness > 0.0 ? 1.0 / pairs[lin->pair[r]].stiffness : 0.0;
-  PetscCall(VecRestoreArrayWrite(p->compliance, &a));
+  PetscCall(PetscMalloc1(lin->nlocal, &size));
+  for (PetscInt k = 0; k < p->model->scene->npairs; ++k) {
+    if (!(pairs[k].stiffness > 0.0)) continue;
+    if (!p->compliance) {
+      PetscCall(VecDuplicate(lin->g, &p->compliance));
+      PetscCall(VecZeroEntries(p->compliance));
+    }
+    PetscCall(InterferenceGetCover(p->model, p->base, k, lin, size));
+    PetscCall(VecGetArray(p->compliance, &a));
+    for (PetscInt r = 0; r < lin->nlocal; ++r)
+      if (lin->pair[r] == k) a[r] = size[r] / pairs[k].stiffness;
+    PetscCall(VecRestoreArray(p->compliance, &a));
+  }
+  PetscCall(PetscFree(size));
   PetscFunctionReturn(0);
 }
 

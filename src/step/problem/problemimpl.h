@@ -60,8 +60,8 @@ typedef struct {
   PetscReal  energy; /* objective at base for the quadratic model [force length] */
   Mat        J;      /* NULL without contact; columns of prescribed rows are zero */
   Vec        g;
-  Vec        compliance;       /* of each row, 1 / stiffness of its pair, 0 if rigid [length^3/force]; NULL if no pair
-                                  is soft */
+  Vec        compliance;       /* of each row, the covered part of its area / stiffness of its pair, 0 if rigid
+                                  [length^3/force]; NULL if no pair is soft */
   Vec        lower, upper;     /* NULL if there are no bounds */
   Anderson   secants;          /* secants of the follower loads */
   Vec        followed;         /* centre at which follower loads are linearized [length]; NULL: no follower
@@ -178,6 +178,8 @@ static inline PetscBool EnergyIsFinite(PetscReal energy)
 }
 
 /* interference.c: ramps of initial overlaps; linearizations in state->solved->upcoming are stored without ramps */
+PETSC_INTERN PetscErrorCode InterferenceGetCover(Model, Vec like, PetscInt pair, ContactLinearization,
+  PetscReal size[]);
 PETSC_INTERN PetscErrorCode InterferenceAdd(Model, State, PetscReal time, PetscReal times, ContactLinearization);
 
 /* check_weak_springs.c: rejects solutions in which weak springs carry the loads */
