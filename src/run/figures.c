@@ -3,7 +3,8 @@
 #include <math.h>
 #include <vector3.h>
 
-typedef enum { OF_MODEL, OF_BODY, OF_PAIR, OF_FACE, OF_BOLT } FigureOwner;
+/* OF_STRESSED_MODEL: of the model in the load step with the largest von Mises stress */
+typedef enum { OF_STRESSED_MODEL, OF_BODY, OF_PAIR, OF_FACE, OF_BOLT } FigureOwner;
 
 /* A kind of figure. The offsets are those of members of the owner's report. */
 typedef struct {
@@ -17,10 +18,12 @@ typedef struct {
   size_t      place; /* 0: none */
 } FigureKind;
 
+static const char von_mises[] = "von Mises stress";
+
 static const FigureKind kinds[] = {
-  {"displacement", OF_BODY, "L", .value = offsetof(BodyReport, displacement),
+  {"displacement", OF_BODY, "L", .nonzero = PETSC_TRUE, .value = offsetof(BodyReport, displacement),
     .place = offsetof(BodyReport, displacement_place)},
-  {"von Mises stress", OF_BODY, "F/L^2", .value = offsetof(BodyReport, von_mises),
+  {von_mises, OF_BODY, "F/L^2", .value = offsetof(BodyReport, von_mises),
     .place = offsetof(BodyReport, von_mises_place)},
   {"safety against yield", OF_BODY, "", .least = PETSC_TRUE, .value = offsetof(BodyReport, safety)},
   {"eq. plastic strain", OF_BODY, "", .nonzero = PETSC_TRUE, .value = offsetof(BodyReport, plastic_strain)},
@@ -31,7 +34,7 @@ static const FigureKind kinds[] = {
   {"contact area", OF_PAIR, "L^2", .value = offsetof(PairReport, area)},
   {"reaction", OF_FACE, "F", .forces = PETSC_TRUE, .nonzero = PETSC_TRUE, .value = offsetof(FaceReport, reaction)},
   {"bolt force", OF_BOLT, "F", .value = offsetof(BoltReport, force)},
-  {"stress error, estimate", OF_MODEL, "%", .value = offsetof(StepReport, error_estimate)},
+  {"stress error, estimate", OF_STRESSED_MODEL, "%", .value = offsetof(StepReport, error_estimate)},
 };
 
 /* Writes the unit of a kind in the words of the scene's units; "" if these are unknown */
@@ -81,6 +84,20 @@ static PetscErrorCode FigureTake(const FigureKind *kind, const char *owner, Pets
   PetscFunctionReturn(0);
 }
 
+/* Returns the load step of the largest von Mises stress */
+static PetscInt FiguresFindStressed(const RunReport *run)
+{
+  PetscReal largest = -1.0;
+  PetscInt  step    = 0;
+
+  for (PetscInt f = 0; f < run->nfigures; ++f) {
+    if (strcmp(run->figures[f].quantity, von_mises) || run->figures[f].value <= largest) continue;
+    largest = run->figures[f].value;
+    step    = run->figures[f].step;
+  }
+  return step;
+}
+
 static PetscErrorCode FiguresAdd(const FigureKind *kind, RunReport *run, PetscInt i)
 {
   RunFigure *figure = &run->figures[run->nfigures];
@@ -98,7 +115,8 @@ static PetscErrorCode FiguresAdd(const FigureKind *kind, RunReport *run, PetscIn
     const char *owners = FigureGetOwners(&run->steps[s], kind->owner, &n, &size);
 
     if (!run->steps[s].converged || i >= n) continue;
-    if (kind->owner != OF_MODEL) figure->name = *(const char *const *)(owners + (size_t)i * size);
+    if (kind->owner == OF_STRESSED_MODEL && run->steps[s].step != FiguresFindStressed(run)) continue;
+    if (kind->owner != OF_STRESSED_MODEL) figure->name = *(const char *const *)(owners + (size_t)i * size);
     if (kind->owner == OF_FACE && !run->steps[s].faces[i].driven) figure->quantity = "symmetry reaction";
     PetscCall(FigureTake(kind, owners + (size_t)i * size, run->steps[s].step, figure));
   }
@@ -106,18 +124,33 @@ static PetscErrorCode FiguresAdd(const FigureKind *kind, RunReport *run, PetscIn
   PetscFunctionReturn(0);
 }
 
-/* Removes the figures from number `first` on that are 0 in comparison with the largest of them, or sets them to 0 */
-static PetscErrorCode FiguresFindZeros(RunReport *run, PetscInt first, PetscBool omit)
+/* Returns the resultant force of a face or pair below which it is rounding error of the forces at the nodes */
+static PetscReal FiguresForceRounding(const RunReport *run)
 {
-  PetscReal largest = 0.0;
+  PetscReal size = 0.0;
+
+  for (PetscInt s = 0; s < run->nsteps; ++s) {
+    const StepReport *step = &run->steps[s];
+
+    for (PetscInt f = 0; f < step->nfaces; ++f) size = PetscMax(size, step->faces[f].size);
+    for (PetscInt p = 0; p < step->npairs; ++p) size = PetscMax(size, step->pairs[p].size);
+  }
+  return PETSC_SQRT_MACHINE_EPSILON * size;
+}
+
+/* Removes the figures of a kind, from number `first` on, that are 0 in comparison with others, or sets them to 0 */
+static PetscErrorCode FiguresFindZeros(const FigureKind *kind, RunReport *run, PetscInt first)
+{
+  PetscReal largest = 0.0, rounding;
   PetscInt  n       = first;
 
   PetscFunctionBegin;
   for (PetscInt f = first; f < run->nfigures; ++f) largest = PetscMax(largest, run->figures[f].value);
+  rounding = PetscMax(REPORT_ZERO * largest, kind->forces ? FiguresForceRounding(run) : 0.0);
   for (PetscInt f = first; f < run->nfigures; ++f) {
-    const PetscBool zero = (PetscBool)(run->figures[f].value <= REPORT_ZERO * largest);
+    const PetscBool zero = (PetscBool)(run->figures[f].value <= rounding);
 
-    if (zero && omit) continue;
+    if (zero && kind->nonzero) continue;
     run->figures[n] = run->figures[f];
     if (zero) run->figures[n].value = 0.0;
     ++n;
@@ -146,8 +179,9 @@ PetscErrorCode FiguresCollect(RunReport *run)
   for (size_t k = 0; k < nkinds; ++k) {
     const PetscInt first = run->nfigures;
 
-    for (PetscInt i = 0; i < (kinds[k].owner == OF_MODEL ? 1 : most); ++i) PetscCall(FiguresAdd(&kinds[k], run, i));
-    if (!kinds[k].least) PetscCall(FiguresFindZeros(run, first, kinds[k].nonzero));
+    for (PetscInt i = 0; i < (kinds[k].owner == OF_STRESSED_MODEL ? 1 : most); ++i)
+      PetscCall(FiguresAdd(&kinds[k], run, i));
+    if (!kinds[k].least) PetscCall(FiguresFindZeros(&kinds[k], run, first));
   }
   PetscFunctionReturn(0);
 }

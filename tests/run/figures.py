@@ -62,6 +62,20 @@ bolts:
   - m1: {body: screw, point: [5, 0, 0], axis: [1, 0, 0], force: 3}
 """
 
+LAYER = TUBE.replace("problem: tube", "problem: layer").replace("[12, 12, 1], order: 2", "[12, 24, 1]")
+HINGE = """
+problem: hinge
+bodies:
+  - strip: {lower: [0, 0, 0], upper: [20, 2, 2], cells: [20, 2, 4], material: j2_finite, young: 1e5, poisson: 0.3,
+            yield: 100, hardening: 300}
+displacements:
+  - left: {face: strip.xmin, value: [0, free, 0]}
+  - middle: {face: strip.ymin, value: [free, 0, free]}
+forces:
+  - right: {face: strip.xmax, moment: [0, -260, 0]}
+load: {steps: 4}
+"""
+
 
 def figure(run, quantity, name=""):
     found = [one for one in run["figures"] if (one["quantity"], one["name"]) == (quantity, name)]
@@ -147,6 +161,21 @@ def tool(run):
         and near(figure(run, "von Mises stress", "block")["place"], [0, 0, 0], 1e-12), run["figures"])
 
 
+def layer(run):
+    """The tube with one layer of cells of order 1"""
+    hoop, radial, axial = 100, -60, 12
+    mises = math.sqrt(((hoop - radial)**2 + (hoop - axial)**2 + (axial - radial)**2) / 2)
+    stress = figure(run, "von Mises stress", "tube")
+    say("layer: stress at the bore", within(stress["value"], mises, 0.03), (stress, mises))
+
+
+def hinge(run):
+    """A strip of metal that is bent to an arc: the largest stress at a node is the yield stress of the cells there"""
+    stress, strain = figure(run, "von Mises stress", "strip"), figure(run, "eq. plastic strain", "strip")
+    say("hinge: stress is the yield stress",
+        strain["value"] > 0.05 and within(stress["value"], 100 + 300 * strain["value"], 0.03), (stress, strain))
+
+
 def bolt(run):
     force = figure(run, "bolt force", "m1")
     say("bolt: force", within(force["value"], 3, 1e-6) and force["unit"] == "N", force)
@@ -190,7 +219,8 @@ def ranks(name, run):
 
 
 def check():
-    for name, test in (("cantilever", cantilever), ("tube", tube), ("tool", tool), ("bolt", bolt)):
+    for name, test in (("cantilever", cantilever), ("tube", tube), ("tool", tool), ("bolt", bolt), ("layer", layer),
+                       ("hinge", hinge)):
         run = load(name)
         test(run)
         terminal(name, run)
@@ -210,7 +240,8 @@ def check():
 
 
 if sys.argv[1] == "write":
-    for name, text in (("cantilever", CANTILEVER), ("tube", TUBE), ("tool", TOOL), ("bolt", BOLT)):
+    for name, text in (("cantilever", CANTILEVER), ("tube", TUBE), ("tool", TOOL), ("bolt", BOLT), ("layer", LAYER),
+                       ("hinge", HINGE)):
         with open(name + ".yaml", "w", encoding="utf-8") as file:
             file.write(text.lstrip())
 else:

@@ -58,6 +58,7 @@ static PetscErrorCode ElasticityRecoverNext(Elasticity e, PetscSF sf, const Pets
   PetscCall(PetscArrayzero(recovered, e->nnodes));
   PetscCall(ElasticityRecover(e, sf, selected, x, u, recovered));
   if (second) PetscCall(ElasticityRecoverOrder2(e, sf, selected, x, u, recovered));
+  PetscCall(ElasticityLimitRecovered(e, sf, selected, x, u, recovered));
   PetscFunctionReturn(0);
 }
 

@@ -26,18 +26,21 @@ static PetscReal EstimateNormSquared(const BodyMaterial *m, const PetscReal H[9]
 
 static PetscReal EstimateCellSquared(CellState *cell, const RecoveredNode recovered[])
 {
-  const CellBasis *basis = cell->body->basis;
+  const CellBasis *basis  = cell->body->basis;
+  const PetscBool  finite = cell->body->material.law->finite;
   PetscReal        w[CELL_MAX_POINTS], H[CELL_MAX_POINTS][ELEMENT_STRAINS], sum = 0;
 
   cell->body->element->strains(basis, cell->material, cell->X, cell->U, w, H);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    PetscReal error[ELEMENT_STRAINS];
+    RecoveredNode here = {0};
+    PetscReal     error[ELEMENT_STRAINS];
 
     CellElastic(cell->material, q, H[q]);
-    for (int k = 0; k < ELEMENT_STRAINS; ++k) error[k] = -H[q][k];
     for (PetscInt a = 0; a < cell->n; ++a) {
-      for (int k = 0; k < ELEMENT_STRAINS; ++k) error[k] += basis->N[q][a] * recovered[cell->nodes[a]].value[k];
+      for (int k = 0; k < RECOVERED_VALUES; ++k) here.value[k] += basis->N[q][a] * recovered[cell->nodes[a]].value[k];
     }
+    for (int k = 0; k < ELEMENT_STRAINS; ++k) error[k] = here.value[k] - H[q][k];
+    if (finite) StretchGetDirection(H[q], &here, error);
     sum += w[q] * EstimateNormSquared(&cell->body->material, H[q], error);
   }
   return sum;

@@ -14,7 +14,7 @@
 
 /* Least-squares fit around a vertex, from the samples of the cells around it */
 typedef struct {
-  PetscReal A[TERMS][TERMS], b[TERMS][ELEMENT_STRAINS]; /* matrix and right-hand side of the fit; b is overwritten by
+  PetscReal A[TERMS][TERMS], b[TERMS][RECOVERED_VALUES]; /* matrix and right-hand side of the fit; b is overwritten by
                                                            the coefficients of the polynomial */
   PetscReal normal[3], area; /* sum of int grad N, which vanishes inside a body; sum of the magnitudes of these
                                 vectors */
@@ -24,7 +24,7 @@ typedef struct {
 typedef struct {
   PetscInt n; /* number of samples, which is also the number of vertices */
   /* coordinates and values of the samples; int grad N of the vertices */
-  PetscReal x[SAMPLES][3], s[SAMPLES][ELEMENT_STRAINS], B[SAMPLES][3];
+  PetscReal x[SAMPLES][3], s[SAMPLES][RECOVERED_VALUES], B[SAMPLES][3];
 } QuadraticCell;
 
 static void QuadraticTerms(const PetscReal d[3], PetscReal t[TERMS])
@@ -100,17 +100,19 @@ static void QuadraticSample(CellState *state, QuadraticCell *cell)
   QuadraticWeights(basis, &cell->n, weight);
   state->body->element->strains(basis, state->material, state->X, state->U, w, H);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    PetscReal x[3] = {0, 0, 0};
+    PetscReal x[3] = {0, 0, 0}, s[RECOVERED_VALUES] = {0}, R[3][3];
 
     (void)CellGradients((int)state->n, basis, q, state->X, G);
     for (int d = 0; d < 3; ++d) {
       for (PetscInt a = 0; a < state->n; ++a) x[d] += basis->N[q][a] * state->X[d][a];
       for (int c = 0; c < cell->n; ++c) cell->B[c][d] += w[q] * G[d][RecoveryCorner(state->n, c)];
     }
-    CellElastic(state->material, q, H[q]);
-    for (int s = 0; s < cell->n; ++s) {
-      for (int d = 0; d < 3; ++d) cell->x[s][d] += weight[s][q] * x[d];
-      for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[s][k] += weight[s][q] * H[q][k];
+    for (int k = 0; k < ELEMENT_STRAINS; ++k) s[k] = H[q][k];
+    CellElastic(state->material, q, s);
+    if (state->body->material.law->finite) StretchFind(s, R, s + ELEMENT_STRAINS);
+    for (int i = 0; i < cell->n; ++i) {
+      for (int d = 0; d < 3; ++d) cell->x[i][d] += weight[i][q] * x[d];
+      for (int k = 0; k < RECOVERED_VALUES; ++k) cell->s[i][k] += weight[i][q] * s[k];
     }
   }
 }
@@ -126,7 +128,7 @@ static void QuadraticPatchAdd(const QuadraticCell *cell, int corner, const Petsc
     QuadraticTerms(d, t);
     for (int i = 0; i < TERMS; ++i) {
       for (int j = 0; j < TERMS; ++j) patch->A[i][j] += t[i] * t[j];
-      for (int k = 0; k < ELEMENT_STRAINS; ++k) patch->b[i][k] += t[i] * cell->s[s][k];
+      for (int k = 0; k < RECOVERED_VALUES; ++k) patch->b[i][k] += t[i] * cell->s[s][k];
     }
   }
   for (int d = 0; d < 3; ++d) {
@@ -166,7 +168,7 @@ static void QuadraticPatchFit(QuadraticPatch *patch)
   PetscReal L[TERMS][TERMS], scale[TERMS];
 
   QuadraticFactor(patch->A, scale, L);
-  for (int k = 0; k < ELEMENT_STRAINS; ++k) {
+  for (int k = 0; k < RECOVERED_VALUES; ++k) {
     for (int i = 0; i < TERMS; ++i) {
       patch->b[i][k] *= scale[i];
       for (int j = 0; j < i; ++j) patch->b[i][k] -= L[i][j] * patch->b[j][k];
@@ -200,7 +202,7 @@ static void QuadraticNodeAdd(const QuadraticPatch *patch, const PetscReal d[3], 
 
   QuadraticTerms(d, t);
   node->n += 1;
-  for (int k = 0; k < ELEMENT_STRAINS; ++k) {
+  for (int k = 0; k < RECOVERED_VALUES; ++k) {
     for (int i = 0; i < TERMS; ++i) node->value[k] += t[i] * patch->b[i][k];
   }
 }
@@ -337,7 +339,7 @@ PetscErrorCode ElasticityRecoverOrder2(Elasticity e, PetscSF nodes, const PetscB
   PetscCall(QuadraticFitPatches(e, vertices, selected, x, u, number, n, patches));
   PetscCall(QuadraticSum(e, nodes, selected, x, u, number, patches, sums));
   for (PetscInt v = 0; v < e->nnodes; ++v) {
-    for (int k = 0; sums[v].n > 0 && k < ELEMENT_STRAINS; ++k) recovered[v].value[k] = sums[v].value[k] / sums[v].n;
+    for (int k = 0; sums[v].n > 0 && k < RECOVERED_VALUES; ++k) recovered[v].value[k] = sums[v].value[k] / sums[v].n;
   }
   PetscCall(PetscFree(sums));
   PetscCall(PetscFree(patches));

@@ -65,8 +65,12 @@ static PetscErrorCode FieldsAddNodes(Elasticity e, const PetscBool selected[], c
       body[e->cellnodes[i]] = e->cellbody[c];
   }
   for (PetscInt v = 0; v < e->nnodes; ++v) {
-    if (body[v] < 0) continue;
-    (void)FieldsStress(&e->bodies[body[v]].material, recovered[v].value, stress + 6 * v);
+    const BodyMaterial *m = body[v] < 0 ? NULL : &e->bodies[body[v]].material;
+    PetscReal           strain[ELEMENT_STRAINS];
+
+    if (!m) continue;
+    StretchGetStrain(m, &recovered[v], strain);
+    (void)FieldsStress(m, strain, stress + 6 * v);
     for (int k = 0; k < 6 && fields->stress; ++k) fields->stress[6 * v + k] += stress[6 * v + k];
     if (fields->stress) fields->n[v] += 1;
   }

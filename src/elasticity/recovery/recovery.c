@@ -1,10 +1,11 @@
 /*
-   Recovers displacement gradient and dilatation at the vertices by superconvergent patches. The averages of the cells
-   around a vertex, located at the cells' centroids, are fitted by a linear polynomial. All cells around a vertex on the
-   surface are on one side of it; such a vertex gets the mean of the polynomials of the interior vertices of its cells.
-   The result is of second order up to the surface. A body with one layer of cells has no interior vertex; its vertices
-   get the mean of their cells. References: Zienkiewicz and Zhu, The superconvergent patch recovery and a posteriori
-   error estimates, parts 1 and 2, 1992.
+   Recovers displacement gradient, dilatation and stretch at the vertices by superconvergent patches. The averages of
+   the cells around a vertex, located at the cells' centroids, are fitted by a linear polynomial. All cells around a
+   vertex on the surface are on one side of it; such a vertex gets the mean of the polynomials of the interior vertices
+   of its cells. The result is of second order up to the surface. A flat body with one layer of cells has no interior
+   vertex; its polynomials do not vary across the layer. Vertices without any polynomial get the mean of their cells.
+   References: Zienkiewicz and Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2,
+   1992.
 */
 #include "recoveryimpl.h"
 
@@ -12,14 +13,17 @@
 typedef struct {
   PetscReal n, d[3], dd[6]; /* number of cells; sums of positions; sums of the products xx yy zz xy yz zx of
                                positions */
-  PetscReal s[ELEMENT_STRAINS], ds[3][ELEMENT_STRAINS]; /* sums of values; sums of positions times values */
+  PetscReal s[RECOVERED_VALUES], ds[3][RECOVERED_VALUES]; /* sums of values; sums of positions times values */
   PetscReal normal[3], area; /* sum of int grad N, which vanishes inside a body; sum of the magnitudes of these
                                 vectors */
 } NodeSums;
 
+/* PATCH_FLAT: a vertex of a flat layer of cells, unless it is on the edge of the layer */
+typedef enum { PATCH_NONE, PATCH_FLAT, PATCH_INSIDE } PatchKind;
+
 typedef struct {
-  PetscBool inside;
-  PetscReal value[ELEMENT_STRAINS], slope[3][ELEMENT_STRAINS]; /* value and derivatives at the node */
+  PatchKind kind;
+  PetscReal value[RECOVERED_VALUES], slope[3][RECOVERED_VALUES]; /* value and derivatives at the node */
 } NodePolynomial;
 
 typedef union {
@@ -28,9 +32,9 @@ typedef union {
 } NodePatch;
 
 typedef struct {
-  PetscReal x[3];               /* centroid */
-  PetscReal s[ELEMENT_STRAINS]; /* means of the elastic strains over the cell */
-  PetscReal B[3][8];            /* integrals of the gradients of the shape functions over the cell */
+  PetscReal x[3];                /* centroid */
+  PetscReal s[RECOVERED_VALUES]; /* means of the elastic values over the cell */
+  PetscReal B[3][8];             /* integrals of the gradients of the shape functions over the cell */
 } CellSample;
 
 static void CellSampleAverages(CellState *state, CellSample *cell)
@@ -41,14 +45,15 @@ static void CellSampleAverages(CellState *state, CellSample *cell)
 
   *cell = (CellSample){0};
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    const PetscReal w = CellGradients((int)state->n, basis, q, state->X, G);
-    PetscReal       s[ELEMENT_STRAINS];
+    const PetscReal w                   = CellGradients((int)state->n, basis, q, state->X, G);
+    PetscReal       s[RECOVERED_VALUES] = {0}, R[3][3];
 
     CellDisplacementGradient((int)state->n, state->U, G, s);
     s[9] = law->dilatation(s, C);
     CellElastic(state->material, q, s);
+    if (law->finite) StretchFind(s, R, s + ELEMENT_STRAINS);
     volume += w;
-    for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[k] += w * s[k];
+    for (int k = 0; k < RECOVERED_VALUES; ++k) cell->s[k] += w * s[k];
     for (int d = 0; d < 3; ++d) {
       for (PetscInt a = 0; a < state->n; ++a) {
         cell->x[d] += w * basis->N[q][a] * state->X[d][a];
@@ -56,7 +61,7 @@ static void CellSampleAverages(CellState *state, CellSample *cell)
       }
     }
   }
-  for (int k = 0; k < ELEMENT_STRAINS; ++k) cell->s[k] /= volume;
+  for (int k = 0; k < RECOVERED_VALUES; ++k) cell->s[k] /= volume;
   for (int d = 0; d < 3; ++d) cell->x[d] /= volume;
 }
 
@@ -67,42 +72,51 @@ static void NodeSumsAdd(NodeSums *sums, PetscReal X[3][CELL_MAX_NODES], int a, c
 
   sums->n += 1;
   for (int k = 0; k < 6; ++k) sums->dd[k] += d[row[k]] * d[column[k]];
-  for (int k = 0; k < ELEMENT_STRAINS; ++k) sums->s[k] += cell->s[k];
+  for (int k = 0; k < RECOVERED_VALUES; ++k) sums->s[k] += cell->s[k];
   for (int i = 0; i < 3; ++i) {
     sums->d[i] += d[i];
     sums->normal[i] += cell->B[i][a];
-    for (int k = 0; k < ELEMENT_STRAINS; ++k) sums->ds[i][k] += d[i] * cell->s[k];
+    for (int k = 0; k < RECOVERED_VALUES; ++k) sums->ds[i][k] += d[i] * cell->s[k];
   }
   sums->area += PetscSqrtReal(PetscSqr(cell->B[0][a]) + PetscSqr(cell->B[1][a]) + PetscSqr(cell->B[2][a]));
 }
 
 /*
-   Computes the inverse of the scatter matrix of the cells' centroids. Returns false if the centroids lie almost in a
-   plane.
+   Computes the inverse of the scatter matrix of the cells' centroids. If these lie in a plane whose normal is n, slopes
+   along n become zero. Returns what the inverse is good for.
 */
-static PetscBool NodeSumsInvertScatter(const NodeSums *sums, const PetscReal mean[3], PetscReal inverse[3][3])
+static PatchKind NodeSumsInvertScatter(const NodeSums *sums, const PetscReal mean[3], PetscReal inverse[3][3])
 {
   static const int component[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-  PetscReal        scatter[3][3], det;
+  const PetscBool  inside          = (PetscBool)(VectorNorm(sums->normal) <= PETSC_SQRT_MACHINE_EPSILON * sums->area);
+  PetscReal        scatter[3][3], n[3], across = 0, trace = 0, det;
 
+  for (int i = 0; i < 3; ++i) n[i] = sums->normal[i];
+  (void)VectorScaleToUnit(n);
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) scatter[i][j] = sums->dd[component[i][j]] - sums->n * mean[i] * mean[j];
+    for (int j = 0; j < 3; ++j) {
+      scatter[i][j] = sums->dd[component[i][j]] - sums->n * mean[i] * mean[j];
+      across += n[i] * scatter[i][j] * n[j];
+    }
+    trace += scatter[i][i];
   }
+  if (!inside && across > PETSC_SQRT_MACHINE_EPSILON * trace) return PATCH_NONE;
+  for (int i = 0; !inside && i < 9; ++i) scatter[i / 3][i % 3] += trace * n[i / 3] * n[i % 3];
   det = MatrixInvert(scatter, inverse);
-  return (PetscBool)(det > PETSC_SQRT_MACHINE_EPSILON * scatter[0][0] * scatter[1][1] * scatter[2][2]);
+  if (det <= PETSC_SQRT_MACHINE_EPSILON * scatter[0][0] * scatter[1][1] * scatter[2][2]) return PATCH_NONE;
+  return inside ? PATCH_INSIDE : PATCH_FLAT;
 }
 
-/* Fits a linear polynomial of least squares around a node inside a body. Other nodes get the mean of their cells. */
+/* Fits a linear polynomial of least squares around a node. Nodes without one get the mean of their cells. */
 static void NodePolynomialFit(const NodeSums *sums, NodePolynomial *p)
 {
   const PetscReal mean[3] = {sums->d[0] / sums->n, sums->d[1] / sums->n, sums->d[2] / sums->n};
   PetscReal       inverse[3][3];
 
-  p->inside = (PetscBool)(VectorNorm(sums->normal) <= PETSC_SQRT_MACHINE_EPSILON * sums->area &&
-                          NodeSumsInvertScatter(sums, mean, inverse));
-  for (int k = 0; k < ELEMENT_STRAINS; ++k) p->value[k] = sums->s[k] / sums->n;
-  if (!p->inside) return;
-  for (int k = 0; k < ELEMENT_STRAINS; ++k) {
+  p->kind = NodeSumsInvertScatter(sums, mean, inverse);
+  for (int k = 0; k < RECOVERED_VALUES; ++k) p->value[k] = sums->s[k] / sums->n;
+  if (p->kind == PATCH_NONE) return;
+  for (int k = 0; k < RECOVERED_VALUES; ++k) {
     const PetscReal average = sums->s[k] / sums->n;
     PetscReal       c[3];
 
@@ -117,7 +131,7 @@ static void NodePatchFit(NodePatch *patch)
   const NodeSums sums = patch->sums;
 
   if (sums.n > 0) NodePolynomialFit(&sums, &patch->polynomial);
-  else patch->polynomial.inside = PETSC_FALSE;
+  else patch->polynomial.kind = PATCH_NONE;
 }
 
 /* Creates the star forest whose roots are local nodes and whose leaves are local nodes that other ranks own */
@@ -191,21 +205,24 @@ static PetscErrorCode ElasticityFitPatches(Elasticity e, PetscSF sf, const Petsc
   PetscFunctionReturn(0);
 }
 
-/* Adds the polynomials of a cell's interior vertices, evaluated at the cell's other nodes, to recovered[] */
+/* Adds the best polynomials of a cell's vertices, evaluated at the cell's other nodes, to recovered[] */
 static void CellContinue(const NodePatch patches[], PetscInt n, const PetscInt nodes[], PetscReal X[3][CELL_MAX_NODES],
   RecoveredNode recovered[])
 {
+  PatchKind best = PATCH_NONE;
+
+  for (int a = 0; a < n; ++a) best = PetscMax(best, patches[nodes[a]].polynomial.kind);
   for (int a = 0; a < n; ++a) {
     RecoveredNode *r = &recovered[nodes[a]];
 
-    if (patches[nodes[a]].polynomial.inside) continue;
+    if (patches[nodes[a]].polynomial.kind == best) continue;
     for (int b = 0; b < n; ++b) {
       const NodePolynomial *p    = &patches[nodes[b]].polynomial;
       const PetscReal       d[3] = {X[0][a] - X[0][b], X[1][a] - X[1][b], X[2][a] - X[2][b]};
 
-      if (!p->inside) continue;
+      if (p->kind != best) continue;
       r->n += 1;
-      for (int k = 0; k < ELEMENT_STRAINS; ++k)
+      for (int k = 0; k < RECOVERED_VALUES; ++k)
         r->value[k] += p->value[k] + p->slope[0][k] * d[0] + p->slope[1][k] * d[1] + p->slope[2][k] * d[2];
     }
   }
@@ -234,7 +251,7 @@ PetscErrorCode ElasticityRecover(Elasticity e, PetscSF sf, const PetscBool selec
   for (PetscInt v = 0; v < e->nnodes; ++v) {
     const PetscReal n = recovered[v].n;
 
-    for (int k = 0; k < ELEMENT_STRAINS; ++k)
+    for (int k = 0; k < RECOVERED_VALUES; ++k)
       recovered[v].value[k] = n > 0 ? recovered[v].value[k] / n : patches[v].polynomial.value[k];
   }
   PetscCall(PetscFree(patches));

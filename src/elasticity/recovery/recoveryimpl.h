@@ -4,10 +4,13 @@
 
 #include "src/elasticity/elements/elementsimpl.h"
 
-/* recovery.c: recovered displacement gradient (9 values) and dilatation at a node */
+/* Displacement gradient (9 values), dilatation and, for laws of finite strain, the stretch U - 1 (xx yy zz xy yz zx) */
+#define RECOVERED_VALUES (ELEMENT_STRAINS + 6)
+
+/* recovery.c: recovered values at a node */
 typedef struct {
   PetscReal n; /* number of polynomials that contributed to the value */
-  PetscReal value[ELEMENT_STRAINS];
+  PetscReal value[RECOVERED_VALUES];
 } RecoveredNode;
 
 /* Returns the node that is a corner of the cell. Only corners have polynomials. */
@@ -21,11 +24,20 @@ PETSC_INTERN PetscErrorCode ElasticitySumRecords(PetscSF, size_t n, PetscReal *v
 PETSC_INTERN PetscErrorCode ElasticityRecover(Elasticity, PetscSF, const PetscBool selected[], const PetscScalar x[],
   const PetscScalar u[], RecoveredNode recovered[]);
 
+/* stretch.c: rotation and stretch */
+PETSC_INTERN void StretchFind(const PetscReal H[9], PetscReal R[3][3], PetscReal stretch[6]);
+PETSC_INTERN void StretchGetDirection(const PetscReal H[9], const RecoveredNode *, PetscReal direction[9]);
+PETSC_INTERN void StretchGetStrain(const BodyMaterial *, const RecoveredNode *, PetscReal strain[ELEMENT_STRAINS]);
+
 /* stress.c: von Mises stress of xx yy zz xy yz zx */
 PETSC_INTERN PetscReal StressVonMises(const PetscReal stress[6]);
 
 /* order2.c: recovers gradients at the nodes of cells of order 2 */
 PETSC_INTERN PetscErrorCode ElasticityRecoverOrder2(Elasticity, PetscSF, const PetscBool selected[],
+  const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[]);
+
+/* limit.c: limits recovered stresses where the material has yielded */
+PETSC_INTERN PetscErrorCode ElasticityLimitRecovered(Elasticity, PetscSF, const PetscBool selected[],
   const PetscScalar x[], const PetscScalar u[], RecoveredNode recovered[]);
 
 /* bodies.c: calls add() for each set of bodies that share no node, with the strains recovered at their nodes */
