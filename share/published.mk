@@ -3,7 +3,7 @@
 # PUBLISHED="--runs two_block/2/own:900" makes some runs, PUBLISHED=--kept the page alone
 PUBLISHED ?=
 
-.PHONY: published published-quick published-page
+.PHONY: published published-quick published-page published-cases
 
 build/published/cpuclock.so: share/published/cpuclock.c share/published.mk
 	@mkdir -p $(@D)
@@ -22,3 +22,9 @@ published-quick: dependencies build/published/cpuclock.so
 published-page:
 	cp build/published/README.md build/published/*.png share/published
 	cp build/published/*.run.json share/published/runs
+
+# The page of cases whose values others published
+published-cases:
+	@$(MAKE) --no-print-directory $(PARALLEL) all
+	$(PYTHON) -B share/published/cases.py
+	cp build/published/cases/cases.md share/published

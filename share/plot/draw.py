@@ -538,6 +538,7 @@ def fit(camera, right, up, corners, heading):
 
 
 def write(scene, picture):
+    """Writes the picture. Returns whether the place of the largest value is hidden."""
     renderers, pixels, best = scene
     window, image, writer = vtkRenderWindow(), vtkWindowToImageFilter(), vtkPNGWriter()
     window.SetOffScreenRendering(1)
@@ -546,10 +547,11 @@ def write(scene, picture):
     for renderer in renderers:
         window.AddRenderer(renderer)
         renderer.ResetCameraClippingRange()
+    hidden = False
     if best:
         window.Render()
         value, place, unit = best
-        mark(renderers[1], place, value, unit)
+        hidden = mark(renderers[1], place, value, unit)
     window.Render()
     image.SetInput(window)
     image.ReadFrontBufferOff()
@@ -559,6 +561,7 @@ def write(scene, picture):
     writer.SetInputData(image.GetOutput())
     writer.Write()
     window.Finalize()
+    return hidden
 
 
 def nodes_of(run, cells):
@@ -631,7 +634,7 @@ def number(value):
 
 
 def mark(renderer, place, value, unit):
-    """A ring where the largest value is, with its number"""
+    """A ring where the largest value is, with its number. Returns whether the place is hidden."""
     renderer.SetWorldPoint(*place, 1)
     renderer.WorldToDisplay()
     x, y, depth = renderer.GetDisplayPoint()
@@ -655,6 +658,7 @@ def mark(renderer, place, value, unit):
         text.SetPosition(x - 12, y + 8)
     renderer.AddActor2D(actor)
     renderer.AddActor2D(text)
+    return hidden
 
 
 def triad(args, pixels):
@@ -730,13 +734,15 @@ def draw(words=None):
 
 
 def draw_steps(args, steps, pictures):
-    """Pictures of load steps with one range of colours, one scale and one view"""
+    """Pictures of load steps with one range of colours, one scale and one view. Returns which hide the largest one."""
     try:
         run = Files(args.base)
         frame = one_frame(args, run, steps)
         open_screen()
+        hidden = []
         for args.step, picture in zip(steps, pictures):
-            write(scene_of(args, run, frame), picture)
+            hidden.append(write(scene_of(args, run, frame), picture))
+        return hidden
     except ContactError as error:
         stop(str(error))
 

@@ -88,11 +88,23 @@ function turn(canvas, model) {
   };
   const parts = model.map(part => ({...part, places: buffer(gl.ARRAY_BUFFER, part.places),
     colours: buffer(gl.ARRAY_BUFFER, part.colours), numbers: buffer(gl.ELEMENT_ARRAY_BUFFER, part.numbers)}));
-  let azimuth = -Math.PI / 3, elevation = Math.PI / 9, zoom = 1.2;
+  let azimuth = -Math.PI / 3, elevation = Math.PI / 9, zoom = 0;
+  function fit(rotation) { // the largest size at which all points are on the canvas
+    let [across, along] = [0, 0];
+    for (const part of model) {
+      const places = new Float32Array(bytes(part.places));
+      for (let i = 0; i < places.length; i += 3) {
+        const at = row => Math.abs([0, 1, 2].reduce((sum, k) => sum + rotation[row + 3 * k] * places[i + k], 0));
+        [across, along] = [Math.max(across, at(0)), Math.max(along, at(1))];
+      }
+    }
+    return 0.95 * Math.min(canvas.width / canvas.height / across, 1 / along);
+  }
   function draw() {
     const [c, s, d, t] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)];
     // Columns; the rows are to the right, up, and away from the viewer
     const rotation = [-s, -t * c, -d * c, c, -t * s, -d * s, 0, d, -t];
+    zoom = zoom || fit(rotation);
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.clearColor(1, 1, 1, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
@@ -188,15 +200,27 @@ def chosen_steps(run, files):
     return sorted(chosen), numbers[-1]
 
 
-def draw_steps(base, folder, field, options, steps):
-    """The pictures of a field in some load steps, in memory"""
+def draw_steps(base, field, options, steps):
+    """The pictures of a field in some load steps, in memory, and which of them hide the largest value"""
     import draw
 
-    names = [os.path.join(folder, f"{step}.png") for step in steps]
-    draw.draw_steps(draw.arguments([base, names[0], "--field", field, *options]), steps, names)
-    for name in names:
-        with open(name, "rb") as stream:
-            yield stream.read()
+    with tempfile.TemporaryDirectory() as folder:
+        names = [os.path.join(folder, f"{step}.png") for step in steps]
+        hidden = draw.draw_steps(draw.arguments([base, names[0], "--field", field, *options]), steps, names)
+        images = []
+        for name in names:
+            with open(name, "rb") as stream:
+                images.append(stream.read())
+    return images, hidden
+
+
+def section(base, run_files, place, step):
+    """Von Mises stress on a section through a place, along the plane that is deepest inside of the bodies"""
+    low, high = run_files.vertices.min(axis=0), run_files.vertices.max(axis=0)
+    axis = max(range(3), key=lambda k: min(place[k] - low[k], high[k] - place[k]) / max(high[k] - low[k], 1e-300))
+    plane = f"{'xyz'[axis]}={place[axis]:.9g}"
+    images, _ = draw_steps(base, "nodal_von_mises", ["--section", plane], [step])
+    return image(images[0], f"Von Mises stress, load step {step}, cut at {plane}")
 
 
 def slides(images, captions, first):
@@ -235,15 +259,16 @@ def pictures(base, run):
     if largest(run, "eq. plastic strain"):
         wanted.append(("Equivalent plastic strain", "equivalent_plastic_strain", [], [last]))
     for caption, field, options, chosen in wanted:
-        with tempfile.TemporaryDirectory() as folder:
-            try:
-                images = list(draw_steps(base, folder, field, options, chosen))
-            except SystemExit as reason:
-                yield f"<p>No picture: {caption.lower()}: {html.escape(str(reason.code))}.</p>\n"
-                continue
+        try:
+            images, hidden = draw_steps(base, field, options, chosen)
+        except SystemExit as reason:
+            yield f"<p>No picture: {caption.lower()}: {html.escape(str(reason.code))}.</p>\n"
+            continue
         captions = [f"{caption}, load step {step}" for step in chosen]
         yield slides(images, captions, chosen.index(stressed)) if len(images) > 1 else image(images[0], captions[0])
         if field == "nodal_von_mises":
+            if hidden[chosen.index(stressed)]:
+                yield section(base, run_files, largest(run, "von Mises stress")["place"], stressed)
             yield turnable(base, run, stressed)
 
 
@@ -289,7 +314,7 @@ def turnable(base, run, step):
     skin, _, _, _ = draw.coloured_bodies(args, files, cells, values, displacement, 1)
     skin = triangles(skin)
     tools = [triangles(data) for data in draw.tool_surfaces(args, files, cells, displacement, 1)]
-    points = vtk_to_numpy(skin.GetPoints().GetData())
+    points = np.concatenate([vtk_to_numpy(data.GetPoints().GetData()) for data in (skin, *tools)])
     centre = (points.min(axis=0) + points.max(axis=0)) / 2
     radius = np.linalg.norm(points.max(axis=0) - points.min(axis=0)) / 2
     shown = vtk_to_numpy(skin.GetPointData().GetArray("colour"))
@@ -337,7 +362,7 @@ def yields(run):
     return f"No: the smallest safety factor is {text(safety['value'])} ({name})."
 
 
-def answers(run):
+def answers(run, symmetric):
     """Six answers, each with an id"""
     stress, error = largest(run, "von Mises stress"), largest(run, "stress error, estimate")
     if not stress:
@@ -346,19 +371,23 @@ def answers(run):
     tools = [figure for figure in run["figures"] if figure["quantity"] == "reaction"]
     tools = [figure for figure in tools if figure["name"].endswith(".*")] or tools
     force = max(tools, key=lambda figure: figure["value"], default=None)
+    part = " (of the part that is modelled: there are symmetry planes)" * symmetric
+    large = error["value"] if error else 0
+    advice = " The stresses have no meaning." if large > 100 else " Refine the mesh." if large > 30 else ""
     mean = error and (
         f"The estimated error of the stresses is {error['value']:.{0 if error['value'] >= 10 else 1}f} % in "
-        "the mean, because of the mesh.")
+        f"the mean{when(run, error)}, because of the mesh.{advice}")
     rows = [
         ("stress", "How large is the largest stress?", f"{amount(stress)} (von Mises)"),
         ("place", "Where is it?",
          f"{html.escape(stress['name'])}, at ({text(stress['place'])}), undeformed{when(run, stress)}"),
         ("yield", "Does the material yield?", yields(run)),
         ("force", "Which force does the tool or the support need?",
-         f"{amount(force)} at {html.escape(force['name'].removesuffix('.*'))}{when(run, force)}"
+         f"{amount(force)} at {html.escape(force['name'].removesuffix('.*'))}{when(run, force)}{part}"
          if force else "There is none."),
         ("area", "How large is the contact area?",
-         "; ".join(f"{html.escape(figure['name'])}: {amount(figure)}" for figure in areas) or "There is no contact."),
+         "; ".join(f"{html.escape(figure['name'])}: {amount(figure)}" for figure in areas) + part
+         if areas else "There is no contact."),
         ("accuracy", "How accurate is it?", mean or "Not estimated."),
     ]
     yield "<dl>\n" + "".join(f'<dt>{question}</dt><dd id="answer-{name}">{answer}</dd>\n'
@@ -535,7 +564,9 @@ def page(base, run, scene, command, versions):
     warnings = "".join(f"<li>{text(warning)}</li>" for warning in run["warnings"])
     yield f"<ul>{warnings}</ul>\n" if warnings else "<p>None.</p>\n"
     yield "<h2>Results</h2>\n"
-    yield from answers(run)
+    with open(scene, encoding="utf-8", errors="replace") as file:
+        written = file.read()
+    yield from answers(run, "\nsymmetry:" in written)
     yield from results(run)
     if last:
         yield "<h2>Pictures</h2>\n"
@@ -550,8 +581,7 @@ def page(base, run, scene, command, versions):
         yield from steps(run)
     yield "<h2>Time and memory</h2>\n"
     yield from time_and_memory(run)
-    with open(scene, encoding="utf-8", errors="replace") as file:
-        yield f"<h2>Scene</h2>\n<p><code>{html.escape(command)}</code></p>\n<pre>{html.escape(file.read())}</pre>\n"
+    yield f"<h2>Scene</h2>\n<p><code>{html.escape(command)}</code></p>\n<pre>{html.escape(written)}</pre>\n"
     yield f"<h2>Versions</h2>\n<pre>{html.escape(versions)}</pre>\n</body>\n</html>\n"
 
 
