@@ -175,7 +175,7 @@ CASES = [
          Value("largest von Mises stress", 1.5308, figure("von Mises stress"), 2)),
     Case("ssnv104", "Two balls, approach 2 mm each", "Code_Aster V6.04.104 (Hertz)", "ssnv104.yaml",
          Value("peak pressure [MPa]", 2798.3, figure("contact pressure"), 12,
-               "a/R = 0.2: the middle of the ball is no point at infinity, and the area is that of the deformed ball")),
+               "a/R = 0.2, too large for Hertz's theory")),
     Case("press_fit", "Shrink fit, overlap 1 % of the radius", "Lamé", "press_fit.yaml",
          Value("pressure times radius", 5.1965, lambda run: pair("normal_force")(run) / (math.pi / 2 * 0.25), 1)),
     Case("patch", "Two blocks of order 2 whose meshes do not match", "Code_Aster SSNP170",
@@ -248,7 +248,8 @@ def page(lines, notes):
     return "\n".join([
         "# Cases that others published", "",
         "`make published-cases` runs these cases and writes this page. The difference is that to the",
-        "published value, or to the nearest end of the range that several programs have. Times are", "user seconds.", "",
+        "published value, or to the nearest end of the range that several programs have. Times are",
+        "user seconds.", "",
         "| | |", "| --- | --- |", *machine.header([]), "",
         "| case | source | value | published | ours | difference | time [s] |",
         "| --- | --- | --- | --- | --- | --- | --- |", *lines, "", *notes, ""
