@@ -40,7 +40,8 @@ expect("yield", "Yes" if strain else "Not known" if safety is None else "No:" if
 tools = [figure for figure in figures("reaction") if figure["name"].endswith(".*")] or figures("reaction")
 expect("force", f"{max(figure['value'] for figure in tools):.5g}" if tools else "none")
 expect("area", *(f"{figure['value']:.5g}" for figure in figures("contact area")))
-expect("accuracy", f"{figures('stress error, estimate')[0]['value']:.0f}"[:1])
+error = figures("stress error, estimate")[0]["value"]
+expect("accuracy", f"{error:.{0 if error >= 10 else 1}f} %")
 shown = re.findall(r'<figure class="steps">.*?</figure>', moved, flags=re.S)
 if (len(run["steps"]) > 1) != bool(shown):
     print(f"{name}: {len(shown)} rows of pictures of {len(run['steps'])} load steps")
