@@ -259,8 +259,12 @@ def page(lines, notes):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--only", default="", help="names of cases, separated by commas")
+    parser.add_argument("--scene", help="name of a case whose scene is printed instead, for a test")
     parser.add_argument("--folder", default=FOLDER, help="of the scenes, the summaries and the page")
     args = parser.parse_args()
+    if args.scene:
+        print(next(case.scene for case in CASES if case.name == args.scene))
+        return
     only = args.only.split(",")
     os.makedirs(args.folder, exist_ok=True)
     os.chdir(args.folder)

@@ -134,23 +134,19 @@ PetscErrorCode BoltsBegin(const Bodies *bodies, Bolts *bolts, PetscReal time, Ve
   PetscFunctionReturn(0);
 }
 
-/*
-   Updates the compliance with the changes of force and shortening between the last two solves of this load step. least:
-   change of the forces below which it may be due to the accuracy of the solves, or to an update of the contact
-*/
-static PetscErrorCode BoltsLearn(Bolts *bolts, const PetscReal force[], PetscReal least)
+/* Updates the compliance with the changes of force and shortening between the last two solves of this load step */
+static PetscErrorCode BoltsLearn(Bolts *bolts, const PetscReal force[])
 {
   const PetscInt  n    = bolts->n;
   const PetscReal most = 30.0; /* largest factor by which the compliance grows in one update. Before the bolts clamp
                                   their parts, the measured compliance may be much too large. */
-  PetscReal      *s, *y, *Hy, ys = 0.0, yHy = 0.0, change = 0.0, scale;
+  PetscReal      *s, *y, *Hy, ys = 0.0, yHy = 0.0, scale;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc3(n, &s, n, &y, n, &Hy));
   for (PetscInt b = 0; b < n; ++b) {
-    s[b]   = bolts->driven[b] ? bolts->now[b] - bolts->tried[0][b] : 0.0;
-    y[b]   = bolts->driven[b] ? force[b] - bolts->tried[1][b] : 0.0;
-    change = PetscMax(change, PetscAbsReal(y[b]));
+    s[b] = bolts->driven[b] ? bolts->now[b] - bolts->tried[0][b] : 0.0;
+    y[b] = bolts->driven[b] ? force[b] - bolts->tried[1][b] : 0.0;
   }
   for (PetscInt b = 0; b < n; ++b) {
     Hy[b] = 0.0;
@@ -159,10 +155,6 @@ static PetscErrorCode BoltsLearn(Bolts *bolts, const PetscReal force[], PetscRea
     yHy += y[b] * Hy[b];
   }
   scale = ys > 0.0 && yHy > 0.0 ? ys / yHy : PETSC_INFINITY;
-  if (change < least) {
-    PetscCall(PetscFree3(s, y, Hy));
-    PetscFunctionReturn(0);
-  }
   if (scale > most || !bolts->nslopes) {
     for (PetscInt i = 0; i < n * n; ++i) bolts->compliance[i] *= PetscMin(scale, most);
     for (PetscInt b = 0; b < n; ++b) Hy[b] *= PetscMin(scale, most);
@@ -185,7 +177,10 @@ static PetscErrorCode BoltsLearn(Bolts *bolts, const PetscReal force[], PetscRea
 PetscErrorCode BoltsAdvance(const Bodies *bodies, Bolts *bolts, PetscReal tolerance, Vec u, PetscBool *again,
   const char **failed)
 {
-  PetscReal *force, largest = 0.0, off = 0.0;
+  const PetscReal accuracy =
+    100.0; /* changes of forces below this many tolerances may be due to the accuracy of solves,
+                                       or to an update of the contact */
+  PetscReal *force, largest = 0.0, off = 0.0, change = 0.0;
   PetscInt   worst = 0;
 
   PetscFunctionBegin;
@@ -193,13 +188,16 @@ PetscErrorCode BoltsAdvance(const Bodies *bodies, Bolts *bolts, PetscReal tolera
   if (!bolts->n) PetscFunctionReturn(0);
   PetscCall(PetscMalloc1(bolts->n, &force));
   PetscCall(ElasticityGetSectionForces(bodies->elasticity, u, force));
-  for (PetscInt b = 0; b < bolts->n; ++b) largest = PetscMax(largest, PetscAbsReal(bolts->target[b]));
+  for (PetscInt b = 0; b < bolts->n; ++b) {
+    largest = PetscMax(largest, PetscAbsReal(bolts->target[b]));
+    if (bolts->driven[b]) change = PetscMax(change, PetscAbsReal(force[b] - bolts->tried[1][b]));
+  }
   for (PetscInt b = 0; b < bolts->n; ++b) {
     if (!bolts->driven[b] || PetscAbsReal(force[b] - bolts->target[b]) <= off) continue;
     off   = PetscAbsReal(force[b] - bolts->target[b]);
     worst = b;
   }
-  if (bolts->tries) PetscCall(BoltsLearn(bolts, force, 100.0 * tolerance * largest));
+  if (bolts->tries && change >= accuracy * tolerance * largest) PetscCall(BoltsLearn(bolts, force));
   ++bolts->nsolves;
   bolts->tries = PETSC_TRUE;
   PetscCall(PetscArraycpy(bolts->tried[0], bolts->now, bolts->n));

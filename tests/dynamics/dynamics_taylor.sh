@@ -3,25 +3,8 @@
 # 1997): length 21.26 to 21.66 mm, radius of the foot 6.89 to 7.24 mm, largest plastic strain 2.5 to 3.3.
 # CELLS, STEP: cells along radius, around the sector and along the axis, and the time step
 contact=$AMGF_DIR/bin/contact
-cat > taylor.yaml <<YAML
-bodies:
-  - bar: {shape: tube_arc, axis: z, radii: [1e-4, 3.2], angles: [0, 10], extent: [0, 32.4], cells: [${CELLS:-2, 1, 12}],
-          material: j2_finite, young: 117e3, poisson: 0.35, yield: 400, hardening: 100, density: 8.93e-9, element: bbar,
-          initial_velocity: [0, 0, -227e3]}
-  - wall: {shape: rigid_plane, material: rigid, point: [0, 0, 0], normal: [0, 0, 1]}
-displacements:
-  - wall: {body: wall, value: [0, 0, 0]}
-  - axis: {face: bar.inner, value: [0, 0, free]}
-symmetry:
-  - begin: {face: bar.amin, normal: y}
-  - end: {face: bar.amax, normal: [-0.17364817766693, 0.984807753012208, 0]}
-contact:
-  - hit: {mortar: wall.surface, nonmortar: bar.lmin}
-probes:
-  - tail: {point: [1e-4, 0, 32.4], body: bar}
-  - foot: {point: [3.2, 0, 0], body: bar}
-dynamics: {mass: lumped, time_step: ${STEP:-1.6e-6}, end_time: 80e-6}
-YAML
+"$PYTHON" -B "$AMGF_DIR/share/published/cases.py" --scene taylor |
+  sed "s/cells: .*]/cells: [${CELLS:-2, 1, 12}]/; s/time_step: [^,]*/time_step: ${STEP:-1.6e-6}/" > taylor.yaml
 "$contact" taylor.yaml -quiet -error_estimate 0 -output taylor -summary taylor.json || echo "exit $?"
 "$PYTHON" - <<'PY'
 import math

@@ -1,6 +1,7 @@
 """Scenes of lap_joint.sh, and what must hold of their results."""
-import json
 import sys
+
+from summaries import each, load, say, within
 
 PRETENSION, COEFFICIENT = 20000.0, 0.2
 
@@ -47,15 +48,15 @@ def write():
 
 def judge():
     for name in ("slip_1", "tight_1", "tight_2"):
-        with open(name + ".json") as file:
-            steps = json.load(file)["steps"]
-        print(f"{name}: the bolt has its force",
-              max(abs(step["bolts"][0]["force"] / PRETENSION - 1) for step in steps) <= 1e-7)
-        print(f"{name}: few iterations tighten it", steps[0]["ip_iterations"] <= 32)
+        run = load(name)
+        forces = [bolts[0]["force"] for bolts in each(run, "bolts")]
+        tightens = each(run, "ip_iterations")[0]
+        say(f"{name}: the bolt has its force", all(within(force, PRETENSION, 1e-7) for force in forces), forces)
+        say(f"{name}: few iterations tighten it", tightens <= 32, tightens)
         if name == "slip_1":
-            pull, _, lift = steps[1]["faces"][1]["reaction"]
+            pull, _, lift = run["steps"][1]["faces"][1]["reaction"]
             slip = COEFFICIENT * (2 * PRETENSION - lift)  # of the head or the nut, and between the plates
-            print(f"{name}: the joint slips", abs(pull / slip - 1) <= 1e-3)
+            say(f"{name}: the joint slips", within(pull, slip, 1e-3), (pull, slip))
 
 
 if sys.argv[1] == "write":

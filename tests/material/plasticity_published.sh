@@ -2,20 +2,7 @@
 # hub that yields, by Hill and Lamé
 contact=$AMGF_DIR/bin/contact
 # its law: norm of the deviator 400, slope gamma = H/(3 mu + H) = 0.01 of the trial stress
-cat > cube.yaml <<'YAML'
-bodies:
-  - cube: {lower: [0.5, 0.5, 0], upper: [1, 1, 1], cells: [4, 4, 8], element: full, material: j2, young: 200000,
-           poisson: 0.3, yield: 489.89794855663564, hardening: 2331.002331002331}
-  - ball: {shape: rigid_sphere, material: rigid, center: [0.5, 0.5, 1.6], radius: 0.6}
-displacements:
-  - bottom: {face: cube.zmin, value: [0, 0, 0]}
-  - x: {face: cube.xmax, value: [0, 0, free]}
-  - y: {face: cube.ymax, value: [0, 0, free]}
-  - press: {body: ball, value: [0, 0, -0.01]}
-symmetry: [cube.xmin, cube.ymin]
-contact:
-  - touch: {mortar: ball.surface, nonmortar: cube.zmax, gap: node}
-YAML
+"$PYTHON" -B "$AMGF_DIR/share/published/cases.py" --scene cube > cube.yaml
 cat > fit.yaml <<'YAML'
 bodies:
   - hub: {shape: tube_arc, axis: z, center: [0, 0, 0], radii: [1, 2], angles: [0, 15], extent: [0, 0.1],

@@ -100,7 +100,7 @@ static void QuadraticSample(CellState *state, QuadraticCell *cell)
   QuadraticWeights(basis, &cell->n, weight);
   state->body->element->strains(basis, state->material, state->X, state->U, w, H);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
-    PetscReal x[3] = {0, 0, 0}, s[RECOVERED_VALUES] = {0}, R[3][3];
+    PetscReal x[3] = {0, 0, 0}, s[RECOVERED_VALUES] = {0};
 
     (void)CellGradients((int)state->n, basis, q, state->X, G);
     for (int d = 0; d < 3; ++d) {
@@ -108,8 +108,7 @@ static void QuadraticSample(CellState *state, QuadraticCell *cell)
       for (int c = 0; c < cell->n; ++c) cell->B[c][d] += w[q] * G[d][RecoveryCorner(state->n, c)];
     }
     for (int k = 0; k < ELEMENT_STRAINS; ++k) s[k] = H[q][k];
-    CellElastic(state->material, q, s);
-    if (state->body->material.law->finite) StretchFind(s, R, s + ELEMENT_STRAINS);
+    CellRecovered(state, q, s);
     for (int i = 0; i < cell->n; ++i) {
       for (int d = 0; d < 3; ++d) cell->x[i][d] += weight[i][q] * x[d];
       for (int k = 0; k < RECOVERED_VALUES; ++k) cell->s[i][k] += weight[i][q] * s[k];

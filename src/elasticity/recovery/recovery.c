@@ -46,12 +46,11 @@ static void CellSampleAverages(CellState *state, CellSample *cell)
   *cell = (CellSample){0};
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     const PetscReal w                   = CellGradients((int)state->n, basis, q, state->X, G);
-    PetscReal       s[RECOVERED_VALUES] = {0}, R[3][3];
+    PetscReal       s[RECOVERED_VALUES] = {0};
 
     CellDisplacementGradient((int)state->n, state->U, G, s);
     s[9] = law->dilatation(s, C);
-    CellElastic(state->material, q, s);
-    if (law->finite) StretchFind(s, R, s + ELEMENT_STRAINS);
+    CellRecovered(state, q, s);
     volume += w;
     for (int k = 0; k < RECOVERED_VALUES; ++k) cell->s[k] += w * s[k];
     for (int d = 0; d < 3; ++d) {

@@ -25,7 +25,7 @@ PETSC_INTERN PetscErrorCode ElasticityRecover(Elasticity, PetscSF, const PetscBo
   const PetscScalar u[], RecoveredNode recovered[]);
 
 /* stretch.c: rotation and stretch */
-PETSC_INTERN void StretchFind(const PetscReal H[9], PetscReal R[3][3], PetscReal stretch[6]);
+PETSC_INTERN void CellRecovered(const CellState *, PetscInt q, PetscReal s[RECOVERED_VALUES]);
 PETSC_INTERN void StretchGetDirection(const PetscReal H[9], const RecoveredNode *, PetscReal direction[9]);
 PETSC_INTERN void StretchGetStrain(const BodyMaterial *, const RecoveredNode *, PetscReal strain[ELEMENT_STRAINS]);
 

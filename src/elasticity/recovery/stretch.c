@@ -32,7 +32,7 @@ static void StretchRotation(const PetscReal H[9], PetscReal R[3][3])
 }
 
 /* Computes the rotation R and U - 1 (xx yy zz xy yz zx) of the deformation gradient 1 + H = R U */
-void StretchFind(const PetscReal H[9], PetscReal R[3][3], PetscReal stretch[6])
+static void StretchFind(const PetscReal H[9], PetscReal R[3][3], PetscReal stretch[6])
 {
   StretchRotation(H, R);
   for (int k = 0; k < 6; ++k) {
@@ -41,6 +41,15 @@ void StretchFind(const PetscReal H[9], PetscReal R[3][3], PetscReal stretch[6])
     stretch[k] = R[j][i] - (k < 3 ? 1.0 : 0.0);
     for (int l = 0; l < 3; ++l) stretch[k] += R[l][i] * H[3 * l + j];
   }
+}
+
+/* Replaces the strains in s by their elastic part at point q of a cell. For laws of finite strain, sets the stretch. */
+void CellRecovered(const CellState *cell, PetscInt q, PetscReal s[RECOVERED_VALUES])
+{
+  PetscReal R[3][3];
+
+  CellElastic(cell->material, q, s);
+  if (cell->body->material.law->finite) StretchFind(s, R, s + ELEMENT_STRAINS);
 }
 
 /* Adds R E to a displacement gradient; E is symmetric (xx yy zz xy yz zx) */
