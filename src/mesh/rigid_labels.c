@@ -2,7 +2,6 @@
    unknowns, and the boundary facets. The label of a body in contact with itself contains the boundary facets and their
    points. */
 #include "meshimpl.h"
-#include <petscsf.h>
 
 /* Adds the points of a cell to the label `whole`. Facets, which are numbered from fstart to fend, are added only if
    they are on the boundary. */
@@ -27,7 +26,7 @@ static PetscErrorCode RigidLabelCell(DM dm, PetscInt cell, PetscInt fstart, Pets
 static PetscErrorCode RigidLabelBoundary(DM dm, DMLabel body, PetscInt number, const PetscBool boundary[],
   DMLabel whole)
 {
-  PetscInt cstart, cend, fstart, npoints, nroots, *mark;
+  PetscInt cstart, cend, fstart, npoints, *mark;
   PetscSF  sf;
 
   PetscFunctionBegin;
@@ -52,13 +51,7 @@ static PetscErrorCode RigidLabelBoundary(DM dm, DMLabel body, PetscInt number, c
     }
   }
   PetscCall(DMGetPointSF(dm, &sf));
-  PetscCall(PetscSFGetGraph(sf, &nroots, NULL, NULL, NULL));
-  if (nroots >= 0) {
-    PetscCall(PetscSFReduceBegin(sf, MPIU_INT, mark, mark, MPI_MAX));
-    PetscCall(PetscSFReduceEnd(sf, MPIU_INT, mark, mark, MPI_MAX));
-    PetscCall(PetscSFBcastBegin(sf, MPIU_INT, mark, mark, MPI_REPLACE));
-    PetscCall(PetscSFBcastEnd(sf, MPIU_INT, mark, mark, MPI_REPLACE));
-  }
+  PetscCall(ValuesReduce(sf, MPIU_INT, MPI_MAX, mark));
   for (PetscInt p = 0; p < npoints; ++p) {
     if (mark[p]) PetscCall(DMLabelSetValue(whole, p, 1));
   }

@@ -1,24 +1,9 @@
 /* The border of a face, and the vertices of a face whose displacement is prescribed. An edge is on the border if only
    one facet of the face, on any rank, has it. */
-#include <petscsf.h>
 #include <string.h>
 #include <mesh.h>
 #include "surfaceimpl.h"
-
-/* Reduces the values of a shared mesh point on all ranks by `op`, and sets the result on all ranks */
-static PetscErrorCode BorderReduceAndShare(PetscSF sf, MPI_Op op, PetscInt value[])
-{
-  PetscInt nroots;
-
-  PetscFunctionBegin;
-  PetscCall(PetscSFGetGraph(sf, &nroots, NULL, NULL, NULL));
-  if (nroots < 0) PetscFunctionReturn(0);
-  PetscCall(PetscSFReduceBegin(sf, MPIU_INT, value, value, op));
-  PetscCall(PetscSFReduceEnd(sf, MPIU_INT, value, value, op));
-  PetscCall(PetscSFBcastBegin(sf, MPIU_INT, value, value, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(sf, MPIU_INT, value, value, MPI_REPLACE));
-  PetscFunctionReturn(0);
-}
+#include "src/mesh/query/queryimpl.h"
 
 /*
    Finds the edge of the mesh between two vertices of a facet. If the facet is a part of a facet of order 2, one of its
@@ -64,11 +49,11 @@ PetscErrorCode ContactSurfaceFindBorder(DM dm, ContactSurface *s)
     if (edge[i] >= 0)
       count[edge[i]] += edge[i] == s->vertex[i] || edge[i] == s->vertex[4 * (i / 4) + (i + 1) % 4] ? 1 : 2;
   }
-  PetscCall(BorderReduceAndShare(sf, MPI_SUM, count));
+  PetscCall(ValuesReduce(sf, MPIU_INT, MPI_SUM, count));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) {
     if (edge[i] >= 0 && count[edge[i]] == 2) ends[s->vertex[i]] = ends[s->vertex[4 * (i / 4) + (i + 1) % 4]] = 1;
   }
-  PetscCall(BorderReduceAndShare(sf, MPI_MAX, ends));
+  PetscCall(ValuesReduce(sf, MPIU_INT, MPI_MAX, ends));
   PetscCall(PetscBTCreate(npoints, &s->rim));
   for (PetscInt v = 0; v < npoints; ++v) {
     if (ends[v]) PetscCall(PetscBTSet(s->rim, v));
@@ -138,7 +123,7 @@ PetscErrorCode ContactSurfaceFindPrescribed(DM dm, PetscInt n, const SceneDispla
 
     if (!d->moves && BorderIsOfBody(d->face, s)) PetscCall(BorderMarkFace(dm, d->face, MPI_BOR, axes, bits));
   }
-  PetscCall(BorderReduceAndShare(sf, MPI_BOR, bits));
+  PetscCall(ValuesReduce(sf, MPIU_INT, MPI_BOR, bits));
   PetscCall(PetscFree(s->prescribed));
   PetscCall(PetscCalloc1(s->nfacets, &s->prescribed));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) s->prescribed[i / 4] |= bits[s->vertex[i]] << 3 * (i % 4);
@@ -177,7 +162,7 @@ PetscErrorCode ContactSurfaceFindMotions(DM dm, PetscInt n, const SceneDisplacem
     if (displacements[k].moves || !displacements[k].fixed[axis] || !BorderIsOfBody(displacements[k].face, s)) continue;
     PetscCall(BorderMarkFace(dm, displacements[k].face, MPI_MAX, BorderFindMotion(displacements, k, axis), marks));
   }
-  PetscCall(BorderReduceAndShare(sf, MPI_MAX, marks));
+  PetscCall(ValuesReduce(sf, MPIU_INT, MPI_MAX, marks));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) motion[i] = marks[s->vertex[i]];
   PetscCall(PetscFree(marks));
   PetscFunctionReturn(0);
@@ -199,7 +184,7 @@ PetscErrorCode ContactSurfaceFindPlanes(DM dm, PetscInt n, const SceneDisplaceme
     if (displacements[k].inclined && !displacements[k].moves && BorderIsOfBody(displacements[k].face, s))
       PetscCall(BorderMarkFace(dm, displacements[k].face, MPI_MAX, k + 1, marks));
   }
-  PetscCall(BorderReduceAndShare(sf, MPI_MAX, marks));
+  PetscCall(ValuesReduce(sf, MPIU_INT, MPI_MAX, marks));
   for (PetscInt i = 0; i < 4 * s->nfacets; ++i) plane[i] = marks[s->vertex[i]];
   PetscCall(PetscFree(marks));
   PetscFunctionReturn(0);

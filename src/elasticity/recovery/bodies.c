@@ -20,10 +20,7 @@ static PetscErrorCode ElasticitySelectApart(Elasticity e, PetscSF sf, PetscBool 
     for (PetscInt i = e->cellstart[c]; remaining[b] && i < e->cellstart[c + 1]; ++i)
       first[e->cellnodes[i]] = PetscMin(first[e->cellnodes[i]], b);
   }
-  PetscCall(PetscSFReduceBegin(sf, MPIU_INT, first, first, MPI_MIN));
-  PetscCall(PetscSFReduceEnd(sf, MPIU_INT, first, first, MPI_MIN));
-  PetscCall(PetscSFBcastBegin(sf, MPIU_INT, first, first, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(sf, MPIU_INT, first, first, MPI_REPLACE));
+  PetscCall(ValuesReduce(sf, MPIU_INT, MPI_MIN, first));
   for (PetscInt c = 0; c < e->ncells; ++c) {
     const PetscInt b = e->cellbody[c];
 

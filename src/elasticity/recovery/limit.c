@@ -62,10 +62,7 @@ PetscErrorCode ElasticityLimitRecovered(Elasticity e, PetscSF sf, const PetscBoo
     largest = LimitOfCell(&cell);
     for (PetscInt a = 0; a < cell.n; ++a) limit[cell.nodes[a]] = PetscMax(limit[cell.nodes[a]], largest);
   }
-  PetscCall(PetscSFReduceBegin(sf, MPIU_REAL, limit, limit, MPIU_MAX));
-  PetscCall(PetscSFReduceEnd(sf, MPIU_REAL, limit, limit, MPIU_MAX));
-  PetscCall(PetscSFBcastBegin(sf, MPIU_REAL, limit, limit, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(sf, MPIU_REAL, limit, limit, MPI_REPLACE));
+  PetscCall(ValuesReduce(sf, MPIU_REAL, MPIU_MAX, limit));
   for (PetscInt c = 0; c < e->ncells; ++c) {
     const PetscInt b = e->cellbody[c];
 

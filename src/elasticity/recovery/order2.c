@@ -311,10 +311,7 @@ static PetscErrorCode QuadraticSum(Elasticity e, PetscSF nodes, const PetscBool 
       QuadraticContinue(&state, number, patches, rank, pass ? sums : NULL);
     }
     if (pass) break;
-    PetscCall(PetscSFReduceBegin(nodes, MPIU_INT, rank, rank, MPI_MAX));
-    PetscCall(PetscSFReduceEnd(nodes, MPIU_INT, rank, rank, MPI_MAX));
-    PetscCall(PetscSFBcastBegin(nodes, MPIU_INT, rank, rank, MPI_REPLACE));
-    PetscCall(PetscSFBcastEnd(nodes, MPIU_INT, rank, rank, MPI_REPLACE));
+    PetscCall(ValuesReduce(nodes, MPIU_INT, MPI_MAX, rank));
   }
   PetscCall(PetscFree(rank));
   PetscCall(ElasticitySumRecords(nodes, sizeof(RecoveredNode) / sizeof(PetscReal), (PetscReal *)sums));

@@ -178,10 +178,7 @@ PetscErrorCode ElasticitySumRecords(PetscSF sf, size_t n, PetscReal *values)
   PetscFunctionBegin;
   PetscCallMPI(MPI_Type_contiguous((PetscMPIInt)n, MPIU_REAL, &record));
   PetscCallMPI(MPI_Type_commit(&record));
-  PetscCall(PetscSFReduceBegin(sf, record, values, values, MPIU_SUM));
-  PetscCall(PetscSFReduceEnd(sf, record, values, values, MPIU_SUM));
-  PetscCall(PetscSFBcastBegin(sf, record, values, values, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(sf, record, values, values, MPI_REPLACE));
+  PetscCall(ValuesReduce(sf, record, MPIU_SUM, values));
   PetscCallMPI(MPI_Type_free(&record));
   PetscFunctionReturn(0);
 }

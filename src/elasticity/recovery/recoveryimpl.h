@@ -3,6 +3,7 @@
 #define RECOVERYIMPL_H
 
 #include "src/elasticity/elements/elementsimpl.h"
+#include "src/mesh/query/queryimpl.h"
 
 /* Displacement gradient (9 values), dilatation and, for laws of finite strain, the stretch U - 1 (xx yy zz xy yz zx) */
 #define RECOVERED_VALUES (ELEMENT_STRAINS + 6)

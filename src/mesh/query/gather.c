@@ -1,6 +1,23 @@
-/* Gathers lists of all ranks, on every rank or on the first one */
+/* Reduces the values of points that ranks share, and gathers lists of all ranks, on every rank or on the first one */
 #include "queryimpl.h"
+#include <petscsf.h>
 #include <rankerror.h>
+
+/* Collective. Reduces the values of each shared point by `op`, and sets the result on all ranks that share it. sf: on
+   one rank without a graph */
+PetscErrorCode ValuesReduce(PetscSF sf, MPI_Datatype type, MPI_Op op, void *values)
+{
+  PetscInt nroots;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSFGetGraph(sf, &nroots, NULL, NULL, NULL));
+  if (nroots < 0) PetscFunctionReturn(0);
+  PetscCall(PetscSFReduceBegin(sf, type, values, values, op));
+  PetscCall(PetscSFReduceEnd(sf, type, values, values, op));
+  PetscCall(PetscSFBcastBegin(sf, type, values, values, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(sf, type, values, values, MPI_REPLACE));
+  PetscFunctionReturn(0);
+}
 
 /*
    Collective. Replaces the records of this rank by those of all ranks, in the order of the ranks. reals: number of real

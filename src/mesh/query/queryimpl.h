@@ -13,7 +13,8 @@
 PETSC_INTERN PetscErrorCode NamesDestroy(PetscInt *n, char ***names);
 PETSC_INTERN PetscErrorCode NamesJoin(PetscInt n, char *const names[], size_t size, char text[]);
 
-/* gather.c: the lists of all ranks, on every rank or on the first one */
+/* gather.c: the values of shared points; the lists of all ranks, on every rank or on the first one */
+PETSC_INTERN PetscErrorCode ValuesReduce(PetscSF, MPI_Datatype, MPI_Op, void *values);
 PETSC_INTERN PetscErrorCode RecordsGather(MPI_Comm, PetscInt reals, PetscInt *n, void *records);
 PETSC_INTERN PetscErrorCode IntegersGather(MPI_Comm, const char what[], PetscInt n, const PetscInt local[],
   PetscMPIInt counts[], PetscMPIInt displs[], PetscInt *total, PetscInt **all);
