@@ -28,7 +28,7 @@ static PetscErrorCode AppCompleteReport(AppOptions *app)
 /* Reads the program's options. With -help and without a scene, the help has been printed already. */
 PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
 {
-  PetscBool helped;
+  PetscBool helped, last = PETSC_FALSE;
 
   PetscFunctionBeginUser;
   PetscCall(PetscMemzero(app, sizeof(*app)));
@@ -38,10 +38,12 @@ PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscCall(PetscOptionsBool("-output_gauss", "Also write the stress at the quadrature points", NULL, app->gauss,
     &app->gauss, NULL));
   app->every = 1;
-  PetscCall(PetscOptionsInt("-output_every",
-    "Keep the fields of every Nth load step and of the last one; 0: of the last", NULL, app->every, &app->every, NULL));
-  PetscCheck(app->every >= 0, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
-    "-output_every must be at least 0, not %" PetscInt_FMT, app->every);
+  PetscCall(PetscOptionsInt("-output_every", "Keep the fields of every Nth load step and of the last one", NULL,
+    app->every, &app->every, NULL));
+  PetscCheck(app->every > 0, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
+    "-output_every must be at least 1, not %" PetscInt_FMT, app->every);
+  PetscCall(PetscOptionsBool("-output_last", "Keep the fields of the last load step alone", NULL, last, &last, NULL));
+  if (last) app->every = 0;
   PetscCall(PetscOptionsInt("-checkpoint_every", "Number of load steps between two checkpoints; 0: none", NULL,
     app->checkpoint_every, &app->checkpoint_every, NULL));
   PetscCheck(app->checkpoint_every >= 0, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,

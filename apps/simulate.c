@@ -55,7 +55,7 @@ static PetscErrorCode AppCreateOutput(const AppOptions *app, Scene scene, Simula
 static PetscErrorCode AppViewFiles(const AppOptions *app)
 {
   PetscFunctionBeginUser;
-  if (app->write || app->summarize) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %-22s", "files"));
+  if (app->write || app->summarize) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  files:"));
   if (app->write) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s.xmf %s.csv", app->output, app->output));
   if (app->summarize) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s", app->summary));
   if (app->page) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s", app->report));

@@ -264,11 +264,23 @@ typedef struct {
   PetscLogDouble time; /* time [s]; NaN: not measured separately, because it is a part of another phase */
 } RunEffect;
 
+/* What a figure belongs to. FIGURE_OF_STRESSED_MODEL: the model in the load step with the largest von Mises stress */
+typedef enum {
+  FIGURE_OF_STRESSED_MODEL,
+  FIGURE_OF_BODY,
+  FIGURE_OF_PAIR,
+  FIGURE_OF_FACE,
+  FIGURE_OF_PLANE, /* symmetry plane */
+  FIGURE_OF_BOLT
+} FigureOwner;
+
 /* A figure that a reader of the results looks for first: the largest value of a quantity over the load steps that
    converged */
 typedef struct {
+  FigureOwner owner;
   const char *quantity;
-  const char *name; /* of the body, pair or face to which the figure belongs; "" for the whole model */
+  const char *column; /* heading of its column in the printed table of its owners; NULL: it is in no table */
+  const char *name;   /* of the body, pair or face to which the figure belongs; "" for the whole model */
   PetscReal   value;
   char        unit[32];      /* in the words of the scene's units; "" if these are unknown, or the figure has no unit */
   PetscReal   place[3];      /* undeformed place [length]; NaN: none */

@@ -386,7 +386,7 @@ def answers(run, symmetric):
          f"{amount(force)} at {html.escape(force['name'].removesuffix('.*'))}{when(run, force)}{part}"
          if force else "There is none."),
         ("area", "How large is the contact area?",
-         "; ".join(f"{html.escape(figure['name'])}: {amount(figure)}" for figure in areas) + part
+         "; ".join(f"{html.escape(figure['name'])}: {amount(figure)}{when(run, figure)}" for figure in areas) + part
          if areas else "There is no contact."),
         ("accuracy", "How accurate is it?", mean or "Not estimated."),
     ]
@@ -402,7 +402,7 @@ def results(run):
     for figure in run["figures"]:
         vectors = [figure[key] for key in ("place", "components") if figure[key][0] is not None]
         name = "-".join(figure["quantity"].replace(",", "").split()) + (f".{figure['name']}" if figure["name"] else "")
-        cells = [figure["quantity"], figure["name"], text(figure["value"]), figure["unit"]]
+        cells = [figure["quantity"], figure["name"].removesuffix(".*"), text(figure["value"]), figure["unit"]]
         cells += [f"({text(vector)})" for vector in vectors] or [""]
         row = "".join(f"<td>{cell if i == 2 else html.escape(str(cell))}</td>" for i, cell in enumerate(cells))
         yield f'<tr id="{html.escape(name)}">{row}<td>{figure["step"]}</td></tr>\n'

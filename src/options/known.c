@@ -40,6 +40,7 @@ static const struct {
   {"output", OPTION_WORD, {NULL}},
   {"output_every", OPTION_COUNT, {NULL}},
   {"output_gauss", OPTION_SWITCH, {NULL}},
+  {"output_last", OPTION_SWITCH, {NULL}},
   {"pc_amgf_amg_lag", OPTION_WORD, {NULL}},
   {"pc_amgf_cycle", OPTION_WORD, {"bfb", "fbf", "additive", NULL}},
   {"pc_amgf_detect", OPTION_NUMBER, {NULL}},

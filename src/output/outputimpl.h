@@ -200,6 +200,9 @@ PETSC_INTERN PetscErrorCode TableViewRows(const RunReport *, ReportTable, const 
 PETSC_INTERN const char    *TableGetText(const RunReport *, ReportTable, const ReportField *, const void *record,
      char text[], size_t length);
 
+/* print_figures.c: prints the largest values of a run */
+PETSC_INTERN PetscErrorCode ReportViewFigures(const RunReport *, PetscViewer);
+
 /* json.c, accuracy.c, print_report.c: their functions are declared in the public header */
 
 #endif

@@ -224,34 +224,6 @@ static PetscErrorCode ViewEffects(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/* Writes a place or the components of a force. Components below 1e-9 of the largest one are written as 0. */
-static void ViewVector(const char before[], const PetscReal v[3], char text[], size_t length)
-{
-  const PetscReal tiny = REPORT_ZERO * PetscMax(PetscAbsReal(v[0]), PetscMax(PetscAbsReal(v[1]), PetscAbsReal(v[2])));
-  double          clean[3];
-
-  for (PetscInt d = 0; d < 3; ++d) clean[d] = PetscAbsReal(v[d]) <= tiny ? 0.0 : (double)v[d];
-  (void)snprintf(text, length, "%s(%.5g, %.5g, %.5g)", before, clean[0], clean[1], clean[2]);
-}
-
-/* Prints a figure; also its load step if there are several */
-static PetscErrorCode ViewFigure(const RunFigure *figure, PetscInt nsteps, PetscViewer viewer)
-{
-  char value[32], vector[96] = ""; /* snprintf() is used because PETSc's formatting would print 0. for 0 */
-
-  PetscFunctionBegin;
-  (void)snprintf(value, sizeof(value), "%.5g", (double)figure->value);
-  if (!PetscIsNanReal(figure->place[0])) ViewVector("at ", figure->place, vector, sizeof(vector));
-  else if (!PetscIsNanReal(figure->components[0])) ViewVector("", figure->components, vector, sizeof(vector));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "  %-22s %-20s %10s", figure->quantity, figure->name, value));
-  if (nsteps > 1)
-    PetscCall(PetscViewerASCIIPrintf(viewer, " %-6s %-36s %" PetscInt_FMT, figure->unit, vector, figure->step));
-  else if (vector[0]) PetscCall(PetscViewerASCIIPrintf(viewer, " %-6s %s", figure->unit, vector));
-  else if (figure->unit[0]) PetscCall(PetscViewerASCIIPrintf(viewer, " %s", figure->unit));
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
-  PetscFunctionReturn(0);
-}
-
 /*@C
    ReportView - Prints the largest values of a run: displacement, stress, plastic strain and safety factor of each body,
    force, pressure and area of each contact pair, reactions, the estimated error, time and memory
@@ -271,17 +243,15 @@ static PetscErrorCode ViewFigure(const RunFigure *figure, PetscInt nsteps, Petsc
 @*/
 PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
 {
-  PetscInt n = 0;
+  const char *units = report->units && report->units[0] ? report->units : NULL;
 
   PetscFunctionBegin;
-  for (PetscInt s = 0; s < report->nsteps; ++s) n += report->steps[s].converged;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\nProblem %s: %s\n", report->problem, report->reason));
-  if (report->units && report->units[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "Units: %s\n", report->units));
-  if (n > 1) PetscCall(PetscViewerASCIIPrintf(viewer, "%-98s%s\n", "Largest values", "in load step"));
-  for (PetscInt f = 0; f < report->nfigures; ++f) PetscCall(ViewFigure(&report->figures[f], n, viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\nProblem %s: %s%s%s%s\n", report->problem, report->reason,
+    units ? " (" : "", units ? units : "", units ? ")" : ""));
+  PetscCall(ReportViewFigures(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer,
-    "  %-22s %.3g s, %.0f MB, %" PetscInt_FMT " unknowns, %" PetscInt_FMT " load step%s, %" PetscInt_FMT " rank%s\n",
-    "time and size", (double)report->time.total, report->peak_memory_bytes / 1e6, report->dofs, report->nsteps,
+    "  %.3g s, %.0f MB, %" PetscInt_FMT " unknowns, %" PetscInt_FMT " load step%s, %" PetscInt_FMT " rank%s\n",
+    (double)report->time.total, report->peak_memory_bytes / 1e6, report->dofs, report->nsteps,
     report->nsteps == 1 ? "" : "s", report->ranks, report->ranks == 1 ? "" : "s"));
   PetscCall(ViewContactFree(report, viewer));
   PetscFunctionReturn(0);

@@ -3,12 +3,10 @@
 #include <math.h>
 #include <vector3.h>
 
-/* OF_STRESSED_MODEL: of the model in the load step with the largest von Mises stress */
-typedef enum { OF_STRESSED_MODEL, OF_BODY, OF_PAIR, OF_FACE, OF_BOLT } FigureOwner;
-
 /* A kind of figure. The offsets are those of members of the owner's report. */
 typedef struct {
   const char *quantity;
+  const char *column; /* heading of a printed table's column; NULL: none */
   FigureOwner owner;
   const char *unit;    /* "L", "F", "L^2", "F/L^2", "%" or "" */
   PetscBool   forces;  /* the value is the length of a force with three components */
@@ -21,20 +19,22 @@ typedef struct {
 static const char von_mises[] = "von Mises stress";
 
 static const FigureKind kinds[] = {
-  {"displacement", OF_BODY, "L", .nonzero = PETSC_TRUE, .value = offsetof(BodyReport, displacement),
-    .place = offsetof(BodyReport, displacement_place)},
-  {von_mises, OF_BODY, "F/L^2", .value = offsetof(BodyReport, von_mises),
+  {"displacement", "displacement", FIGURE_OF_BODY, "L", .nonzero = PETSC_TRUE,
+    .value = offsetof(BodyReport, displacement), .place = offsetof(BodyReport, displacement_place)},
+  {von_mises, "von Mises stress", FIGURE_OF_BODY, "F/L^2", .value = offsetof(BodyReport, von_mises),
     .place = offsetof(BodyReport, von_mises_place)},
-  {"safety against yield", OF_BODY, "", .least = PETSC_TRUE, .value = offsetof(BodyReport, safety)},
-  {"eq. plastic strain", OF_BODY, "", .nonzero = PETSC_TRUE, .value = offsetof(BodyReport, plastic_strain)},
-  {"contact force", OF_PAIR, "F", .forces = PETSC_TRUE, .value = offsetof(PairReport, force)},
-  {"normal force", OF_PAIR, "F", .value = offsetof(PairReport, normal_force)},
-  {"contact pressure", OF_PAIR, "F/L^2", .value = offsetof(PairReport, pressure),
+  {"safety against yield", "safety", FIGURE_OF_BODY, "", .least = PETSC_TRUE, .value = offsetof(BodyReport, safety)},
+  {"eq. plastic strain", "plastic strain", FIGURE_OF_BODY, "", .nonzero = PETSC_TRUE,
+    .value = offsetof(BodyReport, plastic_strain)},
+  {"contact force", "force", FIGURE_OF_PAIR, "F", .forces = PETSC_TRUE, .value = offsetof(PairReport, force)},
+  {"normal force", "normal force", FIGURE_OF_PAIR, "F", .value = offsetof(PairReport, normal_force)},
+  {"contact pressure", "pressure", FIGURE_OF_PAIR, "F/L^2", .value = offsetof(PairReport, pressure),
     .place = offsetof(PairReport, pressure_place)},
-  {"contact area", OF_PAIR, "L^2", .value = offsetof(PairReport, area)},
-  {"reaction", OF_FACE, "F", .forces = PETSC_TRUE, .nonzero = PETSC_TRUE, .value = offsetof(FaceReport, reaction)},
-  {"bolt force", OF_BOLT, "F", .value = offsetof(BoltReport, force)},
-  {"stress error, estimate", OF_STRESSED_MODEL, "%", .value = offsetof(StepReport, error_estimate)},
+  {"contact area", "area", FIGURE_OF_PAIR, "L^2", .value = offsetof(PairReport, area)},
+  {"reaction", "reaction", FIGURE_OF_FACE, "F", .forces = PETSC_TRUE, .nonzero = PETSC_TRUE,
+    .value = offsetof(FaceReport, reaction)},
+  {"bolt force", "force", FIGURE_OF_BOLT, "F", .value = offsetof(BoltReport, force)},
+  {"stress error, estimate", NULL, FIGURE_OF_STRESSED_MODEL, "%", .value = offsetof(StepReport, error_estimate)},
 };
 
 /* Writes the unit of a kind in the words of the scene's units; "" if these are unknown */
@@ -54,10 +54,10 @@ static void FigureSetUnit(const char kind[], const char units[], char unit[], si
 static const char *FigureGetOwners(const StepReport *step, FigureOwner owner, PetscInt *n, size_t *size)
 {
   switch (owner) {
-  case OF_BODY: *n = step->nbodies, *size = sizeof(BodyReport); return (const char *)step->bodies;
-  case OF_PAIR: *n = step->npairs, *size = sizeof(PairReport); return (const char *)step->pairs;
-  case OF_FACE: *n = step->nfaces, *size = sizeof(FaceReport); return (const char *)step->faces;
-  case OF_BOLT: *n = step->nbolts, *size = sizeof(BoltReport); return (const char *)step->bolts;
+  case FIGURE_OF_BODY: *n = step->nbodies, *size = sizeof(BodyReport); return (const char *)step->bodies;
+  case FIGURE_OF_PAIR: *n = step->npairs, *size = sizeof(PairReport); return (const char *)step->pairs;
+  case FIGURE_OF_FACE: *n = step->nfaces, *size = sizeof(FaceReport); return (const char *)step->faces;
+  case FIGURE_OF_BOLT: *n = step->nbolts, *size = sizeof(BoltReport); return (const char *)step->bolts;
   default: *n = 1, *size = 0; return (const char *)step;
   }
 }
@@ -103,11 +103,13 @@ static PetscErrorCode FiguresAdd(const FigureKind *kind, RunReport *run, PetscIn
   RunFigure *figure = &run->figures[run->nfigures];
 
   PetscFunctionBegin;
-  *figure = (RunFigure){.quantity = kind->quantity,
-    .name                         = "",
-    .value                        = NAN,
-    .place                        = {NAN, NAN, NAN},
-    .components                   = {NAN, NAN, NAN}};
+  *figure = (RunFigure){.owner = kind->owner,
+    .quantity                  = kind->quantity,
+    .column                    = kind->column,
+    .name                      = "",
+    .value                     = NAN,
+    .place                     = {NAN, NAN, NAN},
+    .components                = {NAN, NAN, NAN}};
   FigureSetUnit(kind->unit, run->units, figure->unit, sizeof(figure->unit));
   for (PetscInt s = 0; s < run->nsteps; ++s) {
     PetscInt    n;
@@ -115,9 +117,12 @@ static PetscErrorCode FiguresAdd(const FigureKind *kind, RunReport *run, PetscIn
     const char *owners = FigureGetOwners(&run->steps[s], kind->owner, &n, &size);
 
     if (!run->steps[s].converged || i >= n) continue;
-    if (kind->owner == OF_STRESSED_MODEL && run->steps[s].step != FiguresFindStressed(run)) continue;
-    if (kind->owner != OF_STRESSED_MODEL) figure->name = *(const char *const *)(owners + (size_t)i * size);
-    if (kind->owner == OF_FACE && !run->steps[s].faces[i].driven) figure->quantity = "symmetry reaction";
+    if (kind->owner == FIGURE_OF_STRESSED_MODEL && run->steps[s].step != FiguresFindStressed(run)) continue;
+    if (kind->owner != FIGURE_OF_STRESSED_MODEL) figure->name = *(const char *const *)(owners + (size_t)i * size);
+    if (kind->owner == FIGURE_OF_FACE && !run->steps[s].faces[i].driven) {
+      figure->owner    = FIGURE_OF_PLANE;
+      figure->quantity = "symmetry reaction";
+    }
     PetscCall(FigureTake(kind, owners + (size_t)i * size, run->steps[s].step, figure));
   }
   if (!PetscIsNanReal(figure->value)) ++run->nfigures;
@@ -179,7 +184,7 @@ PetscErrorCode FiguresCollect(RunReport *run)
   for (size_t k = 0; k < nkinds; ++k) {
     const PetscInt first = run->nfigures;
 
-    for (PetscInt i = 0; i < (kinds[k].owner == OF_STRESSED_MODEL ? 1 : most); ++i)
+    for (PetscInt i = 0; i < (kinds[k].owner == FIGURE_OF_STRESSED_MODEL ? 1 : most); ++i)
       PetscCall(FiguresAdd(&kinds[k], run, i));
     if (!kinds[k].least) PetscCall(FiguresFindZeros(&kinds[k], run, first));
   }

@@ -77,9 +77,9 @@ int main(int argc, char **argv)
       .reason         = "line \"search\" failed\\\n\tat once"},
   };
   RunFigure figures[] = {
-    {"von Mises stress", "slab", 12.5, "MPa", {1e-20, 0.5, 2}, {NAN, NAN, NAN}, 1},
-    {"reaction", "slab.zmin", 1e300, "N", {NAN, NAN, NAN}, {-1e300, 0, 1e280}, 1},
-    {"stress error, estimate", "", 160, "%", {NAN, NAN, NAN}, {NAN, NAN, NAN}, 2},
+    {FIGURE_OF_BODY, "von Mises stress", "stress", "slab", 12.5, "MPa", {1e-20, 0.5, 2}, {NAN, NAN, NAN}, 1},
+    {FIGURE_OF_FACE, "reaction", "reaction", "slab.zmin", 1e300, "N", {NAN, NAN, NAN}, {-1e300, 0, 1e280}, 1},
+    {FIGURE_OF_STRESSED_MODEL, "stress error, estimate", NULL, "", 160, "%", {NAN, NAN, NAN}, {NAN, NAN, NAN}, 2},
   };
   const char *bodies[]     = {"slab", "block"};
   PetscInt    assemblies[] = {1, 12};

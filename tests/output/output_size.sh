@@ -24,7 +24,7 @@ touch press_abc.h5 press_10.h5 press_0100.h5
 files -output_every 3
 ls press_abc.h5 press_10.h5 press_0100.h5 2> /dev/null
 sed -i 's/steps: 7/steps: 5/' press.yaml
-files -output_every 0
+files -output_last
 sed -i 's/steps: 5/steps: 3/' press.yaml
 files -output_every 2 -checkpoint_every 3
 sed -i 's/steps: 3/steps: 7/' press.yaml
@@ -42,4 +42,4 @@ for name in ("press.h5", "press_checkpoint.h5"):
         file.visititems(lambda _, item: kinds.add(item.dtype.kind + str(item.dtype.itemsize)) if hasattr(item, "dtype")
                         else None)
 print("mesh and checkpoint:", sorted(kinds))'
-run -output_every -1 2>&1
+run -output_every 0 2>&1

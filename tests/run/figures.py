@@ -2,6 +2,7 @@
 import csv
 import math
 import os
+import re
 import sys
 
 sys.path.insert(0, os.path.join(os.environ["AMGF_DIR"], "tests", "lib"))
@@ -46,7 +47,7 @@ displacements:
   - back: {face: block.ymin, value: [free, 0, free]}
   - press: {body: tool, value: [0, 0, -0.01]}
 contact:
-  - touch: {mortar: tool.surface, nonmortar: block.zmax}
+  - pair: {mortar: tool.surface, nonmortar: block.zmax}
 load: {factors: [1, 0.5]}
 """
 
@@ -144,7 +145,7 @@ def hertz(run):
 
 
 def tool(run):
-    force, pressed = figure(run, "contact force", "touch"), figure(run, "contact pressure", "touch")
+    force, pressed = figure(run, "contact force", "pair"), figure(run, "contact pressure", "pair")
     say(
         "tool: moves as the scene says",
         within(figure(run, "displacement", "tool")["value"], 0.01, 1e-12)
@@ -153,8 +154,8 @@ def tool(run):
     say(
         "tool: force, area and pressure",
         within(force["value"], 10, 1e-6) and force["step"] == 1 and within(force["components"][2], -10, 1e-6)
-        and within(pressed["value"], 10, 1e-6) and within(figure(run, "contact area", "touch")["value"], 1, 1e-6)
-        and figure(run, "contact area", "touch")["unit"] == "mm^2", (force, pressed))
+        and within(pressed["value"], 10, 1e-6) and within(figure(run, "contact area", "pair")["value"], 1, 1e-6)
+        and figure(run, "contact area", "pair")["unit"] == "mm^2", (force, pressed))
     say(
         "tool: uniform stress, at the corner that is first in order",
         within(figure(run, "von Mises stress", "block")["value"], 10, 1e-6)
@@ -182,16 +183,69 @@ def bolt(run):
     say("bolt: reaction", within(figure(run, "reaction", "screw.xmin")["value"], 3, 1e-6), run["figures"])
 
 
+# Owner and column of the terminal's tables for each quantity
+COLUMNS = {
+    "displacement": ("body", "displacement"),
+    "von Mises stress": ("body", "von Mises stress"),
+    "safety against yield": ("body", "safety"),
+    "eq. plastic strain": ("body", "plastic strain"),
+    "contact force": ("pair", "force"),
+    "normal force": ("pair", "normal force"),
+    "contact pressure": ("pair", "pressure"),
+    "contact area": ("pair", "area"),
+    "reaction": ("face", "reaction"),
+    "bolt force": ("bolt", "force")
+}
+
+
+def words(vector, tiny):
+    return ", ".join(f"{0 if abs(part) <= tiny else part:.5g}" for part in vector)
+
+
+def table(lines, owner):
+    """{name: {heading: text}} of the terminal's table; a value's place and load step stand under its heading, too"""
+    rows, heads = {}, None
+    for line in lines:
+        cells = re.split("  +", line.strip())
+        if heads and len(cells) == len(heads) and line.startswith("  "):
+            row = rows.setdefault(cells[0], {})
+            for head, cell in zip(heads, cells):
+                key = head if head not in ("at", "components", "step") else key
+                row[key] = (*row.get(key, ()), cell)
+        else:
+            heads = cells if cells[0] == owner else None
+    return rows
+
+
+def said(figure, lines, steps):
+    """Whether the terminal has the figure, with its place or components and its load step"""
+    value, vector = f"{figure['value']:.5g}", figure["components"]
+    if figure["quantity"] == "symmetry reaction":
+        body, face = figure["name"].split(".")
+        rows = [line for line in lines if line.startswith(f"  symmetry reactions {body}: ")]
+        return len(rows) == 1 and f" {face} {value}" in rows[0] and rows[0].endswith(figure["unit"] + "\n")
+    if figure["quantity"].startswith("stress error"):
+        step = f" in load step {figure['step']}" if steps else ""
+        return f"  {figure['quantity']}: {figure['value']:.3g} %{step}\n" in lines
+    owner, column = COLUMNS[figure["quantity"]]
+    column += f" [{figure['unit']}]" if figure["unit"] else ""
+    if figure["place"][0] is not None:
+        vector = figure["place"]
+    expected = [value]
+    if vector[0] is not None:
+        expected.append(f"({words(vector, 1e-9 * max(map(abs, vector)))})")
+        expected += [str(figure["step"])] * steps
+    return table(lines, owner).get(figure["name"].removesuffix(".*"), {}).get(column) == tuple(expected)
+
+
 def terminal(name, run):
     with open(name + ".txt", encoding="utf-8") as file:
-        lines = [line.split() for line in file]
-    missing = [
-        one for one in run["figures"] if not [
-            line for line in lines if line[:len(one["quantity"].split())] == one["quantity"].split()
-            and f"{one['value']:.5g}" in line and (not one["name"] or one["name"] in line)
-        ]
-    ]
+        lines = file.readlines()
+    steps = sum(step["converged"] for step in run["steps"]) > 1
+    missing = [figure for figure in run["figures"] if not said(figure, lines, steps)]
     say(name + ": the terminal has the figures of the summary", not missing, missing)
+    end = len(lines) - next(k for k, line in enumerate(lines) if line.startswith("Problem "))
+    say(name + ": at most a dozen lines", end <= 12, lines[-end:])
 
 
 def history(name, run):

@@ -1,0 +1,178 @@
+/* Prints the largest values of a run: a table of the bodies, one of the pairs, one of the faces, one of the bolts */
+#include "outputimpl.h"
+#include "src/report/reportimpl.h"
+
+#define CELL 96 /* longest text of a cell, with its end */
+
+/* A table of texts. The first row is the heading, the first column has the names. */
+typedef struct {
+  PetscInt nrows, ncolumns;
+  char (*cells)[CELL];
+} FigureTable;
+
+static const char place_heading[] = "at", components_heading[] = "components";
+
+static char *FigureTableCell(const FigureTable *table, PetscInt row, PetscInt column)
+{
+  return table->cells[row * table->ncolumns + column];
+}
+
+/* Writes a place or the components of a force. Components below 1e-9 of the largest one are written as 0. */
+static void FigureWriteVector(const PetscReal v[3], char text[CELL])
+{
+  const PetscReal tiny = REPORT_ZERO * PetscMax(PetscAbsReal(v[0]), PetscMax(PetscAbsReal(v[1]), PetscAbsReal(v[2])));
+  double          clean[3];
+
+  for (PetscInt d = 0; d < 3; ++d) clean[d] = PetscAbsReal(v[d]) <= tiny ? 0.0 : (double)v[d];
+  (void)snprintf(text, CELL, "(%.5g, %.5g, %.5g)", clean[0], clean[1], clean[2]);
+}
+
+/* Writes the name of a body, pair or face; that of a rigid body as a whole, BODY.*, without the end */
+static void FigureWriteName(const char name[], char text[CELL])
+{
+  const char *end = strstr(name, ".*");
+
+  (void)snprintf(text, CELL, "%.*s", end ? (int)(end - name) : CELL, name);
+}
+
+/* Returns the number of the text in the heading or among the names, of which there are n - 1, or n if there is none */
+static PetscInt FigureTableFind(const FigureTable *table, PetscBool row, const char text[], PetscInt n)
+{
+  PetscInt i = 1;
+
+  while (i < n && strcmp(row ? FigureTableCell(table, 0, i) : FigureTableCell(table, i, 0), text)) ++i;
+  return i;
+}
+
+/* Writes a figure to its row and columns: its value, place or components, and load step if there are several */
+static PetscErrorCode FigureTableAdd(FigureTable *table, const RunFigure *figure, PetscBool steps, PetscInt *nrows,
+  PetscInt *ncolumns)
+{
+  const PetscReal *vector = PetscIsNanReal(figure->place[0]) ? figure->components : figure->place;
+  char             heading[CELL], name[CELL];
+  PetscInt         row, column;
+
+  PetscFunctionBegin;
+  (void)snprintf(heading, CELL, figure->unit[0] ? "%s [%s]" : "%s", figure->column, figure->unit);
+  FigureWriteName(figure->name, name);
+  column = FigureTableFind(table, PETSC_TRUE, heading, *ncolumns);
+  row    = FigureTableFind(table, PETSC_FALSE, name, *nrows);
+  (void)snprintf(FigureTableCell(table, 0, column), CELL, "%s", heading);
+  (void)snprintf(FigureTableCell(table, row, 0), CELL, "%s", name);
+  (void)snprintf(FigureTableCell(table, row, column), CELL, "%.5g", (double)figure->value);
+  *nrows    = PetscMax(*nrows, row + 1);
+  *ncolumns = PetscMax(*ncolumns, column + 1);
+  if (PetscIsNanReal(vector[0])) PetscFunctionReturn(0);
+  (void)snprintf(FigureTableCell(table, 0, column + 1), CELL, "%s",
+    vector == figure->place ? place_heading : components_heading);
+  FigureWriteVector(vector, FigureTableCell(table, row, column + 1));
+  if (steps) {
+    (void)snprintf(FigureTableCell(table, 0, column + 2), CELL, "step");
+    (void)snprintf(FigureTableCell(table, row, column + 2), CELL, "%" PetscInt_FMT, figure->step);
+  }
+  *ncolumns = PetscMax(*ncolumns, column + (steps ? 3 : 2));
+  PetscFunctionReturn(0);
+}
+
+/* Returns true if a column has names, places or components, which are aligned to the left */
+static PetscBool FigureTableIsLeft(const FigureTable *table, PetscInt column)
+{
+  const char *heading = FigureTableCell(table, 0, column);
+
+  return (PetscBool)(!column || !strcmp(heading, place_heading) || !strcmp(heading, components_heading));
+}
+
+/* Prints a table whose columns are as wide as their texts */
+static PetscErrorCode FigureTableView(const FigureTable *table, PetscInt nrows, PetscInt ncolumns, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  for (PetscInt row = 0; row < nrows; ++row) {
+    for (PetscInt column = 0; column < ncolumns; ++column) {
+      const char     *text  = FigureTableCell(table, row, column);
+      const PetscBool left  = FigureTableIsLeft(table, column);
+      int             width = 0;
+
+      for (PetscInt i = 0; i < nrows; ++i) width = PetscMax(width, (int)strlen(FigureTableCell(table, i, column)));
+      if (left && column == ncolumns - 1) width = 0;
+      PetscCall(PetscViewerASCIIPrintf(viewer, "  %*s", left ? -width : width, text[0] ? text : "-"));
+    }
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Prints the figures of an owner as a table; nothing if there are none. heading: what the owners are. */
+static PetscErrorCode FiguresViewTable(const RunReport *report, FigureOwner owner, const char heading[],
+  PetscBool steps, PetscViewer viewer)
+{
+  FigureTable table = {.nrows = 1, .ncolumns = 1};
+  PetscInt    nrows = 1, ncolumns = 1;
+
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < report->nfigures; ++f) {
+    if (report->figures[f].owner != owner) continue;
+    ++table.nrows;
+    table.ncolumns += 3;
+  }
+  if (table.nrows == 1) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(table.nrows * table.ncolumns, &table.cells));
+  (void)snprintf(FigureTableCell(&table, 0, 0), CELL, "%s", heading);
+  for (PetscInt f = 0; f < report->nfigures; ++f) {
+    if (report->figures[f].owner == owner)
+      PetscCall(FigureTableAdd(&table, &report->figures[f], steps, &nrows, &ncolumns));
+  }
+  PetscCall(FigureTableView(&table, nrows, ncolumns, viewer));
+  PetscCall(PetscFree(table.cells));
+  PetscFunctionReturn(0);
+}
+
+/* Prints the reactions of the symmetry planes, a row a body */
+static PetscErrorCode FiguresViewPlanes(const RunReport *report, PetscViewer viewer)
+{
+  const RunFigure *figures = report->figures;
+
+  PetscFunctionBegin;
+  for (PetscInt f = 0; f < report->nfigures; ++f) {
+    const size_t n     = strcspn(figures[f].name, ".") + 1; /* the body's name and the point */
+    PetscInt     first = 0;
+
+    if (figures[f].owner != FIGURE_OF_PLANE) continue;
+    while (figures[first].owner != FIGURE_OF_PLANE || strncmp(figures[first].name, figures[f].name, n)) ++first;
+    if (first < f) continue;
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  symmetry reactions %.*s:", (int)n - 1, figures[f].name));
+    for (PetscInt g = f; g < report->nfigures; ++g) {
+      char value[32];
+
+      if (figures[g].owner != FIGURE_OF_PLANE || strncmp(figures[g].name, figures[f].name, n)) continue;
+      (void)snprintf(value, sizeof(value), "%.5g", (double)figures[g].value);
+      PetscCall(PetscViewerASCIIPrintf(viewer, "%s %s %s", g > f ? "," : "", figures[g].name + n, value));
+    }
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s\n", figures[f].unit[0] ? " " : "", figures[f].unit));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Prints the largest values of the load steps that converged. */
+PetscErrorCode ReportViewFigures(const RunReport *report, PetscViewer viewer)
+{
+  PetscInt  n = 0;
+  PetscBool steps;
+
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < report->nsteps; ++s) n += report->steps[s].converged;
+  steps = (PetscBool)(n > 1);
+  PetscCall(FiguresViewTable(report, FIGURE_OF_BODY, "body", steps, viewer));
+  PetscCall(FiguresViewTable(report, FIGURE_OF_PAIR, "pair", steps, viewer));
+  PetscCall(FiguresViewTable(report, FIGURE_OF_FACE, "face", steps, viewer));
+  PetscCall(FiguresViewTable(report, FIGURE_OF_BOLT, "bolt", steps, viewer));
+  PetscCall(FiguresViewPlanes(report, viewer));
+  for (PetscInt f = 0; f < report->nfigures; ++f) {
+    const RunFigure *figure = &report->figures[f];
+
+    if (figure->owner != FIGURE_OF_STRESSED_MODEL) continue;
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %.3g %s", figure->quantity, (double)figure->value, figure->unit));
+    if (steps) PetscCall(PetscViewerASCIIPrintf(viewer, " in load step %" PetscInt_FMT, figure->step));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+  }
+  PetscFunctionReturn(0);
+}
