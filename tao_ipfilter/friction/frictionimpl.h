@@ -131,7 +131,7 @@ typedef struct {
   PetscBool            divides;      /* whether the load may grow in parts: the bodies are linear */
 } ContactStick;
 
-PETSC_INTERN PetscErrorCode ContactsHaveHeld(const Contacts *, PetscBool *some, PetscBool *alone);
+PETSC_INTERN PetscErrorCode ContactsHaveHeld(const Contacts *, PetscBool *some, PetscBool *exact);
 PETSC_INTERN PetscErrorCode StickBegin(Contacts *, const ContactBodies *, PetscBool linear, ContactStick *);
 PETSC_INTERN PetscErrorCode StickIterate(ContactStick *, PetscBool *settled, PetscBool *solved);
 PETSC_INTERN PetscErrorCode StickUpdate(Contacts *, PetscInt *released, PetscInt *held);

@@ -196,7 +196,7 @@ static PetscErrorCode IterationEnterCones(ContactIteration *it, PetscBool *done)
 PetscErrorCode ContactIterationBegin(Contacts *c, ContactBodies bodies, PetscBool linear, ContactIteration *it)
 {
   PetscReal largest = 0.0;
-  PetscBool alone;
+  PetscBool exact;
 
   PetscFunctionBegin;
   PetscCall(ContactIterationEnd(it));
@@ -207,10 +207,10 @@ PetscErrorCode ContactIterationBegin(Contacts *c, ContactBodies bodies, PetscBoo
   for (PetscInt r = 0; r < 3 * c->n; r++) largest = PetscMax(largest, PetscAbsReal(c->f[r]));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, c->comm));
   it->cold = (PetscBool)(largest == 0.0);
-  PetscCall(ContactsHaveHeld(c, &it->sticks, &alone));
+  PetscCall(ContactsHaveHeld(c, &it->sticks, &exact));
   if (!it->sticks) PetscFunctionReturn(0);
   PetscCall(StickBegin(c, &it->bodies, linear, &it->stick));
-  if (alone) it->phase = CONTACT_HELD;
+  if (exact) it->phase = CONTACT_HELD;
   PetscFunctionReturn(0);
 }
 

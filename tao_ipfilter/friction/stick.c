@@ -11,16 +11,21 @@
    so that these do not decide what is held where forces almost vanish.
 */
 #include "frictionimpl.h"
+#include "tao_ipfilter/solver/constants.h"
 
 static PetscBool ContactSticks(const Contacts *c, PetscInt i)
 {
   return (PetscBool)(c->law[i] == CONTACT_STICKS && c->coefficient[i] > 0.0);
 }
 
-/* Finds whether contacts stick while they are closed, and whether all others are without friction */
-PetscErrorCode ContactsHaveHeld(const Contacts *c, PetscBool *some, PetscBool *alone)
+/*
+   Finds whether contacts stick while they are closed, and whether their normal laws can be solved exactly: all others
+   are without friction, and no dense matrix of the contacts is large
+*/
+PetscErrorCode ContactsHaveHeld(const Contacts *c, PetscBool *some, PetscBool *exact)
 {
   PetscBool both[2] = {PETSC_FALSE, PETSC_FALSE};
+  PetscInt  n       = c->n;
 
   PetscFunctionBegin;
   for (PetscInt i = 0; i < c->n; i++) {
@@ -28,8 +33,9 @@ PetscErrorCode ContactsHaveHeld(const Contacts *c, PetscBool *some, PetscBool *a
     if (c->law[i] != CONTACT_STICKS && c->law[i] != CONTACT_SMOOTH) both[1] = PETSC_TRUE;
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, both, 2, MPI_PETSCBOOL, MPI_LOR, c->comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPIU_INT, MPI_SUM, c->comm));
   *some  = both[0];
-  *alone = (PetscBool)!both[1];
+  *exact = (PetscBool)(!both[1] && n <= IP_DENSE_ROWS);
   PetscFunctionReturn(0);
 }
 
