@@ -155,7 +155,6 @@ int main(int argc, char **argv)
   ierr = PetscLogDefaultBegin();
   if (!ierr) ierr = word ? AppSayText(word) : AppRun(argc, argv, &error, &page, &end);
   if (ierr) AppLeave(&error);
-  (void)PetscPopErrorHandler();
   MPI_Comm_free(&error.meeting);
   if (fflush(stdout) || ferror(stdout)) {
     fprintf(stderr, "contact: error: cannot print: %s\n", strerror(errno));

@@ -177,6 +177,7 @@ static PetscErrorCode FactorsByCholmod(Mat A, const char prefix[], Mat *F, Petsc
   PetscErrorCode code;
   MatFactorInfo  info;
   MatFactorError error;
+  PetscLogEvent  event;
 
   PetscFunctionBegin;
   PetscCall(FactorsCopyUpper(A, &upper));
@@ -185,6 +186,10 @@ static PetscErrorCode FactorsByCholmod(Mat A, const char prefix[], Mat *F, Petsc
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
   code = MatCholeskyFactorNumeric(*F, upper.U, &info);
   PetscCall(PetscPopErrorHandler());
+  if (code) { /* PETSc has not ended its event */
+    PetscCall(PetscLogEventGetId("MatCholFctrNum", &event));
+    PetscCall(PetscLogEventEnd(event, A, *F, NULL, NULL));
+  }
   *definite = (PetscBool)!code;
   PetscCall(FactorsDestroyUpper(&upper));
   PetscFunctionReturn(0);
