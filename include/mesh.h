@@ -55,6 +55,9 @@ PETSC_EXTERN PetscErrorCode MeshMarksDestroy(MeshMarks *);
    row of a hanging vertex has the weights of the vertices whose mean it is. *means: NULL if no vertex hangs */
 PETSC_EXTERN PetscErrorCode MeshGetHanging(DM, Mat *means);
 PETSC_EXTERN PetscErrorCode MeshCountHanging(DM, PetscInt *n);
+/* The same of all nodes that depend on others: hanging vertices, and nodes in the middle of serendipity hexahedra and
+   of their sides */
+PETSC_EXTERN PetscErrorCode MeshGetDependent(DM, Mat *dependent);
 /* Marks the boundary facets of the bodies on this rank */
 PETSC_EXTERN PetscErrorCode MeshMarkBoundary(DM, PetscBool boundary[]);
 /* Checks the parameters of the shape, or that the mesh file contains the volume; checks the body's parts of faces */

@@ -147,12 +147,13 @@ typedef struct {
   ElementType  element;
   PetscInt     order; /* polynomial order of the displacements in a cell, 1 or 2; 0: the default, 1 for hexahedra and 2
                       for tetrahedra */
-  PetscReal    grading[3]; /* size of the last cell divided by that of the first, in three directions; 0 stands for 1.
+  PetscBool    serendipity; /* hexahedra of order 2 have 20 nodes instead of 27 */
+  PetscReal    grading[3];  /* size of the last cell divided by that of the first, in three directions; 0 stands for 1.
                            Directions of box and octants: the axes; of tube_arc: those of `cells`; of half_ellipse: the
                            depth and the width of the core of its mesh, and the radius in the ring around the core */
-  PetscInt     even[3];    /* number of equal cells at the fine end of each grading; 0 stands for 1 */
-  PetscInt     layers;     /* number of cells along the axis (half_ellipse) or through the shell (octants) */
-  PetscBool    curved;     /* refinement puts new vertices on the shape's curved surfaces; false: on the facets of level
+  PetscInt     even[3];     /* number of equal cells at the fine end of each grading; 0 stands for 1 */
+  PetscInt     layers;      /* number of cells along the axis (half_ellipse) or through the shell (octants) */
+  PetscBool    curved; /* refinement puts new vertices on the shape's curved surfaces; false: on the facets of level
                            0 */
   SceneTubeArc tube;
   SceneHalfEllipse ellipse;

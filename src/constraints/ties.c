@@ -25,7 +25,7 @@ static PetscErrorCode TiesCreateHanging(const Constraints *c, const PetscBool pr
 
   PetscFunctionBegin;
   *C = NULL;
-  PetscCall(MeshGetHanging(c->bodies.dm, &means));
+  PetscCall(MeshGetDependent(c->bodies.dm, &means));
   if (!means) PetscFunctionReturn(0);
   PetscCall(MatGetOwnershipRange(means, &start, &end));
   PetscCall(PetscMalloc1(end - start, &hangs));
@@ -62,19 +62,18 @@ static PetscErrorCode TiesApplyNext(Mat A, Mat *C)
 /*
    Computes C of all constraints except equations. Tied nodes may depend on nodes on symmetry planes, on hanging
    vertices and on nodes of the second face of a cyclic symmetry, and may be such nodes themselves. Hanging vertices may
-   lie between nodes on planes. Therefore x is first multiplied by the matrix of the planes, then by that of hanging
-   vertices, then by that of cyclic symmetries. All three follow once more after the ties.
+   lie between nodes on planes and nodes of cyclic symmetries. Therefore x is first multiplied by the matrix of the
+   planes, then by that of cyclic symmetries, then by that of hanging vertices, and once more by that of cyclic
+   symmetries, whose second faces may have hanging vertices. All follow once more after the ties.
 */
 static PetscErrorCode TiesCompose(Mat joints, Mat planes, Mat cyclic, Mat hanging, Mat *C)
 {
   PetscFunctionBegin;
   *C = NULL;
-  PetscCall(TiesApplyNext(planes, C));
-  PetscCall(TiesApplyNext(hanging, C));
-  PetscCall(TiesApplyNext(cyclic, C));
-  if (joints) {
-    PetscCall(TiesApplyNext(joints, C));
+  for (PetscInt k = 0; k < (joints ? 2 : 1); ++k) {
+    if (k) PetscCall(TiesApplyNext(joints, C));
     PetscCall(TiesApplyNext(planes, C));
+    if (hanging) PetscCall(TiesApplyNext(cyclic, C));
     PetscCall(TiesApplyNext(hanging, C));
     PetscCall(TiesApplyNext(cyclic, C));
   }

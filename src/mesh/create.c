@@ -148,6 +148,7 @@ static PetscErrorCode MeshFinish(PetscInt nbodies, const SceneBody bodies[], con
   PetscCall(MeshCurvesDestroy(curves));
   PetscCall(MeshHangingFinish(dm, hanging));
   PetscCall(MeshHangingPlace(dm));
+  PetscCall(MeshSerendipityFinish(dm, nbodies, bodies));
   PetscCall(MeshUpdateVertices(dm));
   PetscCall(MeshCheckCells(dm, nbodies, bodies, PETSC_TRUE));
   PetscCall(MeshTrimLabels(dm));

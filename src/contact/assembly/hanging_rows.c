@@ -2,6 +2,8 @@
    The rows of hanging vertices. On the nonmortar face the displacement of a hanging vertex is the mean of the
    displacements of 2 or 4 other vertices, and its multiplier is the mean of theirs. The sums of its row, in which phi_A
    is its bilinear function, are added to the rows of those vertices with weights 1/2 or 1/4. Its own row becomes empty.
+   So does that of the node in the middle of a serendipity facet, whose multiplier is the mean of those in the middle of
+   the four edges.
 */
 #include <mesh.h>
 #include "assemblyimpl.h"
@@ -67,7 +69,8 @@ static PetscErrorCode HangingRowsGather(Mat means, Vec number, Vec *gathered)
 }
 
 /* Fills the matrix that distributes the rows of a pair. An ordinary row has the entry 1 on the diagonal. The row of a
-   hanging vertex has the weights of the vertices on which it depends, if all of these have a row. */
+   hanging vertex has the weights of the vertices on which it depends, if all of these have a row. Negative weights
+   count as 0, and the others are scaled to the sum 1. */
 static PetscErrorCode HangingRowsFill(Mat means, Vec number, Vec gathered, Mat share)
 {
   PetscInt           start, end, k = 0;
@@ -81,13 +84,20 @@ static PetscErrorCode HangingRowsFill(Mat means, Vec number, Vec gathered, Mat s
     const PetscInt     row = (PetscInt)PetscRealPart(own[i - start]) - 1;
     PetscInt           n;
     const PetscScalar *weight;
+    PetscReal          sum = 0.0;
     PetscBool          all = PETSC_TRUE;
 
     PetscCall(MatGetRow(means, i, &n, NULL, &weight));
-    for (PetscInt j = 0; j < n; ++j) all = (PetscBool)(all && PetscRealPart(to[k + j]) > 0.0);
+    for (PetscInt j = 0; j < n; ++j) {
+      if (PetscRealPart(weight[j]) < 0.0) continue;
+      all = (PetscBool)(all && PetscRealPart(to[k + j]) > 0.0);
+      sum += PetscRealPart(weight[j]);
+    }
     if (row >= 0 && !(n && all)) PetscCall(MatSetValue(share, row, row, 1.0, INSERT_VALUES));
-    for (PetscInt j = 0; row >= 0 && all && j < n; ++j)
-      PetscCall(MatSetValue(share, row, (PetscInt)PetscRealPart(to[k + j]) - 1, weight[j], INSERT_VALUES));
+    for (PetscInt j = 0; row >= 0 && all && j < n; ++j) {
+      if (PetscRealPart(weight[j]) < 0.0) continue;
+      PetscCall(MatSetValue(share, row, (PetscInt)PetscRealPart(to[k + j]) - 1, weight[j] / sum, INSERT_VALUES));
+    }
     k += n;
     PetscCall(MatRestoreRow(means, i, &n, NULL, &weight));
   }
@@ -115,7 +125,7 @@ PetscErrorCode ContactHangingRowsCreate(Contact contact)
   Vec          number, gathered;
 
   PetscFunctionBegin;
-  PetscCall(MeshGetHanging(contact->dm, &means));
+  PetscCall(MeshGetDependent(contact->dm, &means));
   PetscCall(PetscObjectReference((PetscObject)rows->mass));
   rows->weight = rows->mass;
   if (!means) PetscFunctionReturn(0);

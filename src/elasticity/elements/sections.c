@@ -20,7 +20,7 @@ static PetscErrorCode SectionHang(Elasticity e, Vec beyond)
   const PetscScalar *m;
 
   PetscFunctionBegin;
-  PetscCall(MeshGetHanging(e->dm, &means));
+  PetscCall(MeshGetDependent(e->dm, &means));
   if (!means) PetscFunctionReturn(0);
   PetscCall(MatCreateVecs(means, &node, &mean));
   PetscCall(MatGetOwnershipRange(means, &start, &end));

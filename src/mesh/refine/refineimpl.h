@@ -64,6 +64,9 @@ PETSC_INTERN PetscErrorCode MeshHangingDistribute(PetscSF, DM before, MeshHangin
 PETSC_INTERN PetscErrorCode MeshHangingFinish(DM, MeshHanging *);
 PETSC_INTERN PetscErrorCode MeshHangingPlace(DM);
 
+/* serendipity.c: hexahedra of 20 nodes */
+PETSC_INTERN PetscErrorCode MeshSerendipityFinish(DM, PetscInt nbodies, const SceneBody[]);
+
 /* refine_marked.c: refines the cells that were marked on earlier meshes */
 PETSC_INTERN PetscErrorCode MeshNumberCells(DM, const MeshHanging *);
 PETSC_INTERN PetscErrorCode MeshHexesRefineMarks(const MeshMarks *, DM, const SceneBody[], const MeshCurves *,

@@ -5,7 +5,7 @@
 
 static PetscErrorCode SceneRefuseOfRigid(SceneKeys keys, const char owner[])
 {
-  static const char *const elastic[] = {"young", "poisson", "element", "order"};
+  static const char *const elastic[] = {"young", "poisson", "element", "order", "serendipity"};
   PetscBool                has;
 
   PetscFunctionBegin;
@@ -42,6 +42,8 @@ PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], 
   PetscCall(SceneReadRows(keys, scene, owner, keys->list->rows, "elastic", body));
   PetscCall(SceneHasKey(keys, owner, "order", &listed));
   if (listed && !body->order) PetscCall(SceneKeysError(keys, owner, NULL, "has order = 0, which must be 1 or 2"));
+  if (body->serendipity && body->order != 2)
+    PetscCall(SceneKeysError(keys, owner, NULL, "has serendipity: true, which needs order: 2"));
   PetscFunctionReturn(0);
 }
 

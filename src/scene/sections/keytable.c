@@ -93,6 +93,8 @@ static const SceneKey body_rows[] = {
   INTS("order", "elastic", 1, SceneBody, order, OPTIONAL, "1 for hexahedra, 2 for tetrahedra",
     "polynomial order of the displacements in a cell, 1 or 2. Hexahedra of order 2 have 27 nodes, tetrahedra 10; they "
     "are curved as the surface is"),
+  ANSWER("serendipity", "elastic", SceneBody, serendipity, "`false`",
+    "`true`: hexahedra of order 2 have 20 nodes, as those of decks, in place of 27. They are less accurate"),
   REALS("initial_velocity", NULL, 3, SceneBody, velocity, OPTIONAL, ANY, "L/T", "0",
     "velocity at time 0, only in `dynamics`"),
   REALS("initial_spin", NULL, 3, SceneBody, spin, OPTIONAL, ANY, "1/T", "0",

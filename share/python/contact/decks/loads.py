@@ -57,6 +57,8 @@ def body_entries(deck, bodies, mesh_file, names, laws):
         kinds = {bodies.kind(cell) for cell in bodies.cells[body]}
         keys = {"mesh": mesh_file, "volume": name, "material": names[bodies.materials[body]]}
         keys["order"] = max(KINDS[kind].order if kind in KINDS else 1 for kind in kinds)
+        if "hexahedron20" in kinds:
+            keys["serendipity"] = "true"
         if body in velocity:
             keys["initial_velocity"] = velocity[body]
         found.append((name, keys))
