@@ -12,7 +12,8 @@ typedef struct {
   PetscInt  checkpoint_every; /* number of load steps from one checkpoint to the next; 0: a checkpoint is written
                                  only if a signal ends the run */
   PetscInt  every;            /* fields are kept of every Nth load step, and of the last one; 0: of the last one */
-  PetscBool write, gauss, restarts, summarize, contact_free, tables, check, quiet, page;
+  PetscBool write, gauss, restarts, summarize, contact_free, tables, check, quiet, page,
+    vtk; /* the fields are also written as files of VTK */
 } AppOptions;
 
 /* State of main() for the handling of errors */

@@ -52,15 +52,17 @@ static PetscErrorCode AppLeaveUnusedOptions(void)
   PetscFunctionReturn(0);
 }
 
-/* Collects what the HTML page needs while MPI is still available. Only the first rank makes the page. */
+/* Collects what the scripts need that make the HTML page and the files of VTK, while MPI is still available. The first
+   rank runs them. */
 static PetscErrorCode AppDescribePage(const AppOptions *app, int argc, char **argv, ReportPage *page)
 {
   PetscMPIInt rank;
 
   PetscFunctionBeginUser;
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &rank));
-  if (!app->page || rank > 0) PetscFunctionReturn(0);
-  PetscCall(PetscStrncpy(page->file, app->report, sizeof(page->file)));
+  if (!(app->page || app->vtk) || rank > 0) PetscFunctionReturn(0);
+  if (app->page) PetscCall(PetscStrncpy(page->file, app->report, sizeof(page->file)));
+  if (app->vtk) PetscCall(PetscSNPrintf(page->vtk, sizeof(page->vtk), "%s.pvd", app->output));
   PetscCall(PetscStrncpy(page->base, app->output, sizeof(page->base)));
   PetscCall(PetscStrncpy(page->summary, app->summary, sizeof(page->summary)));
   PetscCall(PetscStrncpy(page->scene, app->scene, sizeof(page->scene)));
@@ -72,11 +74,14 @@ static PetscErrorCode AppDescribePage(const AppOptions *app, int argc, char **ar
   PetscFunctionReturn(0);
 }
 
-/* Makes the HTML page after the run. If that fails, a message says why; the exit code of the run is unchanged. */
+/* Makes the files of VTK and the HTML page after the run. If that fails, a message says why; the exit code of the run
+   is unchanged. */
 static void AppMakePage(const ReportPage *page)
 {
   char sentence[512];
 
+  if (page->vtk[0] && OutputMakeVTK(page, sentence, sizeof(sentence)))
+    fprintf(stderr, "contact: cannot write %s: %s\n", page->vtk, sentence);
   if (page->file[0] && ReportPageMake(page, sentence, sizeof(sentence)))
     fprintf(stderr, "contact: cannot write the page %s: %s\n", page->file, sentence);
 }

@@ -2,6 +2,15 @@
 #include "appsimpl.h"
 #include <string.h>
 
+/* Splits the name BASE.pvd of -output, which asks for files of VTK, too */
+static PetscErrorCode AppCompleteOutput(AppOptions *app)
+{
+  PetscFunctionBeginUser;
+  PetscCall(PetscStrendswith(app->output, ".pvd", &app->vtk));
+  if (app->vtk) app->output[strlen(app->output) - strlen(".pvd")] = '\0';
+  PetscFunctionReturn(0);
+}
+
 /*
    Completes the options for -report. An HTML page needs fields and a summary. If the user has not named files for them,
    their names are derived from that of the page.
@@ -33,8 +42,8 @@ PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscFunctionBeginUser;
   PetscCall(PetscMemzero(app, sizeof(*app)));
   PetscOptionsBegin(PETSC_COMM_WORLD, NULL, "Contact", NULL);
-  PetscCall(PetscOptionsString("-output", "Base name of the HDF5, XDMF and CSV files", NULL, app->output, app->output,
-    sizeof(app->output), &app->write));
+  PetscCall(PetscOptionsString("-output", "Base name of the HDF5, XDMF and CSV files; BASE.pvd: also of files of VTK",
+    NULL, app->output, app->output, sizeof(app->output), &app->write));
   PetscCall(PetscOptionsBool("-output_gauss", "Also write the stress at the quadrature points", NULL, app->gauss,
     &app->gauss, NULL));
   app->every = 1;
@@ -69,6 +78,7 @@ PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
   PetscCall(PetscOptionsHasHelp(NULL, &helped));
   PetscCheck(app->scene[0] || helped, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
     "no scene given; usage: contact SCENE.yaml [options], see contact -help");
+  PetscCall(AppCompleteOutput(app));
   PetscCall(AppCompleteReport(app));
   PetscFunctionReturn(0);
 }

@@ -57,6 +57,7 @@ static PetscErrorCode AppViewFiles(const AppOptions *app)
   PetscFunctionBeginUser;
   if (app->write || app->summarize) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  files:"));
   if (app->write) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s.xmf %s.csv", app->output, app->output));
+  if (app->vtk) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s.pvd", app->output));
   if (app->summarize) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s", app->summary));
   if (app->page) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s", app->report));
   if (app->write || app->summarize) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "\n"));

@@ -25,16 +25,19 @@ typedef struct {
 
 PETSC_EXTERN PetscErrorCode OutputCheckDistinct(MPI_Comm, PetscInt n, const OutputFile[], const char base[]);
 
-/* Data for the HTML page of a run */
+/* Data for the HTML page of a run, and for its files for programs that do not read XDMF */
 typedef struct {
-  char file[PETSC_MAX_PATH_LEN]; /* the page */
+  char file[PETSC_MAX_PATH_LEN]; /* the page; "": none */
+  char vtk[PETSC_MAX_PATH_LEN];  /* the list of the files of VTK; "": none */
   char base[PETSC_MAX_PATH_LEN]; /* base name of the fields' files */
   char summary[PETSC_MAX_PATH_LEN], scene[PETSC_MAX_PATH_LEN];
   char command[4096], versions[512];
 } ReportPage;
 
 PETSC_EXTERN PetscErrorCode ReportPageCheck(MPI_Comm, const char file[]);
+PETSC_EXTERN PetscErrorCode OutputCheckVTK(MPI_Comm, const char file[]);
 PETSC_EXTERN int            ReportPageMake(const ReportPage *, char sentence[], size_t length);
+PETSC_EXTERN int            OutputMakeVTK(const ReportPage *, char sentence[], size_t length);
 PETSC_EXTERN PetscErrorCode ReportWriteJSON(MPI_Comm, const RunReport *, const char file[]);
 PETSC_EXTERN PetscErrorCode ReportView(const RunReport *, PetscViewer);
 PETSC_EXTERN PetscErrorCode ReportViewTables(const RunReport *, PetscViewer);

@@ -121,12 +121,10 @@ def distance(name, points):
 
 
 def paraview(run):
-    """The files of contact-mesh: surfaces instead of cubes, displaced as the tools are"""
-    from contact import vtu
+    """The files of -output tools.pvd: surfaces instead of cubes, displaced as the tools are"""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-    vtu.write(run, "tools.pvd")
     reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(f"tools_{run.step(None):04d}.vtu")
     reader.Update()

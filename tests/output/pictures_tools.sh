@@ -1,7 +1,7 @@
 # Rigid tools are drawn by their own surfaces: for each shape the points of the drawn surface lie on the exact one, also
 # after the tool has moved and turned; the cube that stands for the tool in the mesh is not drawn.
 "$PYTHON" -B "$AMGF_DIR/tests/output/pictures_tools.py" write
-"$AMGF_DIR/bin/contact" tools.yaml -quiet -output tools || echo "exit code $?"
+"$AMGF_DIR/bin/contact" tools.yaml -quiet -output tools.pvd || echo "exit code $?"
 cat > roller.yaml <<'YAML'
 bodies:
   - block: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [2, 2, 2], young: 1, poisson: 0.3}
