@@ -154,11 +154,11 @@ typedef struct {
   PetscBool     cold;            /* there is no state from which Newton's method could start */
   Cones         cones;           /* NULL before the phase CONTACT_CONES */
   PetscInt      nsteps, nfutile; /* numbers of steps of this phase; of those in a row that hardly reduced the merit */
-  PetscReal     size, best;      /* violation or change of motions at the start; smallest merit of this phase */
-  PetscReal     known;           /* error of the interior point method at which Newton's method is tried */
-  PetscReal     violation;       /* relative violation of the laws; infinite in the interior point method */
-  PetscBool     chosen, keeps;   /* whether forces were chosen (choice.c); whether `kept` has those before */
-  PetscReal    *kept;            /* state at the start of Newton's method */
+  PetscReal  size, best; /* change of motions in this solve, or violation at its start; smallest merit of this phase */
+  PetscReal  known;      /* error of the interior point method at which Newton's method is tried */
+  PetscReal  violation;  /* relative violation of the laws; infinite in the interior point method */
+  PetscBool  chosen, keeps; /* whether forces were chosen (choice.c); whether `kept` has those before */
+  PetscReal *kept;          /* state at the start of Newton's method */
 } ContactIteration;
 
 PETSC_INTERN PetscErrorCode ContactIterationBegin(Contacts *, ContactBodies, PetscBool linear, ContactIteration *);

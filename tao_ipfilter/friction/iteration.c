@@ -137,6 +137,21 @@ static PetscErrorCode IterationNewton(ContactIteration *it, PetscBool *done)
   PetscFunctionReturn(0);
 }
 
+/* Sets the size of the problem to that of the change of motions since the cold start */
+static PetscErrorCode IterationMeasure(ContactIteration *it)
+{
+  const Contacts  *c     = it->contacts;
+  const PetscReal *start = it->kept + 3 * (size_t)c->n;
+  PetscReal       *change;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(3 * c->n, &change));
+  for (PetscInt r = 0; r < 3 * c->n; r++) change[r] = c->u[r] - start[r];
+  PetscCall(ContactsNorm(c, change, &it->size));
+  PetscCall(PetscFree(change));
+  PetscFunctionReturn(0);
+}
+
 /*
    Takes one step of the interior point method, or of Newton's method if the error is below it->known, or if it is small
    and the cones leave no room for a step
@@ -155,6 +170,7 @@ static PetscErrorCode IterationCones(ContactIteration *it, PetscBool *done)
     if (++it->nsteps > most) *done = PETSC_FALSE;
     PetscFunctionReturn(0);
   }
+  if (it->size == 0.0) PetscCall(IterationMeasure(it));
   PetscCall(IterationEnterNewton(it, CONTACT_LAST));
   PetscCall(IterationNewton(it, done));
   PetscFunctionReturn(0);

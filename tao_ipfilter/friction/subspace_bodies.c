@@ -24,9 +24,9 @@ struct _p_SubspaceBodies {
   IPRecycle *recycle; /* the preconditioner of K, and the directions */
   Mat        K;
   IS         W;
-  Mat        R, RW;                 /* rows of the contacts: three for each contact of this rank; columns W of R */
-  Mat        D, DR, RDR, KWW, A, F; /* D; D R_W; R_W^T D R_W; K_WW; A_WW, and its factors */
-  Vec        x, dx, r, Kx, Kdx, g;  /* K x is kept beside x, K dx beside dx */
+  Mat        R, RW;                /* rows of the contacts: three for each contact of this rank; columns W of R */
+  Mat        D, DR, RI, DRK, A, F; /* D; D R_W; (R_W; I); (D R_W; K_WW); A_WW, and its factors */
+  Vec        x, dx, r, Kx, Kdx, g; /* K x is kept beside x, K dx beside dx */
   Vec        kept_x, kept_Kx;
   Vec        first;                 /* the residual of which a part is left out; NULL: none */
   PetscReal  lacks;                 /* that part */
@@ -114,12 +114,56 @@ static PetscErrorCode BodiesCreateBlocks(Mat R, PetscInt n, Mat *D)
   PetscFunctionReturn(0);
 }
 
-/* Extracts R_W and K_WW, and creates A_WW with the union of the patterns of K_WW and R_W^T D R_W */
+/* Creates the matrix with the rows of `top` above those of `bottom` on each rank. Both have the same columns. */
+static PetscErrorCode BodiesStack(Mat top, Mat bottom, Mat *stack)
+{
+  PetscInt m, n, columns, start[2], first = 0, *counts;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetLocalSize(top, &m, &columns));
+  PetscCall(MatGetLocalSize(bottom, &n, NULL));
+  PetscCall(MatGetOwnershipRange(top, &start[0], NULL));
+  PetscCall(MatGetOwnershipRange(bottom, &start[1], NULL));
+  PetscCall(PetscCalloc1(m + n, &counts));
+  *stack = NULL;
+  for (PetscInt pass = 0; pass < 2; pass++) {
+    if (pass) {
+      PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)top), m + n, columns, PETSC_DETERMINE, PETSC_DETERMINE, 0,
+        counts, 0, counts, stack));
+      PetscCall(MatGetOwnershipRange(*stack, &first, NULL));
+    }
+    for (PetscInt i = 0; i < m + n; i++)
+      PetscCall(
+        BodiesCopyRow(i < m ? top : bottom, i < m ? start[0] + i : start[1] + i - m, *stack, first + i, &counts[i]));
+  }
+  PetscCall(MatAssemblyBegin(*stack, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*stack, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscFree(counts));
+  PetscFunctionReturn(0);
+}
+
+/* Creates the unit matrix on W */
+static PetscErrorCode BodiesCreateUnit(IS W, Mat *unit)
+{
+  PetscInt n, start, end;
+
+  PetscFunctionBegin;
+  PetscCall(ISGetLocalSize(W, &n));
+  PetscCall(
+    MatCreateAIJ(PetscObjectComm((PetscObject)W), n, n, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 0, NULL, unit));
+  PetscCall(MatGetOwnershipRange(*unit, &start, &end));
+  for (PetscInt i = start; i < end; i++) PetscCall(MatSetValue(*unit, i, i, 1.0, INSERT_VALUES));
+  PetscCall(MatAssemblyBegin(*unit, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*unit, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(0);
+}
+
+/* Extracts R_W and K_WW, and creates the matrices whose product is A_WW = K_WW + R_W^T D R_W */
 static PetscErrorCode BodiesCreateMatrices(SubspaceBodies b, PetscInt n)
 {
   PetscInt start, end;
   IS       all;
-  Mat      thin;
+  Mat      thin, KWW, unit;
 
   PetscFunctionBegin;
   PetscCall(MatGetOwnershipRange(b->R, &start, &end));
@@ -129,23 +173,24 @@ static PetscErrorCode BodiesCreateMatrices(SubspaceBodies b, PetscInt n)
   PetscCall(MatGetThinRows_AMGF(b->K, b->W, PETSC_FALSE, &thin));
   PetscCall(MatGetOwnershipRange(thin, &start, &end));
   PetscCall(ISCreateStride(PetscObjectComm((PetscObject)b->R), end - start, start, 1, &all));
-  PetscCall(MatCreateSubMatrix(thin, all, b->W, MAT_INITIAL_MATRIX, &b->KWW));
+  PetscCall(MatCreateSubMatrix(thin, all, b->W, MAT_INITIAL_MATRIX, &KWW));
   PetscCall(ISDestroy(&all));
   PetscCall(MatDestroy(&thin));
+  PetscCall(BodiesCreateUnit(b->W, &unit));
   PetscCall(BodiesCreateBlocks(b->R, n, &b->D));
   PetscCall(MatMatMult(b->D, b->RW, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &b->DR));
-  PetscCall(MatTransposeMatMult(b->RW, b->DR, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &b->RDR));
-  PetscCall(MatDuplicate(b->RDR, MAT_DO_NOT_COPY_VALUES, &b->A));
-  PetscCall(MatAXPY(b->A, 1.0, b->KWW, DIFFERENT_NONZERO_PATTERN));
-  PetscCall(MatDestroy(&b->KWW));
-  PetscCall(MatDuplicate(b->A, MAT_COPY_VALUES, &b->KWW));
+  PetscCall(BodiesStack(b->RW, unit, &b->RI));
+  PetscCall(BodiesStack(b->DR, KWW, &b->DRK));
+  PetscCall(MatTransposeMatMult(b->RI, b->DRK, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &b->A));
+  PetscCall(MatDestroy(&KWW));
+  PetscCall(MatDestroy(&unit));
   PetscFunctionReturn(0);
 }
 
 /* Destroys what depends on W */
 static PetscErrorCode BodiesDestroySpace(SubspaceBodies b)
 {
-  Mat *const matrices[] = {&b->RW, &b->D, &b->DR, &b->RDR, &b->KWW, &b->A, &b->F, &b->JW};
+  Mat *const matrices[] = {&b->RW, &b->D, &b->DR, &b->RI, &b->DRK, &b->A, &b->F, &b->JW};
   Vec *const vectors[]  = {&b->on_W, &b->dw0, &b->load, &b->rows};
 
   PetscFunctionBegin;
@@ -265,8 +310,7 @@ PetscErrorCode SubspaceBodiesGetCompliance(SubspaceBodies b, PetscInt n, PetscRe
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(b->on_W, &inverse));
-  PetscCall(MatGetDiagonal(b->KWW, inverse));
-  PetscCall(VecAbs(inverse));
+  PetscCall(VecISCopy(((TAO_IPFILTER *)b->tao->data)->stiff->hdiag, b->W, SCATTER_REVERSE, inverse));
   PetscCall(VecReciprocal(inverse));
   PetscCall(MatDuplicate(b->RW, MAT_COPY_VALUES, &squares));
   PetscCall(MatGetOwnershipRange(squares, &start, NULL));
@@ -352,7 +396,7 @@ static PetscErrorCode BodiesResidual(void *data, const PetscReal f[], PetscReal 
 /* Sets the values of D and A_WW */
 static PetscErrorCode BodiesAssemble(SubspaceBodies b, const PetscReal D[])
 {
-  PetscInt start, end;
+  PetscInt start, end, first, count;
 
   PetscFunctionBegin;
   PetscCall(MatGetOwnershipRange(b->D, &start, &end));
@@ -364,9 +408,11 @@ static PetscErrorCode BodiesAssemble(SubspaceBodies b, const PetscReal D[])
   PetscCall(MatAssemblyBegin(b->D, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(b->D, MAT_FINAL_ASSEMBLY));
   PetscCall(MatMatMult(b->D, b->RW, MAT_REUSE_MATRIX, PETSC_DEFAULT, &b->DR));
-  PetscCall(MatTransposeMatMult(b->RW, b->DR, MAT_REUSE_MATRIX, PETSC_DEFAULT, &b->RDR));
-  PetscCall(MatCopy(b->KWW, b->A, SAME_NONZERO_PATTERN));
-  PetscCall(MatAXPY(b->A, 1.0, b->RDR, SUBSET_NONZERO_PATTERN));
+  PetscCall(MatGetOwnershipRange(b->DRK, &first, NULL));
+  for (PetscInt r = start; r < end; r++) PetscCall(BodiesCopyRow(b->DR, r, b->DRK, first + r - start, &count));
+  PetscCall(MatAssemblyBegin(b->DRK, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(b->DRK, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatTransposeMatMult(b->RI, b->DRK, MAT_REUSE_MATRIX, PETSC_DEFAULT, &b->A));
   PetscFunctionReturn(0);
 }
 

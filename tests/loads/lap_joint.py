@@ -44,15 +44,18 @@ def write():
     # too large for a factorization of the whole matrix in each system, which no contact makes singular
     with open("tight.yaml", "w") as file:
         file.write(scene([5, 3, 3], [4, 3, 3], [3, 2, 8], 1, [0]))
+    # the cold start ends so near the solution that Newton's first step says nothing about the size of the problem
+    with open("smooth.yaml", "w") as file:
+        file.write(scene([3, 2, 2], [3, 2, 2], [2, 2, 4], 1, [0]).replace(f"friction: {COEFFICIENT}", "friction: 0.1"))
 
 
 def judge():
-    for name in ("slip_1", "tight_1", "tight_2"):
+    for name, most in ("slip_1", 32), ("tight_1", 32), ("tight_2", 32), ("smooth_1", 24):
         run = load(name)
         forces = [bolts[0]["force"] for bolts in each(run, "bolts")]
         tightens = each(run, "ip_iterations")[0]
         say(f"{name}: the bolt has its force", all(within(force, PRETENSION, 1e-7) for force in forces), forces)
-        say(f"{name}: few iterations tighten it", tightens <= 32, tightens)
+        say(f"{name}: few iterations tighten it", tightens <= most, tightens)
         if name == "slip_1":
             pull, _, lift = run["steps"][1]["faces"][1]["reaction"]
             slip = COEFFICIENT * (2 * PRETENSION - lift)  # of the head or the nut, and between the plates
