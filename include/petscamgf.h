@@ -102,8 +102,6 @@ PETSC_EXTERN PetscErrorCode TaoIPFilterSetSlackMass(Tao, Vec);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetCompliance(Tao, Vec);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetPrimalMass(Tao, Vec);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetWarmStart(Tao, Vec, Vec);
-PETSC_EXTERN PetscErrorCode TaoIPFilterSetWarmStartEquality(Tao, Vec);
-PETSC_EXTERN PetscErrorCode TaoIPFilterSetWarmStartBounds(Tao, Vec, Vec);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetSlack(Tao, Vec *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetMultiplier(Tao, Vec *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterGetKSPIterations(Tao, PetscInt *, const PetscInt *[]);

@@ -84,23 +84,6 @@ static PetscErrorCode TaoIPFilterSetWarmStart_IPFilter(Tao tao, Vec s, Vec z)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode TaoIPFilterSetWarmStartEquality_IPFilter(Tao tao, Vec y)
-{
-  PetscFunctionBegin;
-  PetscCall(CopyVec(y, &((TAO_IPFILTER *)tao->data)->given->warm_y));
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode TaoIPFilterSetWarmStartBounds_IPFilter(Tao tao, Vec DL, Vec DU)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-
-  PetscFunctionBegin;
-  PetscCall(CopyVec(DL, &ip->given->warm_lower));
-  PetscCall(CopyVec(DU, &ip->given->warm_upper));
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode TaoIPFilterSetRounding_IPFilter(Tao tao, PetscReal x)
 {
   PetscFunctionBegin;
@@ -183,8 +166,6 @@ static const AMGFFunction functions[] = {
   AMGF_FUNCTION(TaoIPFilterSetCompliance, IPFilter),
   AMGF_FUNCTION(TaoIPFilterSetPrimalMass, IPFilter),
   AMGF_FUNCTION(TaoIPFilterSetWarmStart, IPFilter),
-  AMGF_FUNCTION(TaoIPFilterSetWarmStartEquality, IPFilter),
-  AMGF_FUNCTION(TaoIPFilterSetWarmStartBounds, IPFilter),
   AMGF_FUNCTION(TaoIPFilterSetRounding, IPFilter),
   AMGF_FUNCTION(TaoIPFilterGetSlack, IPFilter),
   AMGF_FUNCTION(TaoIPFilterGetKSPIterations, IPFilter),
@@ -346,8 +327,7 @@ PetscErrorCode TaoIPFilterSetRounding(Tao tao, PetscReal x)
 
   Errors if only one of `s` and `z` is NULL.
 
-.seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`, `TaoIPFilterSetWarmStartEquality()`,
-          `TaoIPFilterSetWarmStartBounds()`
+.seealso: `TAOIPFILTER`, `TaoIPFilterGetSlack()`, `TaoIPFilterGetMultiplier()`
 @*/
 PetscErrorCode TaoIPFilterSetWarmStart(Tao tao, Vec s, Vec z)
 {
@@ -356,65 +336,6 @@ PetscErrorCode TaoIPFilterSetWarmStart(Tao tao, Vec s, Vec z)
   if (s) PetscValidHeaderSpecific(s, VEC_CLASSID, 2);
   if (z) PetscValidHeaderSpecific(z, VEC_CLASSID, 3);
   PetscTryMethod(tao, "TaoIPFilterSetWarmStart_C", (Tao, Vec, Vec), (tao, s, z));
-  PetscFunctionReturn(0);
-}
-
-/*@
-  TaoIPFilterSetWarmStartEquality - Sets multipliers of the equality constraints from which `-tao_ipfilter_start warm`
-  begins
-
-  Logically Collective
-
-  Input Parameters:
-+ tao - the `TAOIPFILTER`
-- y   - multipliers, as `TaoGetDualVariables()` returns them in DE, same layout; NULL removes earlier values, and the
-        solver estimates the multipliers
-
-  Level: intermediate
-
-  Note:
-  The vector is copied.
-
-.seealso: `TAOIPFILTER`, `TaoIPFilterSetWarmStart()`, `TaoIPFilterSetWarmStartBounds()`, `TaoGetDualVariables()`
-@*/
-PetscErrorCode TaoIPFilterSetWarmStartEquality(Tao tao, Vec y)
-{
-  PetscFunctionBegin;
-  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
-  if (y) PetscValidHeaderSpecific(y, VEC_CLASSID, 2);
-  PetscTryMethod(tao, "TaoIPFilterSetWarmStartEquality_C", (Tao, Vec), (tao, y));
-  PetscFunctionReturn(0);
-}
-
-/*@
-  TaoIPFilterSetWarmStartBounds - Sets multipliers of the bounds on variables from which `-tao_ipfilter_start warm`
-  begins
-
-  Logically Collective
-
-  Input Parameters:
-+ tao - the `TAOIPFILTER`
-. DL  - multipliers of the lower bounds, as `TaoComputeDualVariables()` computes them; NULL removes earlier values
-- DU  - multipliers of the upper bounds, whose signs are ignored; NULL removes earlier values
-
-  Level: intermediate
-
-  Notes:
-  The vectors are copied. The solution vector is then not moved away from its bounds, except variables for which the
-  product of distance to the bound and multiplier is close to zero. Where there are inequality constraints,
-  `TaoIPFilterSetWarmStart()` must give theirs, too.
-
-  With the solution and all multipliers of a solved problem, `TaoSolve()` ends after at most one iteration.
-
-.seealso: `TAOIPFILTER`, `TaoIPFilterSetWarmStart()`, `TaoIPFilterSetWarmStartEquality()`, `TaoComputeDualVariables()`
-@*/
-PetscErrorCode TaoIPFilterSetWarmStartBounds(Tao tao, Vec DL, Vec DU)
-{
-  PetscFunctionBegin;
-  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
-  if (DL) PetscValidHeaderSpecific(DL, VEC_CLASSID, 2);
-  if (DU) PetscValidHeaderSpecific(DU, VEC_CLASSID, 3);
-  PetscTryMethod(tao, "TaoIPFilterSetWarmStartBounds_C", (Tao, Vec, Vec), (tao, DL, DU));
   PetscFunctionReturn(0);
 }
 

@@ -8,7 +8,6 @@
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/method.h"
 #include "tao_ipfilter/solver/options.h"
-#include "tao_ipfilter/solver/quasinewton.h"
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/relaxation.h"
 #include "tao_ipfilter/solver/rows.h"
@@ -52,10 +51,10 @@ static PetscErrorCode DestroyType(Tao tao)
 /* clang-format off */
 #define SOLVER_PARTS \
   PART(IPOptions, opt) PART(IPGiven, given) PART(IPWork, work) PART(IPSides, sides) PART(IPRowScale, rows) \
-  PART(IPJacobian, jac) PART(IPHessian, hess) PART(IPQuasiNewton, qn) PART(IPFirst, first) PART(IPScale, scale) \
+  PART(IPJacobian, jac) PART(IPHessian, hess) PART(IPFirst, first) PART(IPScale, scale) \
   PART(IPStiffness, stiff) PART(IPTerms, terms) PART(IPKKT, kkt) PART(IPCondensed, cond) PART(IPLinear, lin) \
   PART(IPDirect, direct) PART(IPAugmented, aug) PART(IPProximal, prox) PART(IPBarrier, bar) PART(IPShift, shift) \
-  PART(IPFilterSet, filter) PART(IPSearch, search) PART(IPWatchdog, watch) PART(IPRelaxation, relax) \
+  PART(IPFilterSet, filter) PART(IPSearch, search) PART(IPRelaxation, relax) \
   PART(IPRestoration, restore) PART(IPMethod, method) PART(IPRecord, rec)
 /* clang-format on */
 
@@ -170,9 +169,7 @@ static PetscErrorCode SolverCreate(Tao tao)
 
   `TaoSetHessian()` must give the Hessian of f + DE^T c_E - DI^T c_I. DE and DI are the multipliers that
   `TaoGetDualVariables()` returns. Without `TaoSetHessian()` the Hessian is computed by finite differences of gradients,
-  up to 1,000 unknowns. With more unknowns, and no equality constraints, a limited-memory BFGS matrix (`MATLMVMBFGS`,
-  options prefix `-tao_ipfilter_`) is used. The Krylov method multiplies with the full BFGS matrix. The assembled
-  matrix, for the preconditioner, contains a multiple of the identity instead.
+  up to 1,000 unknowns.
 
   A Hessian of type AIJ, BAIJ, SBAIJ or dense, and Jacobians of type AIJ, are used without conversion. Other assembled
   types, such as `MATNEST` and `MATIS`, are converted to AIJ at every evaluation. If a Hessian or Jacobian routine does

@@ -3,7 +3,6 @@
 #include "tao_ipfilter/solver/factors.h"
 #include "tao_ipfilter/solver/kkt.h"
 #include "tao_ipfilter/solver/options.h"
-#include "tao_ipfilter/solver/quasinewton.h"
 #include "tao_ipfilter/solver/record.h"
 
 /* Prints the constraint violation, and the tolerances catol and crtol if they are set */
@@ -75,9 +74,6 @@ PetscErrorCode TaoView_IPFilter(Tao tao, PetscViewer viewer)
       (double)ip->kkt->error, ip->opt->measure == IP_KKT_MASS ? "mass-weighted" : "relative to the terms that balance",
       (double)tao->gatol, (double)ip->kkt->unscaled, (double)ip->mu));
   PetscCall(ViewConstraints(tao, viewer));
-  if (ip->qn->B)
-    PetscCall(
-      PetscViewerASCIIPrintf(viewer, "Hessian by limited-memory BFGS from %" PetscInt_FMT " steps\n", ip->qn->npairs));
   PetscCall(ViewLinearSolves(ip, viewer));
   if (ip->rec->reason[0]) PetscCall(PetscViewerASCIIPrintf(viewer, "%s\n", ip->rec->reason));
   PetscCall(PetscViewerASCIIPopTab(viewer));

@@ -4,7 +4,7 @@
 const MaterialConstant MaterialConstantsFinite[] = {MATERIAL_YOUNG, MATERIAL_POISSON, MATERIAL_DENSITY, MATERIAL_YIELD,
   {NULL}};
 const MaterialConstant MaterialConstantsSmall[]  = {MATERIAL_YOUNG, MATERIAL_POISSON,
-   {"expansion", 1, offsetof(Material, expansion), PETSC_FALSE, NULL, NULL, 0, 0}, MATERIAL_DENSITY, MATERIAL_YIELD,
+   {"expansion", 1, offsetof(Material, expansion), PETSC_FALSE, NULL, 0, 0}, MATERIAL_DENSITY, MATERIAL_YIELD,
    {NULL}};
 
 /*@

@@ -5,7 +5,6 @@
 #include "tao_ipfilter/solver/kkt.h"
 #include "tao_ipfilter/solver/method.h"
 #include "tao_ipfilter/solver/options.h"
-#include "tao_ipfilter/solver/quasinewton.h"
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/relaxation.h"
 #include "tao_ipfilter/solver/search.h"
@@ -284,7 +283,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   const IPKKT  *k  = ip->kkt;
   PetscBool     own, stationary = PETSC_FALSE, fritz_john, unbounded;
-  PetscReal     lowest, fmin;
+  PetscReal     fmin;
 
   PetscFunctionBegin;
   (void)ctx;
@@ -295,7 +294,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   PetscCall(TaoGetFunctionLowerBound(tao, &fmin));
   if (!Converged(ip)) PetscCall(TestWithoutMultipliers(tao, &stationary));
   PetscCall(IPDegenerateFritzJohn(tao, &fritz_john));
-  PetscCall(IPTestUnbounded(tao, &lowest, &unbounded));
+  PetscCall(IPTestUnbounded(tao, &unbounded));
   if (stationary) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL,
       "converged: the gradient of the objective is zero, and the constraints are met"));
@@ -313,7 +312,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
       "converged: the point is feasible and its objective %g is below the given minimum %g", (double)ip->at.f,
       (double)fmin));
   } else if (unbounded) {
-    PetscCall(IPSetUnbounded(tao, lowest));
+    PetscCall(IPSetUnbounded(tao));
   } else if (ip->rec->nacceptable >= IP_ACCEPTABLE_IT && IPConstraintsMet(tao)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: KKT error %g stayed below %g, but did not reach the tolerance %g", (double)IPBothErrors(ip),

@@ -3,7 +3,6 @@
 #include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/options.h"
-#include "tao_ipfilter/solver/quasinewton.h"
 #include "tao_ipfilter/solver/sizes.h"
 #include "tao_ipfilter/solver/stiffness.h"
 #include "tao_ipfilter/solver/terms.h"
@@ -131,7 +130,7 @@ static PetscErrorCode FirstIsCritical(Tao tao, PetscBool *critical)
     PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &v));
   }
   if (ip->me) PetscCall(RowVanishes(tao, IP_EQUALITIES, ip->jac->equality, ip->at.ce, critical));
-  if (*critical || ip->first->gradient > 0.0 || ip->qn->B) PetscFunctionReturn(0);
+  if (*critical || ip->first->gradient > 0.0) PetscFunctionReturn(0);
   PetscCall(IPSetMultipliers(tao));
   PetscCall(IPHessianEvaluate(tao));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &v));

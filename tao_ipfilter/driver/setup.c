@@ -5,7 +5,6 @@
 #include "tao_ipfilter/solver/linear.h"
 #include "tao_ipfilter/solver/method.h"
 #include "tao_ipfilter/solver/options.h"
-#include "tao_ipfilter/solver/quasinewton.h"
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/rows.h"
 #include "tao_ipfilter/solver/search.h"
@@ -85,7 +84,6 @@ static PetscErrorCode FreeSizes(Tao tao)
   PetscCall(VecDestroy(&ip->stiff->reach));
   PetscCall(VecDestroy(&ip->stiff->equality_rows));
   PetscCall(VecDestroy(&ip->stiff->hdiag));
-  PetscCall(VecDestroy(&ip->search->slow));
   PetscCall(VecDestroy(&ip->lin->residual));
   PetscCall(VecDestroy(&ip->rows->inequality));
   PetscCall(VecDestroy(&ip->rows->equality));
@@ -103,28 +101,24 @@ static PetscErrorCode FreeSizes(Tao tao)
 }
 
 /*
-   Chooses a Hessian if TaoSetHessian() was not called: finite differences of gradients for a small problem, a
-   limited-memory approximation for a large one. A Hessian of this kind is created anew if the sizes change.
+   Chooses finite differences of gradients if TaoSetHessian() was not called. Their matrix is created anew if the sizes
+   change.
 */
 static PetscErrorCode SetUpHessian(Tao tao)
 {
-  TAO_IPFILTER  *ip    = (TAO_IPFILTER *)tao->data;
   const PetscInt large = 1000;
-  PetscBool      differences, quasinewton;
+  PetscBool      differences;
   PetscInt       n;
 
   PetscFunctionBegin;
   PetscCall(IPDifferenceInUse(tao, &differences));
-  PetscCall(IPQuasiNewtonInUse(tao, &quasinewton));
-  if (tao->hessian && !differences && !quasinewton) PetscFunctionReturn(0);
+  if (tao->hessian && !differences) PetscFunctionReturn(0);
   PetscCall(VecGetSize(tao->solution, &n));
-  PetscCheck(n <= large || !ip->me, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE,
-    "TAOIPFILTER needs TaoSetHessian() for a problem with equality constraints and %" PetscInt_FMT
+  PetscCheck(n <= large, PetscObjectComm((PetscObject)tao), PETSC_ERR_ARG_WRONGSTATE,
+    "TAOIPFILTER needs TaoSetHessian() for a problem with %" PetscInt_FMT
     " unknowns: it computes a Hessian by differences only up to %" PetscInt_FMT " unknowns",
     n, large);
-  PetscCall(IPQuasiNewtonDestroy(ip->qn));
-  if (n <= large) PetscCall(IPDifferenceHessian(tao));
-  else PetscCall(IPQuasiNewtonSetUp(tao));
+  PetscCall(IPDifferenceHessian(tao));
   PetscFunctionReturn(0);
 }
 
@@ -165,7 +159,6 @@ PetscErrorCode IPSetUpIteration(Tao tao)
                                                            if the iteration returns to the best iterate */
   PetscCall(IPIterateCreate(x, c, ce, &ip->trial));
   PetscCall(IPDirectionCreate(x, c, ce, &ip->dir));
-  PetscCall(DuplicateAfresh(x, &ip->search->slow));
   PetscCall(DuplicateAfresh(x, &ip->lin->residual));
   PetscFunctionReturn(0);
 }
@@ -238,12 +231,10 @@ static PetscErrorCode FitPreconditioner(Tao tao)
 PetscErrorCode IPSetUpSizes(Tao tao)
 {
   TAO_IPFILTER *ip   = (TAO_IPFILTER *)tao->data;
-  PetscBool     same = PETSC_TRUE, quasinewton;
+  PetscBool     same = PETSC_TRUE;
 
   PetscFunctionBegin;
   PetscCall(IPGivenCheck(tao));
-  PetscCall(IPQuasiNewtonInUse(tao, &quasinewton));
-  if (!quasinewton) PetscCall(IPQuasiNewtonDestroy(ip->qn)); /* the caller may have set a Hessian since */
   PetscCall(SetUpSides(tao));
   PetscCall(FitPreconditioner(tao));
   PetscCall(SameLayout(tao, ip->rx, tao->solution, 0, &same));
@@ -270,13 +261,9 @@ PetscErrorCode TaoDestroy_IPFilter(Tao tao)
   PetscCall(MatDestroy(&ip->given->modes));
   PetscCall(VecDestroy(&ip->given->warm_s));
   PetscCall(VecDestroy(&ip->given->warm_z));
-  PetscCall(VecDestroy(&ip->given->warm_y));
-  PetscCall(VecDestroy(&ip->given->warm_lower));
-  PetscCall(VecDestroy(&ip->given->warm_upper));
   PetscCall(IPTermsDestroy(ip->terms));
   PetscCall(IPFilterSetDestroy(ip->filter));
   PetscCall(PetscFree(ip->rec->ksp_iterations));
-  PetscCall(IPQuasiNewtonDestroy(ip->qn));
   PetscCall(KSPDestroy(&tao->ksp));
   PetscCall(PetscFree(tao->data));
   PetscFunctionReturn(0);

@@ -7,7 +7,6 @@
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/method.h"
 #include "tao_ipfilter/solver/options.h"
-#include "tao_ipfilter/solver/quasinewton.h"
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/relaxation.h"
 #include "tao_ipfilter/solver/search.h"
@@ -28,10 +27,8 @@ static PetscErrorCode ResetSolve(Tao tao)
                 .best_violation           = PETSC_INFINITY,
                 .lowest                   = PETSC_INFINITY};
   *ip->lin         = (IPLinear){.flexible = ip->lin->flexible, .residual = ip->lin->residual};
-  *ip->bar         = (IPBarrier){.free = (PetscBool)(ip->opt->barrier == IP_BARRIER_MEHROTRA && !ip->qn->B),
-            .curved                    = (PetscBool)(ip->qn->B != NULL)};
-  *ip->search      = (IPSearch){.theta0 = -1.0, .tag = ' ', .slow = ip->search->slow};
-  *ip->watch       = (IPWatchdog){.left = 0};
+  *ip->bar         = (IPBarrier){.free = (PetscBool)(ip->opt->barrier == IP_BARRIER_MEHROTRA)};
+  *ip->search      = (IPSearch){.theta0 = -1.0, .tag = ' '};
   *ip->relax       = (IPRelaxation){.least_slack = PETSC_INFINITY, .least_bound = PETSC_INFINITY};
   *ip->shift       = (IPShift){.delta = 0.0};
   *ip->first       = (IPFirst){.f = 0.0, .energy = -1.0};
@@ -39,7 +36,6 @@ static PetscErrorCode ResetSolve(Tao tao)
   tao->ksp_its     = 0;
   tao->ksp_tot_its = 0;
   tao->reason      = TAO_CONTINUE_ITERATING;
-  IPQuasiNewtonReset(ip->qn);
   PetscCall(IPFilterSetReset(ip->filter));
   PetscFunctionReturn(0);
 }
@@ -145,14 +141,11 @@ static PetscErrorCode EndLinear(Tao tao)
 */
 static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violated, PetscBool infeasible)
 {
-  TAO_IPFILTER *ip        = (TAO_IPFILTER *)tao->data;
-  PetscBool     unbounded = PETSC_FALSE;
-  PetscReal     lowest;
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
   PetscCall(IPTestNumbers(tao));
   if (tao->reason == TAO_DIVERGED_NAN) PetscFunctionReturn(0);
-  if (solved && !infeasible && !violated) PetscCall(IPTestUnboundedRays(tao, &lowest, &unbounded));
   if (solved && ip->search->ntrials && !ip->search->ndefined)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN,
       "the objective or a constraint is not a number at all points that were tried after iteration %" PetscInt_FMT
@@ -170,7 +163,6 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   else if (violated)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "no step reduces the constraint violation %g any further",
       (double)ip->kkt->inf_pr));
-  else if (unbounded) PetscCall(IPSetUnbounded(tao, lowest));
   else
     PetscCall(
       IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "line search failed at KKT error %g", (double)IPBothErrors(ip)));
@@ -265,7 +257,7 @@ static PetscErrorCode RenewMultipliers(Tao tao)
 static PetscErrorCode RestoreIfCut(Tao tao)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscInt patience = 11; /* one more than that of the watchdog, which comes first */
+  const PetscInt patience = 11;
   PetscBool      ok, infeasible;
 
   PetscFunctionBegin;
@@ -273,7 +265,6 @@ static PetscErrorCode RestoreIfCut(Tao tao)
   ip->search->ncut = 0;
   PetscCall(IPComputeKKT(tao));
   if (!StillViolated(ip)) PetscFunctionReturn(0);
-  PetscCall(IPWatchdogEnd(ip->watch));
   PetscCall(IPMeritMeasure(tao));
   PetscCall(IPRestore(tao, &ok, &infeasible));
   if (ok) ip->search->tag = 'R';
@@ -298,7 +289,6 @@ static PetscErrorCode TakeNewtonStep(Tao tao)
   PetscCall(IPStiffnessUpdate(tao));
   PetscCall(IPComputeDirection(tao, &solved));
   if (solved) PetscCall(IPLineSearch(tao, &ok));
-  if (!ok) PetscCall(IPWatchdogReturn(tao, &ok));
   if (!ok) {
     PetscCall(Recover(tao, solved));
     PetscFunctionReturn(0);
@@ -467,7 +457,6 @@ static PetscErrorCode EndSolve(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPDirectDestroy(ip->direct));
-  PetscCall(IPWatchdogEnd(ip->watch));
   PetscCall(EndMethod(tao));
   PetscCall(RestoreBest(tao));
   PetscCall(IPConvergeRefined(tao));

@@ -47,7 +47,6 @@ static PetscErrorCode CurvatureOfUnknowns(Tao tao, PetscReal *curvature)
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Wd));
   PetscCall(MatMult(ip->hess->H, d, Wd));
-  PetscCall(IPQuasiNewtonAdd(tao, d, Wd));
   PetscCall(VecDot(d, Wd, &dHd));
   if (ip->cond->shifted) {
     PetscCall(VecPointwiseMult(Wd, ip->cond->shift, d));

@@ -3,6 +3,7 @@
    predicted from it.
 */
 #include "iterationimpl.h"
+#include "tao_ipfilter/solver/condensed.h"
 #include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/linear.h"
 #include "tao_ipfilter/solver/matrices.h"
@@ -63,7 +64,7 @@ static PetscErrorCode PenaltyConvex(Tao tao, PetscBool *convex)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Ad));
-  PetscCall(MatMult(IPQuasiNewtonOperator(ip), ip->dir.x, Ad));
+  PetscCall(MatMult(ip->cond->A, ip->dir.x, Ad));
   PetscCall(VecDot(ip->dir.x, Ad, &curvature));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Ad));
   PetscCall(VecNorm(ip->dir.x, NORM_2, &size));
@@ -156,7 +157,6 @@ static PetscErrorCode PenaltyModelsHold(Tao tao, PetscReal alpha, PetscBool *hol
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &Hd));
   PetscCall(MatMult(ip->hess->H, ip->dir.x, Hd));
-  PetscCall(IPQuasiNewtonAdd(tao, ip->dir.x, Hd));
   PetscCall(VecDot(Hd, ip->dir.x, &dHd));
   PetscCall(VecDot(tao->gradient, ip->dir.x, &gd));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &Hd));

@@ -158,25 +158,6 @@ static PetscErrorCode BoundsWork(Tao tao, PetscReal *mean)
 }
 
 /*
-   Increases the stiffness such that slacks on the central path are at most of the size of the constraints. Needed if mu
-   was computed from the bounds alone.
-*/
-static PetscErrorCode StiffenForBarrier(Tao tao, PetscReal length)
-{
-  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal size = PetscMax(length, ip->first->length), least = size > 0.0 ? ip->mu / PetscSqr(size) : 0.0;
-  PetscScalar    *rho;
-  PetscInt        n;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(ip->stiff->rho, &n));
-  PetscCall(VecGetArray(ip->stiff->rho, &rho));
-  for (PetscInt i = 0; i < n; i++) rho[i] = PetscMax(PetscRealPart(rho[i]), least);
-  PetscCall(VecRestoreArray(ip->stiff->rho, &rho));
-  PetscFunctionReturn(0);
-}
-
-/*
    Predicted start: s and z follow from the constraints' values after a penalty step and are moved to the central path.
    mu is a fraction of length x pressure there. If all constraints happen to be active this mu is zero; the pairs then
    start with a complementarity gap that is noticeable relative to the objective.
@@ -206,10 +187,7 @@ static PetscErrorCode StartPredicted(Tao tao)
   PetscCall(IPErrorBoundTerms(tao, &terms));
   ip->mu = PetscMax(ip->mu, IP_LEAST_START * terms / ip->pair[IP_SLACK].weight);
   PetscCall(BoundsWork(tao, &bound));
-  if (ip->mu < IP_PREDICT_MU * bound) {
-    ip->mu = IP_PREDICT_MU * bound;
-    PetscCall(StiffenForBarrier(tao, length));
-  }
+  ip->mu = PetscMax(ip->mu, IP_PREDICT_MU * bound);
   if (!(ip->mu > 0.0)) ip->mu = ip->opt->mu0;
   PetscCall(IPSlackCentral(tao, ip->at.c, ip->mu, ip->at.s, ip->at.z[IP_SLACK]));
   PetscCall(IPSlackCenterUpper(tao, ip->mu));
@@ -255,6 +233,7 @@ static PetscErrorCode WarmSolves(Tao tao, PetscBool *solves)
     PetscCall(VecMin(ip->at.z[IP_SLACK], NULL, &least_z));
     PetscCall(IPSlackPressure(tao, ip->at.lambda));
   }
+  if (ip->me) PetscCall(IPEqualityMultipliers(tao));
   if (ip->pair[IP_CEILING].n) PetscCall(VecMin(ip->pair[IP_CEILING].t, NULL, &least_upper));
   if (!(PetscMin(PetscMin(least_s, least_upper), least_z) > 0.0)) PetscFunctionReturn(0);
   PetscCall(IPBarrierAverage(tao, &ip->mu));
@@ -280,7 +259,6 @@ static PetscErrorCode StartWarm(Tao tao)
   PetscCall(VecCopy(ip->given->warm_z, slack->z));
   PetscCall(IPRowScalePair(tao, slack->t, slack->z, PETSC_FALSE));
   PetscCall(IPSidesTakePairs(tao));
-  if (IPWarmBounds(ip)) PetscCall(IPWarmSetBounds(tao));
   PetscCall(WarmSolves(tao, &solves));
   if (solves) PetscFunctionReturn(0);
   PetscCall(WarmMismatch(tao, &mismatch));
@@ -298,25 +276,7 @@ static PetscErrorCode StartWarm(Tao tao)
 }
 
 /*
-   Warm start from the caller's multipliers of the bounds, if there are no inequality constraints. mu is chosen as in
-   StartWarm().
-*/
-static PetscErrorCode StartWarmBounds(Tao tao)
-{
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
-  PetscReal     mean, average, mismatch = 1.0;
-
-  PetscFunctionBegin;
-  PetscCall(IPWarmSetBounds(tao));
-  PetscCall(WarmMismatch(tao, &mismatch));
-  PetscCall(IPBarrierAverage(tao, &average));
-  PetscCall(IPWarmMeanProduct(tao, &mean));
-  ip->mu = PetscMax(average, PetscMax(mismatch * IP_WARM_MU, 0.1 * ip->tol) * (mean > 0.0 ? mean : 1.0));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Sets the multipliers of the bounds to mu / t if the caller gave none. Without inequality constraints mu is chosen as
+   Sets the multipliers of the bounds to mu / t. Without inequality constraints mu is chosen as
    well, from the work of the gradient on the way to the bounds.
 */
 static PetscErrorCode StartBounds(Tao tao)
@@ -346,14 +306,11 @@ PetscErrorCode IPStartPoint(Tao tao)
   PetscCall(PetscLogEventBegin(TAO_IPFilterStart, tao, NULL, NULL, NULL));
   for (PetscInt b = IP_LOWER; b <= IP_UPPER; b++)
     if (ip->pair[b].n) PetscCall(VecSet(ip->pair[b].z, 0.0));
-  if (IPWarmEquality(ip)) PetscCall(IPWarmSetEquality(tao));
-  if (!ip->mi && IPWarmBounds(ip)) PetscCall(StartWarmBounds(tao));
-  else if (ip->opt->start == IP_START_COLD || !ip->mi) PetscCall(StartCold(tao));
+  if (ip->opt->start == IP_START_COLD || !ip->mi) PetscCall(StartCold(tao));
   else if (ip->opt->start == IP_START_WARM && ip->given->warm_s) PetscCall(StartWarm(tao));
   else PetscCall(StartPredicted(tao));
-  if (IPWarmBounds(ip)) PetscCall(IPWarmCenterBounds(tao));
-  else PetscCall(StartBounds(tao));
-  if (ip->me && !IPWarmEquality(ip)) PetscCall(IPEqualityMultipliers(tao));
+  PetscCall(StartBounds(tao));
+  if (ip->me) PetscCall(IPEqualityMultipliers(tao));
   PetscCall(IPBarrierAverage(tao, &ip->bar->first));
   ip->bar->first = PetscMax(ip->bar->first, ip->mu);
   PetscCall(PetscLogEventEnd(TAO_IPFilterStart, tao, NULL, NULL, NULL));

@@ -9,7 +9,6 @@
 #include "tao_ipfilter/solver/linear.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/options.h"
-#include "tao_ipfilter/solver/quasinewton.h"
 #include "tao_ipfilter/solver/record.h"
 #include "pc_amgf/mumps.h"
 #include "pc_amgf/sparse_factors.h"
@@ -158,11 +157,6 @@ PetscErrorCode IPDirectSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
 
   PetscFunctionBegin;
   *verdict = IP_LINEAR_FAILED;
-  if (ip->qn->npairs) {
-    PetscCall(PetscStrncpy(ip->lin->why, "the Hessian is a limited-memory approximation, which MUMPS does not take",
-      sizeof(ip->lin->why)));
-    PetscFunctionReturn(0);
-  }
   if (!direct->F || direct->system != ip->rec->nsystems) {
     PetscCall(DirectFactor(tao, &factored, &singular));
     if (factored) PetscCall(MatGetInertia(direct->F, &direct->negative, NULL, NULL));

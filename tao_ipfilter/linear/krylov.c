@@ -140,7 +140,7 @@ static PetscErrorCode KrylovRun(Tao tao, KSP ksp, Vec b, Vec d)
 
   PetscFunctionBegin;
   PetscCall(KrylovChooseNorm(ksp));
-  PetscCall(KSPSetOperators(ksp, IPQuasiNewtonOperator(ip), ip->cond->A));
+  PetscCall(KSPSetOperators(ksp, ip->cond->A, ip->cond->A));
   PetscCall(KSPGetInitialGuessNonzero(ksp, &guess));
   PetscCall(KSPGetTolerances(ksp, &rtol, &abstol, &dtol, &maxits));
   PetscCall(PetscObjectTypeCompare((PetscObject)ksp, KSPPREONLY, &direct)); /* PREONLY accepts no initial guess */
@@ -284,7 +284,7 @@ PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
   TAO_IPFILTER      *ip = (TAO_IPFILTER *)tao->data;
   KSPConvergedReason reason;
   PetscInt           its;
-  PetscBool          direct, indefinite = PETSC_FALSE, zero = PETSC_FALSE;
+  PetscBool          direct, zero = PETSC_FALSE;
 
   PetscFunctionBegin;
   if (ip->opt->forcing == IP_FORCING_ADAPTIVE) PetscCall(KrylovCheckGuess(tao, b, d));
@@ -297,10 +297,7 @@ PetscErrorCode IPKrylovSolve(Tao tao, Vec b, Vec d, IPLinearVerdict *verdict)
   ip->lin->reason = reason;
   ip->lin->its    = its;
   if (reason == KSP_DIVERGED_PC_FAILED) PetscCall(KrylovZeroPivot(tao, &zero));
-  /* The pivots are tested only if the problem has proved to be nonconvex and the constraints have not been relaxed. */
-  if (ip->lin->filtered && ip->bar->curved && !ip->relax->times) PetscCall(IPKrylovIndefinite(tao, &indefinite));
-  if (indefinite) *verdict = IP_LINEAR_INDEFINITE;
-  else if (IPResidualReached(ip, reason)) *verdict = IP_LINEAR_SOLVED;
+  if (IPResidualReached(ip, reason)) *verdict = IP_LINEAR_SOLVED;
   else *verdict = reason == KSP_DIVERGED_INDEFINITE_MAT || zero ? IP_LINEAR_INDEFINITE : IP_LINEAR_FAILED;
   if (*verdict == IP_LINEAR_SOLVED) {
     ip->lin->longest = PetscMax(ip->lin->longest, its);

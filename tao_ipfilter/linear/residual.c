@@ -24,7 +24,7 @@ PetscErrorCode IPResidualMeasure(Tao tao, Vec b, Vec d)
   Vec           terms;
 
   PetscFunctionBegin;
-  PetscCall(MatMult(IPQuasiNewtonOperator(ip), d, ip->lin->residual));
+  PetscCall(MatMult(ip->cond->A, d, ip->lin->residual));
   PetscCall(VecAYPX(ip->lin->residual, -1.0, b));
   PetscCall(VecNorm(ip->lin->residual, NORM_2, &ip->lin->norm));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &terms));

@@ -101,16 +101,6 @@ PetscErrorCode IPBoundsSetUp(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/*
-   Returns whether this solve starts from the caller's multipliers of the bounds. They are used only if the multipliers
-   of the inequality constraints are given as well.
-*/
-PetscBool IPWarmBounds(const TAO_IPFILTER *ip)
-{
-  return (PetscBool)(ip->opt->start == IP_START_WARM && (ip->given->warm_lower || ip->given->warm_upper) &&
-                     (!ip->mi || ip->given->warm_s));
-}
-
 /* Returns max(|x|, |bound|). If this is zero, returns `all`, the size of all unknowns; if that is zero too, 1. */
 static PetscReal BoundSize(PetscReal x, PetscReal bound, PetscReal all)
 {
@@ -122,13 +112,12 @@ static PetscReal BoundSize(PetscReal x, PetscReal bound, PetscReal all)
 /*
    Moves x into the interior of its bounds (Waechter and Biegler 2006, section 3.6) and computes the distances.
    The margin is a fraction of the size of the bound or the unknown, see BoundSize(). It is also limited to a fraction
-   of the distance between the two bounds, so that a distant bound does not push x away from a near one. If the caller
-   gives multipliers of the bounds, these show which bounds are active; the margin is then almost zero.
+   of the distance between the two bounds, so that a distant bound does not push x away from a near one.
 */
 PetscErrorCode IPBoundsPush(Tao tao)
 {
   TAO_IPFILTER      *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal    push = IPWarmBounds(ip) ? IP_TINY_STEP : IP_BOUND_PUSH;
+  const PetscReal    push = IP_BOUND_PUSH;
   Vec                v[2] = {tao->XL, tao->XU};
   const PetscScalar *b[2] = {NULL, NULL};
   PetscScalar       *x;

@@ -303,27 +303,6 @@ PetscErrorCode IPSidesMultipliers(Tao tao, Vec y, Vec DI)
   PetscFunctionReturn(0);
 }
 
-/* Sets the entries of y for rows with equal bounds from the caller's multipliers z */
-PetscErrorCode IPSidesTakeEquality(Tao tao, Vec z, Vec y)
-{
-  TAO_IPFILTER      *ip    = (TAO_IPFILTER *)tao->data;
-  const IPSides     *sides = ip->sides;
-  const PetscScalar *za, *w;
-  PetscScalar       *ya;
-  PetscInt           n;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(y, &n));
-  PetscCall(VecGetArrayRead(z, &za));
-  PetscCall(VecGetArrayRead(ip->pair[IP_SLACK].w, &w));
-  PetscCall(VecGetArray(y, &ya));
-  for (PetscInt k = 0; k < sides->nequal; k++) ya[n - sides->nequal + k] = -za[sides->equal[k]] * w[sides->equal[k]];
-  PetscCall(VecRestoreArray(y, &ya));
-  PetscCall(VecRestoreArrayRead(ip->pair[IP_SLACK].w, &w));
-  PetscCall(VecRestoreArrayRead(z, &za));
-  PetscFunctionReturn(0);
-}
-
 /*
    Distributes the caller's slacks and multipliers, which are negative for an active upper bound, to the pairs of both
    sides. A side with zero multiplier gets the mean product t z of the other sides.

@@ -53,9 +53,8 @@ static PetscErrorCode CheckProblem(Tao tao)
 PetscErrorCode IPGivenCheck(Tao tao)
 {
   const IPGiven *given = ((TAO_IPFILTER *)tao->data)->given;
-  Vec            x = tao->solution, c = tao->ineq_constrained ? tao->constraints_inequality : NULL,
-      ce                = tao->eq_constrained ? tao->constraints_equality : NULL;
-  const char unknowns[] = "unknowns", rows[] = "inequality constraints";
+  Vec            x = tao->solution, c = tao->ineq_constrained ? tao->constraints_inequality : NULL;
+  const char     unknowns[] = "unknowns", rows[] = "inequality constraints";
 
   PetscFunctionBegin;
   PetscCall(CheckProblem(tao));
@@ -68,8 +67,5 @@ PetscErrorCode IPGivenCheck(Tao tao)
   PetscCall(CheckLayout(tao, tao->IU, "Upper bounds of the inequality constraints", c, rows));
   PetscCall(CheckLayout(tao, given->warm_s, "Slacks of the warm start", c, rows));
   PetscCall(CheckLayout(tao, given->warm_z, "Multipliers of the warm start", c, rows));
-  PetscCall(CheckLayout(tao, given->warm_y, "Multipliers of the warm start", ce, "equality constraints"));
-  PetscCall(CheckLayout(tao, given->warm_lower, "Multipliers of the lower bounds", x, unknowns));
-  PetscCall(CheckLayout(tao, given->warm_upper, "Multipliers of the upper bounds", x, unknowns));
   PetscFunctionReturn(0);
 }

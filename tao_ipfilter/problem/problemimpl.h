@@ -58,7 +58,6 @@ PETSC_INTERN PetscErrorCode IPFixedZero(Tao, Vec);
 PETSC_INTERN PetscErrorCode IPFixedMatrix(Tao, Mat);
 
 /* bounds.c */
-PETSC_INTERN PetscBool      IPWarmBounds(const TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode IPBoundsSetUp(Tao);
 PETSC_INTERN PetscErrorCode IPBoundsPush(Tao);
 PETSC_INTERN PetscErrorCode IPBoundsDistance(Tao, Vec, PetscBool trial);
@@ -75,7 +74,6 @@ PETSC_INTERN PetscErrorCode IPSidesUpdateWidth(Tao);
 PETSC_INTERN PetscErrorCode IPSidesConstraints(Tao, Vec, Vec);
 PETSC_INTERN PetscErrorCode IPSidesEquality(Vec own, Vec all, PetscBool back);
 PETSC_INTERN PetscErrorCode IPSidesMultipliers(Tao, Vec, Vec);
-PETSC_INTERN PetscErrorCode IPSidesTakeEquality(Tao, Vec, Vec);
 PETSC_INTERN PetscErrorCode IPSidesTakePairs(Tao);
 PETSC_INTERN PetscErrorCode IPSidesReturnPairs(Tao);
 PETSC_INTERN PetscErrorCode IPSidesDestroy(IPSides *);
@@ -123,13 +121,5 @@ PETSC_INTERN PetscErrorCode IPSetMultipliers(Tao);
 /* difference.c */
 PETSC_INTERN PetscErrorCode IPDifferenceInUse(Tao, PetscBool *);
 PETSC_INTERN PetscErrorCode IPDifferenceHessian(Tao);
-
-/* quasinewton.c */
-PETSC_INTERN PetscErrorCode IPQuasiNewtonInUse(Tao, PetscBool *);
-PETSC_INTERN PetscErrorCode IPQuasiNewtonSetUp(Tao);
-PETSC_INTERN void           IPQuasiNewtonReset(IPQuasiNewton *);
-PETSC_INTERN PetscErrorCode IPQuasiNewtonAdd(Tao, Vec, Vec);
-PETSC_INTERN Mat            IPQuasiNewtonOperator(const TAO_IPFILTER *);
-PETSC_INTERN PetscErrorCode IPQuasiNewtonDestroy(IPQuasiNewton *);
 
 #endif

@@ -39,8 +39,6 @@ struct _n_IPGiven {
   Vec       slack_mass, primal_mass; /* weights M_s of the slacks and M_u of the unknowns; NULL: all weights are 1 */
   Vec       compliance;              /* compliance of the rows of c_I; NULL: all rows are rigid */
   Vec       warm_s, warm_z;          /* initial slacks and their multipliers */
-  Vec       warm_y;                  /* initial multipliers of the equality constraints */
-  Vec       warm_lower, warm_upper;  /* initial multipliers of the bounds */
   PetscReal rounding;                /* rounding errors of the unknowns; 0: unknown */
   PetscErrorCode (*interrupt)(void *, PetscBool *); /* whether the user wants to end the solve */
   void *interrupt_ctx;

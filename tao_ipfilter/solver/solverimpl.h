@@ -26,7 +26,6 @@ typedef struct _n_IPSides       IPSides;
 typedef struct _n_IPRowScale    IPRowScale;
 typedef struct _n_IPJacobian    IPJacobian;
 typedef struct _n_IPHessian     IPHessian;
-typedef struct _n_IPQuasiNewton IPQuasiNewton;
 typedef struct _n_IPFirst       IPFirst;
 typedef struct _n_IPScale       IPScale;
 typedef struct _n_IPStiffness   IPStiffness;
@@ -41,7 +40,6 @@ typedef struct _n_IPShift       IPShift;
 typedef struct _n_IPBarrier     IPBarrier;
 typedef struct _n_IPFilterSet   IPFilterSet;
 typedef struct _n_IPSearch      IPSearch;
-typedef struct _n_IPWatchdog    IPWatchdog;
 typedef struct _n_IPRelaxation  IPRelaxation;
 typedef struct _n_IPRestoration IPRestoration;
 typedef struct _n_IPMethod      IPMethod;
@@ -133,7 +131,6 @@ struct _n_TAO_IPFILTER {
   IPRowScale    *rows;  /* rows.h: scales of all rows */
   IPJacobian    *jac;   /* matrices.h: Jacobians and Hessian */
   IPHessian     *hess;
-  IPQuasiNewton *qn;      /* quasinewton.h: approximation of the Hessian */
   IPFirst       *first;   /* sizes.h: sizes at the starting point */
   IPScale       *scale;   /* sizes.h: scales of residuals */
   IPStiffness   *stiff;   /* stiffness.h: stiffness of the objective */
@@ -148,7 +145,6 @@ struct _n_TAO_IPFILTER {
   IPShift       *shift;   /* barrier.h: multiple of M_u that is added to the Hessian */
   IPFilterSet   *filter;  /* search.h: the filter */
   IPSearch      *search;  /* search.h: the line search */
-  IPWatchdog    *watch;   /* search.h: the watchdog */
   IPRelaxation  *relax;   /* relaxation.h: relaxation of constraints without an interior */
   IPRestoration *restore; /* relaxation.h: feasibility restoration */
   IPMethod      *method;  /* method.h: alternative to the interior point method */

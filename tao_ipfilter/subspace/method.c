@@ -15,7 +15,6 @@
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/method.h"
 #include "tao_ipfilter/solver/options.h"
-#include "tao_ipfilter/solver/quasinewton.h"
 #include "tao_ipfilter/solver/record.h"
 #include "tao_ipfilter/solver/stiffness.h"
 #include "tao_ipfilter/solver/terms.h"
@@ -48,9 +47,9 @@ static PetscErrorCode SubspaceApplies(Tao tao, PetscBool *applies)
 
   PetscFunctionBegin;
   f->newton = (PetscBool)(ip->method->linear && !ip->method->constant);
-  *applies  = (PetscBool)((opt->subspace != IP_SUBSPACE_FALSE || IPNeedsMethod(ip)) && ip->mi && !ip->me &&
-                         !ip->pair[IP_CEILING].n && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->qn->B &&
-                         !ip->hess->products);
+  *applies =
+    (PetscBool)((opt->subspace != IP_SUBSPACE_FALSE || IPNeedsMethod(ip)) && ip->mi && !ip->me &&
+                !ip->pair[IP_CEILING].n && !ip->pair[IP_LOWER].n && !ip->pair[IP_UPPER].n && !ip->hess->products);
   if (!*applies || opt->subspace == IP_SUBSPACE_TRUE || IPNeedsMethod(ip)) PetscFunctionReturn(0);
   PetscCall(SubspaceIsServed(tao, &amg, &factored));
   *applies = (PetscBool)(factored || (amg && opt->forcing == IP_FORCING_ADAPTIVE));

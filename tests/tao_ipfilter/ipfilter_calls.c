@@ -232,36 +232,21 @@ static PetscErrorCode TestBoundMultipliers(void)
   PetscFunctionReturn(0);
 }
 
-/* The multipliers of a solved problem into the solver of the same problem, by the public calls */
-static PetscErrorCode CopyMultipliers(Tao from, Tao to, PetscBool rows, PetscBool total, PetscBool bounds)
+/* The slacks and multipliers of a solved problem into the solver of the same problem */
+static PetscErrorCode CopyMultipliers(Tao from, Tao to)
 {
-  Vec s, z, DE, DL, DU, x;
+  Vec s, z;
 
   PetscFunctionBeginUser;
-  if (rows) {
-    PetscCall(TaoIPFilterGetSlack(from, &s));
-    PetscCall(TaoIPFilterGetMultiplier(from, &z));
-    PetscCall(TaoIPFilterSetWarmStart(to, s, z));
-  }
-  if (total) {
-    PetscCall(TaoGetDualVariables(from, &DE, NULL));
-    PetscCall(TaoIPFilterSetWarmStartEquality(to, DE));
-  }
-  if (bounds) {
-    PetscCall(TaoGetSolution(from, &x));
-    PetscCall(VecDuplicate(x, &DL));
-    PetscCall(VecDuplicate(x, &DU));
-    PetscCall(TaoComputeDualVariables(from, DL, DU));
-    PetscCall(TaoIPFilterSetWarmStartBounds(to, DL, DU));
-    PetscCall(VecDestroy(&DL));
-    PetscCall(VecDestroy(&DU));
-  }
+  PetscCall(TaoIPFilterGetSlack(from, &s));
+  PetscCall(TaoIPFilterGetMultiplier(from, &z));
+  PetscCall(TaoIPFilterSetWarmStart(to, s, z));
   PetscFunctionReturn(0);
 }
 
 /* A solved problem from its own solution, in a new solver: no or one iteration; then with the load changed a little,
    fewer than from cold */
-static PetscErrorCode TestWarmStart(PetscBool rows, PetscBool total, PetscBool bounds)
+static PetscErrorCode TestWarmStart(void)
 {
   Chain              chain;
   Tao                first, again;
@@ -272,21 +257,18 @@ static PetscErrorCode TestWarmStart(PetscBool rows, PetscBool total, PetscBool b
 
   PetscFunctionBeginUser;
   PetscCall(CreateChain(40, &chain));
-  PetscCall(FillVec(chain.lower, PETSC_NINFINITY, -0.1));
-  PetscCall(FillVec(chain.upper, 0.5, PETSC_INFINITY));
   PetscCall(FillVec(chain.q.g, 1.2, 0.15));
   PetscCall(VecDuplicate(chain.q.b, &x));
   PetscCall(VecDuplicate(chain.q.b, &y));
-  PetscCall(CreateChainSolver(&chain, rows, total, bounds, x, &first));
+  PetscCall(CreateChainSolver(&chain, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE, x, &first));
   PetscCall(TaoSolve(first));
   PetscCall(TaoGetSolutionStatus(first, &its[0], &f[0], NULL, NULL, NULL, NULL));
   PetscCall(VecCopy(x, y));
-  PetscCall(CreateChainSolver(&chain, rows, total, bounds, y, &again));
-  PetscCall(CopyMultipliers(first, again, rows, total, bounds));
+  PetscCall(CreateChainSolver(&chain, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE, y, &again));
+  PetscCall(CopyMultipliers(first, again));
   PetscCall(TaoSolve(again));
   PetscCall(TaoGetSolutionStatus(again, &its[1], &f[1], NULL, NULL, NULL, &reason));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "warm start%s%s%s: %s\n", rows ? ", rows" : "", total ? ", equality" : "",
-    bounds ? ", bounds" : "", TaoConvergedReasons[reason]));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "warm start: %s\n", TaoConvergedReasons[reason]));
   if (its[1] <= 1) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  from the solution: no or one iteration\n"));
   else
     PetscCall(PetscPrintf(PETSC_COMM_WORLD,
@@ -295,7 +277,7 @@ static PetscErrorCode TestWarmStart(PetscBool rows, PetscBool total, PetscBool b
     ProblemVerdict("  change of the objective, relative", PetscAbsReal(f[1] - f[0]) / PetscAbsReal(f[0]), 1e-7));
   PetscCall(VecScale(chain.q.b, 1.001));
   PetscCall(VecCopy(x, y));
-  PetscCall(CopyMultipliers(first, again, rows, total, bounds));
+  PetscCall(CopyMultipliers(first, again));
   PetscCall(TaoSolve(again));
   PetscCall(TaoGetSolutionStatus(again, &its[2], NULL, NULL, NULL, NULL, &reason));
   if (reason > 0 && its[2] <= its[0])
@@ -515,7 +497,7 @@ static PetscErrorCode TestSides(PetscInt kinds, const char name[])
   PetscCall(TaoSolve(tao));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "rows with %s\n", name));
   PetscCall(CheckSides(tao, &chain, x));
-  PetscCall(CopyMultipliers(tao, tao, PETSC_TRUE, PETSC_FALSE, PETSC_FALSE));
+  PetscCall(CopyMultipliers(tao, tao));
   PetscCall(TaoSolve(tao));
   PetscCall(TaoGetIterationNumber(tao, &its));
   if (its <= 1) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  from the solution: no or one iteration\n"));
@@ -590,18 +572,10 @@ static PetscErrorCode SetPairs(Tao tao, Vec v)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SetBounds(Tao tao, Vec v)
-{
-  PetscFunctionBeginUser;
-  PetscCall(TaoIPFilterSetWarmStartBounds(tao, v, v));
-  PetscFunctionReturn(0);
-}
-
 /* Vectors of another layout than what they belong to, before the first solve and after one */
 static PetscErrorCode TestLayouts(void)
 {
-  const Setter setters[] = {TaoIPFilterSetSlackMass, TaoIPFilterSetPrimalMass, SetLower, SetUpper, SetRows, SetPairs,
-    TaoIPFilterSetWarmStartEquality, SetBounds};
+  const Setter setters[] = {TaoIPFilterSetSlackMass, TaoIPFilterSetPrimalMass, SetLower, SetUpper, SetRows, SetPairs};
   Chain        chain;
   Vec          x, other;
 
@@ -682,32 +656,11 @@ static PetscErrorCode TestSlackMass(PetscBool two)
   PetscFunctionReturn(0);
 }
 
-/* Residual of the chain without constraints, and how the solve ended */
-static PetscErrorCode CheckFree(Tao tao, Chain *chain, Vec x, const char name[])
-{
-  Vec       r;
-  PetscReal norm, size;
-
-  PetscFunctionBeginUser;
-  PetscCall(AttemptBegin());
-  (void)TaoSolve(tao);
-  PetscCall(AttemptEnd());
-  PetscCall(VecDuplicate(x, &r));
-  PetscCall(MatMult(chain->q.H, x, r));
-  PetscCall(VecAXPY(r, -1.0, chain->q.b));
-  PetscCall(VecNorm(r, NORM_2, &norm));
-  PetscCall(VecNorm(chain->q.b, NORM_2, &size));
-  PetscCall(ProblemVerdict(name, norm / size, 1e-6));
-  if (attempt_sentence[0]) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s\n", attempt_sentence));
-  PetscCall(VecDestroy(&r));
-  PetscFunctionReturn(0);
-}
-
-/* One solver without TaoSetHessian() for numbers of unknowns with differences and with a limited-memory matrix; at last
-   it gets a Hessian, which takes one step */
+/* One solver without TaoSetHessian() for several numbers of unknowns, of which the last is too large for differences;
+   then it gets a Hessian, which takes one step */
 static PetscErrorCode TestOwnHessian(void)
 {
-  const PetscInt sizes[] = {8, 12, 1500, 1200, 5, 1500};
+  const PetscInt sizes[] = {8, 12, 5, 1500};
   PetscInt       its;
   Chain          chain;
   Tao            tao;
@@ -717,21 +670,27 @@ static PetscErrorCode TestOwnHessian(void)
   PetscCall(TaoCreate(PETSC_COMM_WORLD, &tao));
   PetscCall(TaoSetType(tao, TAOIPFILTER));
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(sizes); k++) {
-    char name[64];
+    PetscReal residual;
 
     PetscCall(CreateChain(sizes[k], &chain));
     PetscCall(VecDuplicate(chain.q.b, &x));
     PetscCall(TaoSetSolution(tao, x));
     PetscCall(TaoSetObjectiveAndGradient(tao, NULL, ProblemObjectiveAndGradient, &chain.q));
-    PetscCall(PetscSNPrintf(name, sizeof(name), "no Hessian, %" PetscInt_FMT " unknowns: residual", sizes[k]));
-    PetscCall(CheckFree(tao, &chain, x, name));
+    PetscCall(AttemptBegin());
+    (void)TaoSolve(tao);
+    PetscCall(AttemptEnd());
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "no Hessian, %" PetscInt_FMT " unknowns: %s\n", sizes[k],
+      attempt_sentence[0] ? attempt_sentence : "solved"));
     if (k + 1 == PETSC_STATIC_ARRAY_LENGTH(sizes)) {
-      PetscCall(VecSet(x, 0.0));
       PetscCall(TaoSetHessian(tao, chain.q.H, chain.q.H, ProblemConstant, NULL));
-      PetscCall(CheckFree(tao, &chain, x, "then a Hessian: residual"));
+      PetscCall(TaoSolve(tao));
       PetscCall(TaoGetIterationNumber(tao, &its));
-      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  %s\n", its == 1 ? "one step" : "MORE THAN ONE STEP"));
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "then a Hessian: %s\n", its == 1 ? "one step" : "MORE THAN ONE STEP"));
     }
+    PetscCall(MatMult(chain.q.H, x, chain.lower));
+    PetscCall(VecAXPY(chain.lower, -1.0, chain.q.b));
+    PetscCall(VecNorm(chain.lower, NORM_2, &residual));
+    PetscCall(ProblemVerdict("  residual", residual, 1e-6));
     PetscCall(VecDestroy(&x));
     PetscCall(DestroyChain(&chain));
   }
@@ -965,11 +924,7 @@ int main(int argc, char **argv)
   PetscCall(TestConvergenceTests());
   PetscCall(TestConstraintTolerances());
   PetscCall(TestBoundMultipliers());
-  PetscCall(TestWarmStart(PETSC_TRUE, PETSC_FALSE, PETSC_FALSE));
-  PetscCall(TestWarmStart(PETSC_FALSE, PETSC_FALSE, PETSC_TRUE));
-  PetscCall(TestWarmStart(PETSC_TRUE, PETSC_FALSE, PETSC_TRUE));
-  PetscCall(TestWarmStart(PETSC_FALSE, PETSC_TRUE, PETSC_FALSE));
-  PetscCall(TestWarmStart(PETSC_TRUE, PETSC_TRUE, PETSC_TRUE));
+  PetscCall(TestWarmStart());
   PetscCall(TestSides(1, "two sides"));
   PetscCall(TestSides(2, "two sides or an upper one"));
   PetscCall(TestSides(5, "bounds of all kinds"));
