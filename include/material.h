@@ -79,8 +79,6 @@ typedef struct {
   const MaterialHardening *hardening; /* j2, j2_finite: points into the Material, which must not be moved */
   const PetscReal         *history;   /* history of the quadrature point, computed by the law's advance(); NULL: the
                                          law is evaluated as elastic */
-  PetscReal                secant;    /* fraction of the secant stiffness in the tangent of yielding metal; 0: the
-                                         exact tangent */
 } MaterialModuli;
 
 /* A constant that a law has in scenes: one or more numbers of a Material, with bounds */

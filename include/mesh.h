@@ -160,7 +160,5 @@ PETSC_EXTERN PetscErrorCode MeshLocatorGetPlaces(MeshLocator, const MeshPlace **
 PETSC_EXTERN PetscErrorCode MeshLocatorDestroy(MeshLocator *);
 /* Locates the points of a scene's probes. It is an error if a point is outside all bodies. */
 PETSC_EXTERN PetscErrorCode MeshLocateProbes(DM, Scene, PetscInt *n, PetscReal (*points[])[3], MeshPlace *places[]);
-/* Registers the PETSCPARTITIONER type "metis" */
-PETSC_EXTERN PetscErrorCode MeshRegisterPartitioner(void);
 
 #endif

@@ -2,7 +2,7 @@
 
 # The parts in their order; BENCH_PARTS="run.py" makes one again. The front page finds the references of the others, and
 # lists them at the end
-BENCH_PARTS ?= front.py elements/choice.py elements/sharp.py run.py calculix.py effects.py front.py
+BENCH_PARTS ?= front.py elements/choice.py run.py calculix.py effects.py front.py
 BENCH_FOLDER ?= build/bench
 
 .PHONY: bench bench-front bench-full bench-page

@@ -89,17 +89,8 @@ static PetscErrorCode SolverCreate(Tao tao)
                                                               is dimensionless: machine precision
 . -tao_ipfilter_tol <1e-8>                                  - alias of `-tao_gatol`
 . -tao_ipfilter_kkt <relative> (relative,mass)              - dimensionless KKT error, or the absolute mass-weighted one
-. -tao_ipfilter_scaling <problem> (problem,gradient,none)   - scaling: `problem`: constants adapt to the units of the
-                                                              problem; `gradient`: IPOPT's constants, after scaling by
-                                                              the gradients at the start; `none`: IPOPT's constants, no
-                                                              scaling
-. -tao_ipfilter_dual_inf_tol <-1>                           - limit of the stationarity residual's entries at
-                                                              convergence, in the caller's units; negative: 1 with
-                                                              gradient, else none
-. -tao_ipfilter_constr_viol_tol <-1>                        - the same for the constraint violation; negative: 1e-4, or
-                                                              none
-. -tao_ipfilter_compl_inf_tol <-1>                          - the same for the products of slacks and multipliers;
-                                                              negative: 1e-4, or none
+. -tao_ipfilter_scaling <problem> (problem,none)            - scaling: `problem`: constants adapt to the units of the
+                                                             problem; `none`: no scaling
 . -tao_ipfilter_monitor                                     - prints one line per iteration, with IPOPT's columns
 . -tao_ipfilter_start <warm> (cold,predict,warm)            - initial slacks and multipliers: `cold`: constants;
                                                               `predict`: from a step of the penalized problem; `warm`:
@@ -238,8 +229,7 @@ static PetscErrorCode SolverCreate(Tao tao)
   have no larger weight than near ones. At the default tolerance the error of the objective is about 2e-7. A constant
   added to the objective changes the second measure, not the first.
 
-  With `none` and `gradient` the residuals are absolute; with `gradient` the objective and each row are first scaled so
-  that their gradients at the start are at most 100. The absolute limits, in the caller's units, apply in addition.
+  With `none` the residuals are absolute.
 
   If the iterates show that the inequalities have no interior, they are relaxed by a hundredth of the tolerance times
   their size, or by the tolerance if that is not enough. The sentence of `TaoIPFilterGetReason()` states by how much. If

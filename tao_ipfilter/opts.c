@@ -9,17 +9,16 @@ const char *const        IPForcings[]        = {"adaptive", "fixed", "IPForcing"
 static const char *const IPEqualityMethods[] = {"auto", "augmented", "condensed", "IPEqualityMethod", "IP_EQUALITY_",
   NULL};
 static const char *const IPConstrainedUses[] = {"false", "true", "auto", "IPConstrainedUse", "IP_SUBSPACE_", NULL};
-static const char *const IPScalings[]        = {"problem", "gradient", "none", "IPScaling", "IP_SCALING_", NULL};
+static const char *const IPScalings[]        = {"problem", "none", "IPScaling", "IP_SCALING_", NULL};
 
 /* The values that an option may have. A number that is not between the ends is refused, and NaN always. */
-typedef enum { IP_ANY, IP_NOT_NEGATIVE, IP_POSITIVE, IP_FRACTION, IP_HALF } OptionRange;
+typedef enum { IP_NOT_NEGATIVE, IP_POSITIVE, IP_FRACTION, IP_HALF } OptionRange;
 
 static const struct {
   const char *text;
   PetscReal   low, high;
   PetscBool   low_allowed;
 } option_ranges[] = {
-  [IP_ANY]          = {"a number", PETSC_NINFINITY, PETSC_MAX_REAL, PETSC_TRUE},
   [IP_NOT_NEGATIVE] = {"zero or positive", 0.0, PETSC_MAX_REAL, PETSC_TRUE},
   [IP_POSITIVE]     = {"positive", 0.0, PETSC_MAX_REAL, PETSC_FALSE},
   [IP_FRACTION]     = {"between 0 and 1", 0.0, 1.0, PETSC_FALSE},
@@ -54,13 +53,6 @@ static const RealOption real_options[] = {
     "for condensed equality constraints: size of the proximal term relative to the weights of the constraints"),
   IP_REAL("filter_switch", filter_switch, 10.0, IP_NOT_NEGATIVE,
     "the filter is used if (J^T D J)_ii exceeds this many times H_ii for some i; 0: always"),
-  IP_REAL("dual_inf_tol", dual_inf_tol, -1.0, IP_ANY,
-    "absolute limit of the stationarity residual at convergence; negative: 1 with scaling by gradients, else none"),
-  IP_REAL("constr_viol_tol", constr_viol_tol, -1.0, IP_ANY,
-    "absolute limit of the constraint violation at convergence; negative: 1e-4 with scaling by gradients, else none"),
-  IP_REAL("compl_inf_tol", compl_inf_tol, -1.0, IP_ANY,
-    "absolute limit of the complementarity products at convergence; negative: 1e-4 with scaling by gradients, else "
-    "none"),
   IP_REAL("direct_memory", direct_memory, 2000, IP_NOT_NEGATIVE,
     "memory in MB, over all ranks, that MUMPS may use for the whole matrix if the Krylov method fails; 0: never"),
 };
@@ -138,9 +130,9 @@ PetscErrorCode TaoSetFromOptions_IPFilter(Tao tao, AMGFOptionItems PetscOptionsO
   PetscCall(PetscOptionsEnum("-tao_ipfilter_forcing",
     "Tolerance of the linear solver: derived from the KKT error, or the KSP's own", TAOIPFILTER, IPForcings,
     (PetscEnum)opt->forcing, (PetscEnum *)&opt->forcing, NULL));
-  PetscCall(PetscOptionsEnum("-tao_ipfilter_scaling",
-    "Units of tolerances and constants: scales of the problem, gradients at the start as in IPOPT, or none",
-    TAOIPFILTER, IPScalings, (PetscEnum)opt->scaling, (PetscEnum *)&opt->scaling, NULL));
+  PetscCall(
+    PetscOptionsEnum("-tao_ipfilter_scaling", "Units of tolerances and constants: scales of the problem, or none",
+      TAOIPFILTER, IPScalings, (PetscEnum)opt->scaling, (PetscEnum *)&opt->scaling, NULL));
   PetscCall(PetscOptionsEnum("-tao_ipfilter_equality",
     "Equality constraints: in an augmented system factored by MUMPS, or condensed with proximal updates", TAOIPFILTER,
     IPEqualityMethods, (PetscEnum)opt->equality, (PetscEnum *)&opt->equality, NULL));

@@ -346,7 +346,7 @@ def rules(found):
     yield "4. Do not change the solver's tolerance. The mesh decides the error."
     yield "5. If contact ends at a sharp edge, refine the edge locally, halve the cells there once more, and"
     yield "   extrapolate: twice the second force minus the first. On uniform meshes extrapolate only if the"
-    yield "   edges of the two faces lie on each other's grid lines: [sharp edges](elements/sharp.md).\n"
+    yield "   edges of the two faces lie on each other's grid lines.\n"
     yield "| rule | compared | ratio of errors | ratio of times |"
     yield "| --- | --- | --- | --- |"
     rows = ((1, "`auto` and `full` on the same mesh", ratio("default", "full")),
@@ -372,8 +372,7 @@ def two_block_words(rows):
     yield "slab, so that it does not fall regularly from mesh to mesh. The slab is nearly incompressible"
     yield f"(Poisson's ratio 0.499), so that `full` locks. With `bbar` the errors are {errors}"
     yield (f"on meshes {', '.join(CASES['two_block'].order1)}. The gap is linearized once, as in the published "
-           f"problem. Forces with a")
-    yield "consistent gap are on the page about [sharp edges](elements/sharp.md).\n"
+           f"problem.\n")
     best = min((row for row in rows if "pair" in row and "edges" in row["setting"] and row["error"] <= 0.01),
                key=lambda row: row["seconds"], default=None)
     if not best:
@@ -456,7 +455,6 @@ FURTHER = (
     ("elements/choice.md", "how good the element is that `auto` chooses, for eleven scenes"),
     ("elements/second.md", "the same for eleven other scenes: finite strain, friction, plasticity, torsion"),
     ("elements/third.md", "the same for five scenes that were chosen after the rule had changed"),
-    ("elements/sharp.md", "order 1 and 2 where contact ends at an edge"),
     *((f"knobs/{name}.md", title) for name, (title, _) in PAGES.items()),
     ("calculix.md", "comparison with CalculiX: times, forces, and why they differ"),
     ("effects.md", "cost of effects that a scene does not use"),

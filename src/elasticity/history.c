@@ -46,14 +46,6 @@ PetscErrorCode ElasticityCommit(Elasticity e, Vec u)
   PetscFunctionReturn(0);
 }
 
-/* Sets the fraction of the secant stiffness in the tangents of yielding metal, from 0 to 1. The exact tangent (0)
-   has almost no stiffness in the direction of plastic flow, so that Newton steps far from the solution are too long. */
-void ElasticitySetSecant(Elasticity e, PetscReal fraction)
-{
-  for (PetscInt b = 0; e->yields && b < e->nbodies; ++b)
-    e->bodies[b].material.moduli.secant = e->bodies[b].material.isochoric.secant = fraction;
-}
-
 /* Collective. Finds whether any quadrature point has a plastic strain. yielded: the same on every rank. */
 PetscErrorCode ElasticityHasYielded(Elasticity e, PetscBool *yielded)
 {

@@ -172,7 +172,7 @@ static PetscBool MaterialStress_J2(const MaterialModuli *m, const PetscReal H[9]
 
 /*
    Computes A, the elastic tangent minus 2 mu (b I_dev + c n (x) n), with b = 3 mu da/q, c = 3 mu/(3 mu + K + sigma_y')
-   - b. With c = 0 this is the secant, for a strain that grows in its direction; m->secant is the share of it.
+   - b
 */
 static PetscBool MaterialTangent_J2(const MaterialModuli *m, const PetscReal H[9], PetscReal A[81])
 {
@@ -181,9 +181,8 @@ static PetscBool MaterialTangent_J2(const MaterialModuli *m, const PetscReal H[9
   J2State          s;
 
   J2Return(m, H, e, &s);
-  b = s.increment > 0 ? 3 * m->mu * s.increment / s.q : 0;
-  c = s.increment > 0 ? 3 * m->mu / (3 * m->mu + m->hardening->kinematic + s.slope) - b : 0;
-  c *= 1 - m->secant;
+  b  = s.increment > 0 ? 3 * m->mu * s.increment / s.q : 0;
+  c  = s.increment > 0 ? 3 * m->mu / (3 * m->mu + m->hardening->kinematic + s.slope) - b : 0;
   mu = (1 - b) * m->mu;
   for (int p = 0; p < 9; ++p) {
     for (int q = 0; q < 9; ++q) A[9 * p + q] = -2 * m->mu * c * s.n[at[p]] * s.n[at[q]];

@@ -32,10 +32,10 @@ PETSC_INTERN PetscErrorCode MeshDestroyBodies(PetscInt nbodies, MeshBody[]);
    curved shape; otherwise it maps the vertices of the other bodies at level 0. */
 PETSC_INTERN PetscErrorCode MeshMapNodes(DM, PetscInt nbodies, const SceneBody[], PetscBool curved);
 
-/* metis.c: partitions a whole graph by METIS, part[v] in [0, nparts). The partitioner is registered by a public
-   function. */
+/* metis.c: partitions a whole graph by METIS, part[v] in [0, nparts); registers the partitioner "metis" */
 PETSC_INTERN PetscErrorCode MetisPartitionGraph(PetscInt nparts, PetscInt nv, const PetscInt start[],
   const PetscInt adjacency[], const PetscInt weights[], PetscInt part[]);
+PETSC_INTERN PetscErrorCode MeshRegisterPartitioner(void);
 
 /* distribute_level0.c: collective; distributes the grids of the first rank to all ranks */
 typedef struct {

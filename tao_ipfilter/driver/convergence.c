@@ -56,15 +56,10 @@ static PetscBool OwnMet(const TAO_IPFILTER *ip, PetscReal limit)
   return (PetscBool)(ip->kkt->own <= PetscMax(ip->relax->times ? IP_ACCEPTABLE_TOL : limit, ip->tol));
 }
 
-/* Returns whether both measures of the KKT error are within the tolerance, and the absolute tolerances are met */
+/* Returns whether both measures of the KKT error are within the tolerance */
 static PetscBool Converged(const TAO_IPFILTER *ip)
 {
-  const IPKKT *k = ip->kkt;
-
-  if (IPBothErrors(ip) > ip->tol || !OwnMet(ip, ip->tol)) return PETSC_FALSE;
-  return (PetscBool)(k->inf_du <= IPAbsoluteTolerance(ip, ip->opt->dual_inf_tol, 1.0) &&
-                     k->inf_pr <= IPAbsoluteTolerance(ip, ip->opt->constr_viol_tol, 1e-4) &&
-                     k->inf_compl <= IPAbsoluteTolerance(ip, ip->opt->compl_inf_tol, 1e-4));
+  return (PetscBool)(IPBothErrors(ip) <= ip->tol && OwnMet(ip, ip->tol));
 }
 
 /* Returns whether both measures of the KKT error are within the acceptable tolerance */

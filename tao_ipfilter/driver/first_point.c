@@ -60,14 +60,11 @@ static PetscErrorCode MeasureFirst(Tao tao, PetscBool *finite)
 {
   TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
   IPFirst      *first = ip->first;
-  PetscReal     largest;
   Vec           sums;
 
   PetscFunctionBegin;
   first->f = ip->at.f;
   PetscCall(VecNorm(tao->gradient, NORM_2, &first->gradient));
-  PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &largest));
-  first->unit = ip->opt->scaling == IP_SCALING_GRADIENT ? PetscMax(1.0, largest / IP_GRADIENT_MAX) : 1.0;
   if (ip->mi) {
     PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &first->length));
     PetscCall(MatNorm(ip->jac->inequality, NORM_INFINITY, &first->jacobian));

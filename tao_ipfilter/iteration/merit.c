@@ -97,8 +97,7 @@ static PetscErrorCode MeritUnits(Tao tao)
   PetscFunctionBegin;
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->pair[b].n) weight += ip->pair[b].weight;
-  search->theta_ref = search->equality_weight = 1.0;
-  search->phi_ref                             = ip->first->unit;
+  search->theta_ref = search->equality_weight = search->phi_ref = 1.0;
   if (ip->opt->scaling == IP_SCALING_PROBLEM) {
     search->theta_ref = ip->mi ? ip->scale->length * PetscSqrtReal(ip->pair[IP_SLACK].weight) : ip->scale->equality;
     search->equality_weight = search->theta_ref / ip->scale->equality;

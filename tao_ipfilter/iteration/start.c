@@ -16,10 +16,10 @@ static PetscErrorCode StartCold(Tao tao)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
 
   PetscFunctionBegin;
-  ip->mu = ip->opt->mu0 * ip->first->unit;
+  ip->mu = ip->opt->mu0;
   if (ip->mi) {
     PetscCall(VecSet(ip->pair[IP_SLACK].t, ip->opt->s0));
-    PetscCall(VecSet(ip->pair[IP_SLACK].z, ip->opt->z0 * ip->first->unit));
+    PetscCall(VecSet(ip->pair[IP_SLACK].z, ip->opt->z0));
     PetscCall(IPSlackKeepInside(tao, ip->at.s, 0.5));
     PetscCall(IPSlackCenterUpper(tao, ip->mu));
     PetscCall(VecSet(ip->at.lambda, 0.0));

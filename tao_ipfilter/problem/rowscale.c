@@ -1,8 +1,7 @@
 /*
    Scales constraints by their gradients at the start: row i becomes d_i c_i. The scale d_i <= 1 limits the largest
-   entry of the row's gradient to IP_ROW_RATIO times that of the smallest row or, for -tao_ipfilter_scaling gradient, to
-   IP_GRADIENT_MAX. With the first rule, rows of similar size remain unscaled in any units. The iteration uses scaled
-   rows; multipliers and slacks are scaled back at the end.
+   entry of the row's gradient to IP_ROW_RATIO times that of the smallest row, so that rows of similar size remain
+   unscaled in any units. The iteration uses scaled rows; multipliers and slacks are scaled back at the end.
 */
 #include "problemimpl.h"
 #include "tao_ipfilter/solver/constants.h"
@@ -12,16 +11,8 @@
 
 #define IP_LEAST_SCALE 1e-20
 
-/*
-   Returns the largest entry that a row's gradient may have after scaling. smallest: largest entry of the smallest row.
-*/
-static PetscReal RowLimit(const IPOptions *opt, PetscReal smallest)
-{
-  return opt->scaling == IP_SCALING_GRADIENT ? IP_GRADIENT_MAX : IP_ROW_RATIO * smallest;
-}
-
 /* Computes the scales d of the rows of J; *d is NULL if no row exceeds the limit */
-static PetscErrorCode RowScale(Mat J, Vec layout, const IPOptions *opt, Vec *d)
+static PetscErrorCode RowScale(Mat J, Vec layout, Vec *d)
 {
   PetscScalar *a;
   PetscInt     rstart, rend;
@@ -45,12 +36,12 @@ static PetscErrorCode RowScale(Mat J, Vec layout, const IPOptions *opt, Vec *d)
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, extreme, 2, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)J)));
   for (PetscInt i = 0; i < rend - rstart; i++) {
-    const PetscReal row = PetscRealPart(a[i]), limit = RowLimit(opt, -extreme[0]);
+    const PetscReal row = PetscRealPart(a[i]), limit = -IP_ROW_RATIO * extreme[0];
 
     a[i] = row > limit ? PetscMax(limit / row, IP_LEAST_SCALE) : 1.0;
   }
   PetscCall(VecRestoreArrayWrite(*d, &a));
-  if (!(extreme[1] > RowLimit(opt, -extreme[0]))) PetscCall(VecDestroy(d));
+  if (!(extreme[1] > -IP_ROW_RATIO * extreme[0])) PetscCall(VecDestroy(d));
   PetscFunctionReturn(0);
 }
 
@@ -62,8 +53,8 @@ PetscErrorCode IPRowScaleSetUp(Tao tao, PetscBool *scaled)
   PetscFunctionBegin;
   *scaled = PETSC_FALSE;
   if (ip->opt->scaling == IP_SCALING_NONE) PetscFunctionReturn(0);
-  if (ip->mi) PetscCall(RowScale(ip->jac->inequality, ip->at.c, ip->opt, &ip->rows->inequality));
-  if (ip->me) PetscCall(RowScale(ip->jac->equality, ip->at.ce, ip->opt, &ip->rows->equality));
+  if (ip->mi) PetscCall(RowScale(ip->jac->inequality, ip->at.c, &ip->rows->inequality));
+  if (ip->me) PetscCall(RowScale(ip->jac->equality, ip->at.ce, &ip->rows->equality));
   *scaled = (PetscBool)(ip->rows->inequality || ip->rows->equality);
   PetscFunctionReturn(0);
 }

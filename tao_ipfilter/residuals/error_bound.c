@@ -342,5 +342,5 @@ PetscReal IPErrorBoundLeastMu(const TAO_IPFILTER *ip)
   for (PetscInt b = 0; b < IP_NPAIRS; b++)
     if (ip->pair[b].n) weight += ip->pair[b].weight;
   if (weight > 0.0 && energy < PETSC_INFINITY) mu = PetscMin(mu, 0.5 * IP_BOUND_MULTIPLE * ip->tol * energy / weight);
-  return PetscMin(mu, 0.1 * IPAbsoluteTolerance(ip, ip->opt->compl_inf_tol, 1e-4));
+  return mu;
 }

@@ -27,7 +27,6 @@ PETSC_INTERN PetscErrorCode IPValuesWithinReach(Tao, Vec, Vec);
 
 /* scale.c */
 PETSC_INTERN PetscErrorCode IPComputeScale(Tao);
-PETSC_INTERN PetscReal      IPAbsoluteTolerance(const TAO_IPFILTER *, PetscReal given, PetscReal by_gradients);
 
 /* terms.c, in addition to its public functions */
 PETSC_INTERN PetscErrorCode IPTermsDestroy(IPTerms *);

@@ -102,16 +102,6 @@ static PetscErrorCode DualScale(Tao tao)
 }
 
 /*
-   Returns an absolute tolerance: `given`, or, if that is negative, `by_gradients` with scaling by gradients and
-   infinity otherwise
-*/
-PetscReal IPAbsoluteTolerance(const TAO_IPFILTER *ip, PetscReal given, PetscReal by_gradients)
-{
-  if (given >= 0.0) return given;
-  return ip->opt->scaling == IP_SCALING_GRADIENT ? by_gradients : PETSC_INFINITY;
-}
-
-/*
    Computes the scales of the residuals. They have the problem's units, so that a change of units changes no decision.
    Forces are relative to the forces that cancel, constraints to their largest value, and products t z to length times
    pressure. A scale that vanishes is replaced by a small fraction of a first value, or by the pressure that follows
@@ -124,8 +114,7 @@ PetscErrorCode IPComputeScale(Tao tao)
   IPScale      *s = ip->scale;
 
   PetscFunctionBegin;
-  *s         = (IPScale){.dual = ip->first->unit, .length = 1.0, .equality = 1.0, .pressure = ip->first->unit};
-  s->product = ip->first->unit;
+  *s        = (IPScale){.dual = 1.0, .length = 1.0, .equality = 1.0, .pressure = 1.0, .product = 1.0};
   s->energy = s->present = PETSC_INFINITY;
   if (ip->opt->scaling != IP_SCALING_PROBLEM || ip->opt->measure == IP_KKT_MASS) PetscFunctionReturn(0);
   *s = (IPScale){.dual = 0.0};

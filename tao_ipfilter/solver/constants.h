@@ -12,9 +12,8 @@
   1e8 /* the problem counts as unbounded if the objective falls by this multiple of its
                                      first size; rounding errors of x end the fall at about 1e10 */
 #define IP_ROW_RATIO \
-  100.0                       /* row scaling: largest allowed ratio of a row's gradient to the smallest one, at
+  100.0 /* row scaling: largest allowed ratio of a row's gradient to the smallest one, at
                                      the start */
-#define IP_GRADIENT_MAX 100.0 /* scaling by gradients: largest allowed entry of a gradient at the start */
 #define IP_BOUND_PUSH \
   1e-2                    /* distance by which the start is moved away from its bounds, relative to their
                                      size or distance */

@@ -7,7 +7,7 @@ typedef enum { IP_START_COLD, IP_START_PREDICT, IP_START_WARM } IPStart;
 typedef enum { IP_BARRIER_MONOTONE, IP_BARRIER_MEHROTRA } IPBarrierRule;
 typedef enum { IP_KKT_RELATIVE, IP_KKT_MASS } IPKKTMeasure;
 typedef enum { IP_FORCING_ADAPTIVE, IP_FORCING_FIXED } IPForcing;
-typedef enum { IP_SCALING_PROBLEM, IP_SCALING_GRADIENT, IP_SCALING_NONE } IPScaling;
+typedef enum { IP_SCALING_PROBLEM, IP_SCALING_NONE } IPScaling;
 typedef enum { IP_EQUALITY_AUTO, IP_EQUALITY_AUGMENTED, IP_EQUALITY_CONDENSED } IPEqualityMethod;
 
 typedef enum { IP_SUBSPACE_FALSE, IP_SUBSPACE_TRUE, IP_SUBSPACE_AUTO } IPConstrainedUse;
@@ -23,8 +23,6 @@ struct _n_IPOptions {
   PetscReal        mu0, s0, z0;
   PetscInt         max_mu_first, max_soc;
   PetscReal        gamma_phi, eta_phi, delta_max, filter_switch;
-  PetscReal        dual_inf_tol, constr_viol_tol, compl_inf_tol; /* absolute tolerances; negative: the default for
-                                                                    the chosen scaling */
   PetscReal        direct_memory;
   PetscBool        direct_always;
   IPConstrainedUse subspace;

@@ -6,7 +6,6 @@
 /* Sizes at the starting point, from which scales are derived */
 struct _n_IPFirst {
   PetscReal f, gradient;      /* objective; norm of its gradient */
-  PetscReal unit;             /* scale of the objective for scaling by gradients; otherwise 1 */
   PetscReal length, equality; /* size of c_I, without rows out of reach; size of c_E */
   PetscReal x;
   PetscReal reach;             /* expected change of the unknowns during the solve (far_rows.c); 0: unknown */

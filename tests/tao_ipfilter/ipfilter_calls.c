@@ -714,7 +714,6 @@ static PetscErrorCode TestOptionRanges(void)
     {"-tao_ipfilter_eta_phi", "2"},
     {"-tao_ipfilter_delta_max", "0"},
     {"-tao_ipfilter_filter_switch", "-1"},
-    {"-tao_ipfilter_dual_inf_tol", "nan"},
     {"-tao_ipfilter_direct_memory", "-1"},
     {"-tao_ipfilter_max_soc", "-3"},
     {"-tao_ipfilter_mu_reductions_first", "-1"},

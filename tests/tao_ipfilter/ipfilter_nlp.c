@@ -278,16 +278,6 @@ int main(int argc, char **argv)
       suffix: relaxed
       args: -problems MPCC,HS35 -relaxed
 
-   # sizes taken from the gradients at the start, as IPOPT's
-   test:
-      suffix: gradient
-      args: -problems HS43,HS71,HS98,HS104,HS113,circles -tao_ipfilter_scaling gradient
-
-   # absolute limits hold where the tolerance does not ask for as much
-   test:
-      suffix: limits
-      args: -problems HS35,HS43,HS71 -tao_gatol 1e-2 -tao_ipfilter_dual_inf_tol 1e-9 -tao_ipfilter_constr_viol_tol 1e-9 -tao_ipfilter_compl_inf_tol 1e-9
-
    # c = x y - 1 has one nonzero in its Jacobian at the start, two later
    test:
       suffix: dense_jacobian

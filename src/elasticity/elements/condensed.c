@@ -201,18 +201,16 @@ static void CondensedSolve(const CellBasis *basis, const BodyMaterial *m, PetscR
   const PetscReal negligible = 1e-26, progress = 0.25;
   const PetscReal rounding = PETSC_MACHINE_EPSILON * PETSC_MACHINE_EPSILON / singular;
   PetscReal       step[MODES], square, predicted = PETSC_INFINITY;
-  BodyMaterial    exact = *m;
 
-  exact.moduli.secant = 0;
   CondensedSetPoints(basis, X, U, c);
-  CondensedStart(&exact, c);
-  CondensedForces(&exact, c);
+  CondensedStart(m, c);
+  CondensedForces(m, c);
   for (int it = 0; it < 50; ++it) {
-    square = CondensedStep(&exact, c, step);
+    square = CondensedStep(m, c, step);
     if (!(square > negligible * c->energy)) break;
     if (square < rounding * c->energy && square > progress * predicted) break;
     predicted = square;
-    CondensedSearch(&exact, step, square, c);
+    CondensedSearch(m, step, square, c);
   }
   CondensedMoveBy(c, c->a, 1, step);
 }

@@ -122,25 +122,16 @@ PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Ve
   PetscFunctionReturn(0);
 }
 
-/*
-   Computes the tangent at the iterate. If metal yields, the iterate is far from the solution and the line search
-   shortened the last step, the tangent contains a fraction of the secant stiffness.
-*/
 PetscErrorCode EnergyHessian(Tao tao, Vec iterate, Mat H, Mat Hpre, void *ctx)
 {
-  StepProblem    *p    = (StepProblem *)ctx;
-  const PetscReal most = 0.95, far = 0.03, secant = 0.4;
-  PetscReal       error, length;
-  PetscInt        its;
-  Vec             u;
+  StepProblem *p = (StepProblem *)ctx;
+  Vec          u;
 
   PetscFunctionBegin;
+  (void)tao;
   (void)Hpre;
-  PetscCall(TaoGetSolutionStatus(tao, &its, NULL, &error, NULL, &length, NULL));
   PetscCall(EnergyGetState(p, iterate, &u));
-  ElasticitySetSecant(p->model->elasticity, its && length < most && error > far ? secant : 0.0);
   PetscCall(EnergyGetTangent(p, u, H));
-  ElasticitySetSecant(p->model->elasticity, 0.0);
   PetscFunctionReturn(0);
 }
 
