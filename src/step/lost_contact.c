@@ -24,13 +24,39 @@ static PetscErrorCode LostContactGetWork(Mat A, const FreeMotions *m, Vec force,
   PetscFunctionReturn(0);
 }
 
-/* Finds the free motions on which no contact force does work. unheld: 1 for each of them, 0 for the others */
-static PetscErrorCode LostContactFind(Model model, State state, const FreeMotions *m, Vec u, const ContactSolution *sol,
+/* Computes the largest friction forces that the normal forces allow, along both tangents of each row [force] */
+static PetscErrorCode LostContactGetBounds(const StepFriction *friction, Vec normal, Vec bounds)
+{
+  const PetscScalar *force, *limit, *coefficient;
+  PetscScalar       *b;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(normal, &n));
+  PetscCall(VecGetArrayRead(normal, &force));
+  PetscCall(VecGetArrayRead(friction->limit, &limit));
+  PetscCall(VecGetArrayRead(friction->coefficient, &coefficient));
+  PetscCall(VecGetArrayWrite(bounds, &b));
+  for (PetscInt r = 0; r < n; ++r) {
+    const PetscBool acts = (PetscBool)(PetscRealPart(force[r]) > 0.0 && PetscRealPart(coefficient[r]) > 0.0);
+
+    b[2 * r] = b[2 * r + 1] = acts ? PetscMin(PetscRealPart(coefficient[r] * force[r]), PetscRealPart(limit[r])) : 0.0;
+  }
+  PetscCall(VecRestoreArrayWrite(bounds, &b));
+  PetscCall(VecRestoreArrayRead(friction->coefficient, &coefficient));
+  PetscCall(VecRestoreArrayRead(friction->limit, &limit));
+  PetscCall(VecRestoreArrayRead(normal, &force));
+  PetscFunctionReturn(0);
+}
+
+/* Finds the free motions that no contact force resists: normal forces do no work on them, and neither would friction if
+   the bodies slipped. unheld: 1 for each of them, 0 for the others */
+static PetscErrorCode LostContactFind(const StepProblem *p, const FreeMotions *m, Vec u, const ContactSolution *sol,
   Vec unheld, PetscBool *any)
 {
-  ContactLinearization lin = state->solved->linearization;
+  ContactLinearization lin = p->state->solved->linearization;
   PetscReal           *normal, *shear, size;
-  Vec                  weighted;
+  Vec                  weighted, bounds;
 
   PetscFunctionBegin;
   *any = PETSC_FALSE;
@@ -38,10 +64,15 @@ static PetscErrorCode LostContactFind(Model model, State state, const FreeMotion
   PetscCall(VecDuplicate(sol->pressure, &weighted));
   PetscCall(VecPointwiseMult(weighted, sol->pressure, lin->mass));
   PetscCall(LostContactGetWork(lin->J, m, weighted, normal));
-  if (sol->shear) PetscCall(LostContactGetWork(lin->slip, m, sol->shear, shear));
+  if (sol->shear) {
+    PetscCall(VecDuplicate(sol->shear, &bounds));
+    PetscCall(LostContactGetBounds(&p->friction, weighted, bounds));
+    PetscCall(LostContactGetWork(lin->slip, m, bounds, shear));
+    PetscCall(VecDestroy(&bounds));
+  }
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
   for (PetscInt k = 0; k < m->n; ++k) {
-    if (normal[k] + shear[k] > no_force * model->stiffness * size) continue;
+    if (normal[k] + shear[k] > no_force * p->model->stiffness * size) continue;
     PetscCall(VecSetValue(unheld, k, 1.0, INSERT_VALUES));
     *any = PETSC_TRUE;
   }
@@ -208,7 +239,7 @@ PetscErrorCode LostContactSettle(const StepProblem *p, ContactLinearization last
   if (!report->converged || ModelIsDynamic(p->model)) PetscFunctionReturn(0);
   PetscCall(FreeMotionsCreate(p->model, p->state, &m));
   PetscCall(MatCreateVecs(m.Z, &unheld, &w));
-  if (m.n) PetscCall(LostContactFind(p->model, p->state, &m, u, sol, unheld, &any));
+  if (m.n) PetscCall(LostContactFind(p, &m, u, sol, unheld, &any));
   if (any) {
     PetscCall(LostContactFit(p->model, p->state, &m, unheld, u, w));
     PetscCall(LostContactMove(p->model, p->state, w, u, sol));

@@ -67,3 +67,16 @@ steps = load("jaws")["steps"]
 spent = [step["dissipated"] for step in steps]
 say("nothing is dissipated after that", abs(spent[4] - spent[3]) < 1e-6 * spent[3], spent)
 PYTHON
+
+# A strip that only friction holds along a plane is pressed on it, without any force along it: it has not lost contact
+cat > strip.yaml <<'YAML'
+bodies:
+  - strip: {lower: [0, 0, 0], upper: [10, 1, 0.2], cells: [20, 1, 1], young: 1000, poisson: 0}
+  - floor: {shape: rigid_plane, point: [0, 0, 0], normal: [0, 0, 1]}
+displacements: [stay: {body: floor, value: [0, 0, 0]}]
+symmetry: [strip.ymin]
+pressures: [press: {face: strip.zmax, value: 0.5}]
+contact: [rub: {mortar: floor.surface, nonmortar: strip.zmin, friction: 0.4}]
+YAML
+"$contact" strip.yaml -quiet -error_estimate 0 > out 2>&1
+echo "pressed strip: exit $?, $(grep -o 'slips away in load step 1' out || echo no warning)"
