@@ -170,7 +170,7 @@ static PetscErrorCode SceneValidatePairEffects(MPI_Comm comm, Scene scene, const
       "load of such a pressure do not always converge with friction; use a pressure that does not follow, or no "
       "friction",
       here->name, scene->pressures[q].name);
-  SceneRequire(!SceneIsDynamic(scene) || scene->dynamics.scheme != SCHEME_GENERALIZED_ALPHA ||
+  SceneRequire(!SceneIsDynamic(scene) || scene->dynamics.scheme != SCHEME_GENERALIZED_ALPHA || here->stiffness > 0.0 ||
                  (scene->dynamics.mass == MASS_REDISTRIBUTED && !SceneContactPairHasFriction(here)),
     here,
     "contact pair \"%s\" has nodes with mass (mass lumped or consistent, or friction), for which scheme "
