@@ -536,6 +536,8 @@ static inline PetscBool SceneContactPairIsRigid(Scene scene, const SceneContactP
   return (PetscBool)(SceneFaceBody(scene, pair->mortar)->material.type == MATERIAL_RIGID &&
                      SceneFaceBody(scene, pair->nonmortar)->material.type == MATERIAL_RIGID);
 }
+PETSC_EXTERN void      SceneFindStiffest(Scene, const SceneBody **soft, const SceneBody **hard);
+PETSC_EXTERN PetscReal SceneRatioBeyondRounding(Scene, const SceneBody **soft, const SceneBody **hard);
 /* Evaluates an expression in x, y and z at a point */
 PETSC_EXTERN PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value);
 

@@ -93,22 +93,24 @@ static PetscErrorCode SpringsFindWeak(const Bodies *bodies, Springs *springs, Pe
   PetscFunctionReturn(0);
 }
 
-/* Collective. Creates weak springs on bodies that are not held. They carry unbalanced forces, and hardly affect the
-   deformation. */
+/* Collective. Creates weak springs on bodies that are not held. They carry unbalanced forces, and are weak beside the
+   softest body, on which others may rest, so that they hardly affect the deformation. */
 static PetscErrorCode SpringsCreateWeak(const Bodies *bodies, const PetscBool unsupported[], Springs *springs)
 {
-  PetscScalar *k;
-  PetscInt     n;
+  const PetscInt   nbodies = bodies->scene->nbodies;
+  const SceneBody *soft, *hard;
+  PetscReal       *volume, *density, modulus;
 
   PetscFunctionBegin;
+  SceneFindStiffest(bodies->scene, &soft, &hard);
+  modulus = soft ? springs->softness * soft->material.young : 0.0;
+  PetscCall(PetscMalloc2(nbodies, &volume, nbodies, &density));
+  PetscCall(SpringsMeasureVolumes(bodies, volume));
+  for (PetscInt b = 0; b < nbodies; ++b)
+    density[b] = unsupported[b] ? modulus * PetscCbrtReal(volume[b]) / volume[b] : 0.0;
   PetscCall(VecDuplicate(bodies->mass, &springs->weak));
-  PetscCall(SpringsOfSize(bodies, springs->softness, springs->weak));
-  PetscCall(VecGetLocalSize(springs->weak, &n));
-  PetscCall(VecGetArray(springs->weak, &k));
-  for (PetscInt i = 0; i < n; ++i) {
-    if (!unsupported[bodies->places.body[i / 3]]) k[i] = 0.0;
-  }
-  PetscCall(VecRestoreArray(springs->weak, &k));
+  PetscCall(SpringsDistribute(bodies, density, springs->weak));
+  PetscCall(PetscFree2(volume, density));
   PetscFunctionReturn(0);
 }
 

@@ -65,22 +65,15 @@ static PetscErrorCode PlausibleDensity(Model model, RunReport *report, const Sce
 /* Warns of bodies whose stiffnesses differ so much that contact forces are lost in rounding errors of the stiffer */
 static PetscErrorCode PlausibleRatio(Model model, RunReport *report)
 {
-  const PetscReal  most = 1e9; /* with 1e8 blocks that contact alone holds came to rest, with 1e10 they did not */
-  const SceneBody *soft = NULL, *hard = NULL;
+  const SceneBody *soft, *hard;
+  const PetscReal  ratio = SceneRatioBeyondRounding(model->scene, &soft, &hard);
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < model->scene->nbodies && model->scene->npairs; ++b) {
-    const SceneBody *body = &model->scene->bodies[b];
-
-    if (!(body->material.young > 0.0) || body->material.type == MATERIAL_RIGID) continue;
-    if (!soft || body->material.young < soft->material.young) soft = body;
-    if (!hard || body->material.young > hard->material.young) hard = body;
-  }
-  if (!soft || hard->material.young <= most * soft->material.young) PetscFunctionReturn(0);
+  if (ratio == 0.0) PetscFunctionReturn(0);
   PetscCall(ReportWarn(model->comm, report, hard->place,
     "body \"%s\" is %.1g times as stiff as body \"%s\", so that rounding errors of its forces may exceed the forces "
     "between them: use material: rigid",
-    hard->name, (double)(hard->material.young / soft->material.young), soft->name));
+    hard->name, (double)ratio, soft->name));
   PetscFunctionReturn(0);
 }
 

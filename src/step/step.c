@@ -162,6 +162,24 @@ static PetscErrorCode SimulationAdvance(Simulation sim, PetscReal end, StepRepor
   PetscFunctionReturn(0);
 }
 
+/* If rounding errors of the stiffest body's forces may be what ended the step, says so; other reasons are unreliable
+   then, but for a proof that contact cannot hold the loads, in which no stiffness enters */
+static PetscErrorCode SimulationReportRounding(Simulation sim, StepReport *report)
+{
+  const SceneBody *soft, *hard;
+  const PetscReal  ratio = SceneRatioBeyondRounding(sim->model->scene, &soft, &hard);
+
+  PetscFunctionBegin;
+  if (ratio == 0.0 || report->converged || sim->state->control->interrupted || sim->state->control->unsupported)
+    PetscFunctionReturn(0);
+  PetscCall(ReportReason(report, PETSC_FALSE,
+    "no equilibrium was found: body \"%s\" is %.1g times as stiff as body \"%s\", so that rounding errors of its "
+    "forces "
+    "exceed the forces between them; use material: rigid",
+    hard->name, (double)ratio, soft->name));
+  PetscFunctionReturn(0);
+}
+
 /* Writes the outcome of the step into the report of the run */
 static PetscErrorCode SimulationReportStep(Simulation sim, StepReport *report)
 {
@@ -169,6 +187,7 @@ static PetscErrorCode SimulationReportStep(Simulation sim, StepReport *report)
   /* the reason of the first of the failed attempts is reported, not that of a later one with a smaller increment */
   if (!report->converged && sim->state->control->cause && !sim->state->control->interrupted)
     PetscCall(ReportReason(report, PETSC_FALSE, "%s", sim->state->control->cause));
+  PetscCall(SimulationReportRounding(sim, report));
   if (!report->converged || report->gap_unconverged) sim->report.reason = report->reason;
   if (report->converged) PetscFunctionReturn(0);
   sim->report.converged = PETSC_FALSE;

@@ -18,6 +18,19 @@ for n in 1 3; do
       -summary ${factor}_$n.json
   done
 done
+# A steel plate on rubber: its springs are weak beside the rubber
+for young in 1 2e5 1e8; do
+  cat > plate.yaml <<SCENE
+bodies:
+  - rubber: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [3, 3, 3], young: 1, poisson: 0.3}
+  - plate: {lower: [0.1, 0.1, 1], upper: [0.9, 0.9, 2], cells: [2, 2, 2], young: $young, poisson: 0.3}
+displacements: [foot: {face: rubber.zmin, value: [0, 0, 0]}]
+tractions: [load: {face: plate.zmax, value: [0, 0, -0.01]}]
+contact: [rest: {mortar: plate.zmin, nonmortar: rubber.zmax}]
+weak_springs: true
+SCENE
+  "$contact" plate.yaml -quiet -error_estimate 0 -summary plate_$young.json || echo "plate, $young: exit code $?"
+done
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'CHECK'
 from summaries import load, say, within
 
@@ -26,4 +39,7 @@ for n in (1, 3):
     say(f"{n} ranks: few applications of AMG", amg["amg_applications"] < 50, amg["amg_applications"])
     say(f"{n} ranks: the force is that of a factorization",
         within(amg["reaction"][2], factored["reaction"][2], 1e-6), (amg["reaction"], factored["reaction"]))
+for young in ("1", "2e5", "1e8"):
+    step = load(f"plate_{young}")["steps"][-1]
+    say(f"contact carries the plate of E = {young}", within(step["pairs"][0]["force"][2], -0.0064, 1e-6), step["pairs"])
 CHECK

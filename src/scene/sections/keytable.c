@@ -53,7 +53,7 @@ static const SceneKey top_rows[] = {
   SECTION("bolts", "none", "list of bolts with pretension"),
   OWN("weak_springs", NULL, struct _n_Scene, weak_springs, OPTIONAL, SceneOwnWeakSprings, "", "`false`",
     "whether weak springs restrain bodies that have free rigid body motions: `true`, or the stiffness of the "
-    "springs as a fraction of the body's stiffness, above 0 and at most 0.01"),
+    "springs as a fraction of the softest body's stiffness, above 0 and at most 0.01"),
   SECTION("temperatures", "none", "list of temperatures of bodies with thermal expansion"),
   SECTION("body_forces", "none", "list of forces per undeformed volume, with fixed direction"),
   SECTION("contact", "none: no search, no optimizer", "list of contact pairs, or `auto`"),

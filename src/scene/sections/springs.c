@@ -21,7 +21,7 @@ static PetscErrorCode WeakSpringsRead(SceneKeys keys, Scene scene, const char ke
   PetscCall(SceneParseReal(keys, key, text, stiffness));
   if (!(*stiffness > 0 && *stiffness <= 0.01))
     PetscCall(SceneKeysError(keys, key, NULL,
-      "is %s; it must be true, false, or a fraction of the body's stiffness, above 0 and at most 0.01", text));
+      "is %s; it must be true, false, or a fraction of the softest body's stiffness, above 0 and at most 0.01", text));
   PetscFunctionReturn(0);
 }
 

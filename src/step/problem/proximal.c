@@ -389,13 +389,14 @@ PetscErrorCode ProximalMeasure(StepProblem *p, Vec u, PetscReal *fraction)
 
 /*
    Reports a rigid motion that continues at the same rate from solve to solve. Such a motion does not prove that nothing
-   holds the body.
+   holds the body: rounding errors of a very stiff body's forces may drive it.
 */
 static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepReport *report)
 {
-  const Scene scene  = p->model->scene;
-  PetscBool   mortar = PETSC_FALSE;
-  Vec         increment;
+  const Scene      scene  = p->model->scene;
+  PetscBool        mortar = PETSC_FALSE;
+  const SceneBody *soft, *hard;
+  Vec              increment;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; k < scene->npairs; ++k) mortar = (PetscBool)(mortar || scene->pairs[k].gap == GAP_MORTAR);
@@ -405,7 +406,7 @@ static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepRepor
   PetscCall(RigidMotionReport(p->model, increment, "it does not come to rest",
     mortar ? "; if it should stand near the edge of a face, use gap: dual" : NULL, report));
   PetscCall(VecDestroy(&increment));
-  p->moves_on = PETSC_TRUE;
+  p->moves_on = (PetscBool)(SceneRatioBeyondRounding(scene, &soft, &hard) == 0.0);
   PetscFunctionReturn(0);
 }
 
