@@ -87,9 +87,9 @@ typedef struct {
   PetscInt    n;    /* 0: a MaterialList */
   size_t      at;   /* offset in a Material */
   PetscBool   required;
-  const char *label;        /* name in messages; NULL: the name of the key */
-  PetscReal   lower, upper; /* bounds; the bounds themselves are not allowed. PETSC_INFINITY: no bound on this side.
-                               Both 0: no bounds */
+  const char *label, *symbol; /* label: name in messages; NULL: the name of the key */
+  PetscReal   lower, upper;   /* bounds; the bounds themselves are not allowed. PETSC_INFINITY: no bound on this
+                                 side. Both 0: no bounds */
 } MaterialConstant;
 
 /*

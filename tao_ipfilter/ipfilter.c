@@ -54,7 +54,7 @@ static PetscErrorCode DestroyType(Tao tao)
   PART(IPJacobian, jac) PART(IPHessian, hess) PART(IPFirst, first) PART(IPScale, scale) \
   PART(IPStiffness, stiff) PART(IPTerms, terms) PART(IPKKT, kkt) PART(IPCondensed, cond) PART(IPLinear, lin) \
   PART(IPDirect, direct) PART(IPAugmented, aug) PART(IPProximal, prox) PART(IPBarrier, bar) PART(IPShift, shift) \
-  PART(IPFilterSet, filter) PART(IPSearch, search) PART(IPRelaxation, relax) \
+  PART(IPFilterSet, filter) PART(IPSearch, search) PART(IPWatchdog, watch) PART(IPRelaxation, relax) \
   PART(IPRestoration, restore) PART(IPMethod, method) PART(IPRecord, rec)
 /* clang-format on */
 

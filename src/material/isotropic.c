@@ -4,7 +4,8 @@
 const MaterialConstant MaterialConstantsFinite[] = {MATERIAL_YOUNG, MATERIAL_POISSON, MATERIAL_DENSITY, MATERIAL_YIELD,
   {NULL}};
 const MaterialConstant MaterialConstantsSmall[]  = {MATERIAL_YOUNG, MATERIAL_POISSON,
-   {"expansion", 1, offsetof(Material, expansion), PETSC_FALSE, NULL, 0, 0}, MATERIAL_DENSITY, MATERIAL_YIELD, {NULL}};
+   {"expansion", 1, offsetof(Material, expansion), PETSC_FALSE, NULL, NULL, 0, 0}, MATERIAL_DENSITY, MATERIAL_YIELD,
+   {NULL}};
 
 /*@
   MaterialGetLame - Gets the Lame parameters of a material, lambda = E nu/((1+nu)(1-2nu)) and mu = E/(2(1+nu))

@@ -298,7 +298,7 @@ PetscErrorCode MaterialModuli_J2(const Material *material, MaterialModuli *modul
 static const MaterialConstant constants[] = {
   MATERIAL_YOUNG,
   MATERIAL_POISSON,
-  {"expansion", 1, offsetof(Material, expansion), PETSC_FALSE, NULL, 0, 0},
+  {"expansion", 1, offsetof(Material, expansion), PETSC_FALSE, NULL, NULL, 0, 0},
   MATERIAL_HARDENING,
   MATERIAL_DENSITY,
   {NULL},

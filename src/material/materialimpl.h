@@ -23,15 +23,15 @@ PETSC_INTERN PetscErrorCode MaterialModuli_J2(const Material *, MaterialModuli *
 */
 #define MATERIAL_YOUNG \
   { \
-    "young", 1, offsetof(Material, young), PETSC_TRUE, "Young's modulus", 0, PETSC_INFINITY \
+    "young", 1, offsetof(Material, young), PETSC_TRUE, "Young's modulus", "E", 0, PETSC_INFINITY \
   }
 #define MATERIAL_POISSON \
   { \
-    "poisson", 1, offsetof(Material, poisson), PETSC_TRUE, "Poisson's ratio", -1, 0.5 \
+    "poisson", 1, offsetof(Material, poisson), PETSC_TRUE, "Poisson's ratio", "nu", -1, 0.5 \
   }
 #define MATERIAL_DENSITY \
   { \
-    "density", 1, offsetof(Material, density), PETSC_FALSE, NULL, 0, 0 \
+    "density", 1, offsetof(Material, density), PETSC_FALSE, NULL, "rho", 0, 0 \
   }
 PETSC_INTERN const MaterialConstant MaterialConstantsFinite[], MaterialConstantsSmall[];
 PETSC_INTERN PetscErrorCode         MaterialModuliIsotropic(const Material *, MaterialModuli *);
@@ -39,15 +39,15 @@ PETSC_INTERN PetscErrorCode         MaterialModuliIsotropic(const Material *, Ma
 /* Rows for a MaterialHardening in the tables of the constants of laws */
 #define MATERIAL_HARDENING_NUMBER(name, member) \
   { \
-    name, 1, offsetof(Material, hardening.member), PETSC_FALSE, NULL, 0, 0 \
+    name, 1, offsetof(Material, hardening.member), PETSC_FALSE, NULL, NULL, 0, 0 \
   }
 #define MATERIAL_YIELD MATERIAL_HARDENING_NUMBER("yield", yield)
 #define MATERIAL_HARDENING \
   MATERIAL_YIELD, MATERIAL_HARDENING_NUMBER("hardening", modulus), MATERIAL_HARDENING_NUMBER("kinematic", kinematic), \
     MATERIAL_HARDENING_NUMBER("saturation", saturation), MATERIAL_HARDENING_NUMBER("saturation_rate", rate), \
-    {"plastic_strains", 0, offsetof(Material, hardening.strains), PETSC_FALSE, NULL, 0, 0}, \
+    {"plastic_strains", 0, offsetof(Material, hardening.strains), PETSC_FALSE, NULL, NULL, 0, 0}, \
   { \
-    "yield_stresses", 0, offsetof(Material, hardening.stresses), PETSC_FALSE, NULL, 0, 0 \
+    "yield_stresses", 0, offsetof(Material, hardening.stresses), PETSC_FALSE, NULL, NULL, 0, 0 \
   }
 
 /* logarithmic.c: the logarithmic strain E = 1/2 ln C for the displacement gradient H */

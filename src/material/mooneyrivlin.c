@@ -138,9 +138,9 @@ static void MaterialScale_MooneyRivlin(Material *material)
 }
 
 static const MaterialConstant constants[] = {
-  {"c10", 1, offsetof(Material, c10), PETSC_TRUE, NULL, 0, 0},
-  {"c01", 1, offsetof(Material, c01), PETSC_TRUE, NULL, 0, 0},
-  {"bulk", 1, offsetof(Material, bulk), PETSC_TRUE, "a bulk modulus", 0, PETSC_INFINITY},
+  {"c10", 1, offsetof(Material, c10), PETSC_TRUE, NULL, NULL, 0, 0},
+  {"c01", 1, offsetof(Material, c01), PETSC_TRUE, NULL, NULL, 0, 0},
+  {"bulk", 1, offsetof(Material, bulk), PETSC_TRUE, "a bulk modulus", NULL, 0, PETSC_INFINITY},
   MATERIAL_DENSITY,
   {NULL},
 };

@@ -144,12 +144,12 @@ static void MaterialScale_Orthotropic(Material *material)
 }
 
 static const MaterialConstant constants[] = {
-  {"young", 3, offsetof(Material, youngs), PETSC_TRUE, NULL, 0, 0},
-  {"poisson", 3, offsetof(Material, poissons), PETSC_TRUE, NULL, 0, 0},
-  {"shear", 3, offsetof(Material, shears), PETSC_TRUE, NULL, 0, 0},
-  {"first_axis", 3, offsetof(Material, axes[0]), PETSC_FALSE, NULL, 0, 0},
-  {"second_axis", 3, offsetof(Material, axes[1]), PETSC_FALSE, NULL, 0, 0},
-  {"expansion", 3, offsetof(Material, expansion), PETSC_FALSE, NULL, 0, 0},
+  {"young", 3, offsetof(Material, youngs), PETSC_TRUE, NULL, NULL, 0, 0},
+  {"poisson", 3, offsetof(Material, poissons), PETSC_TRUE, NULL, NULL, 0, 0},
+  {"shear", 3, offsetof(Material, shears), PETSC_TRUE, NULL, NULL, 0, 0},
+  {"first_axis", 3, offsetof(Material, axes[0]), PETSC_FALSE, NULL, NULL, 0, 0},
+  {"second_axis", 3, offsetof(Material, axes[1]), PETSC_FALSE, NULL, NULL, 0, 0},
+  {"expansion", 3, offsetof(Material, expansion), PETSC_FALSE, NULL, NULL, 0, 0},
   MATERIAL_DENSITY,
   {NULL},
 };

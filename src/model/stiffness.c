@@ -14,6 +14,8 @@
 -  hard - the stiffest elastic body; NULL if all bodies are rigid
 
    Level: developer
+
+.seealso: `SceneLoad()`
 @*/
 void SceneFindStiffest(Scene scene, const SceneBody **soft, const SceneBody **hard)
 {
@@ -28,8 +30,8 @@ void SceneFindStiffest(Scene scene, const SceneBody **soft, const SceneBody **ha
 }
 
 /*
-   Returns the ratio of their stiffnesses if rounding errors of the forces of the stiffest body may exceed contact forces
-   of the softest one, else 0. With 1e8 blocks that contact alone holds come to rest, with 1e10 they do not.
+   Returns the ratio of their stiffnesses if rounding errors of the forces of the stiffest body may exceed contact
+   forces of the softest one, else 0. With 1e8 blocks that contact alone holds come to rest, with 1e10 they do not.
 */
 PetscReal SceneRatioBeyondRounding(Scene scene, const SceneBody **soft, const SceneBody **hard)
 {

@@ -14,6 +14,10 @@ PETSC_INTERN PetscErrorCode SceneValidate(MPI_Comm, Scene);
 /* key_meanings.c: prints the keys of shapes and the constants of materials as Markdown tables */
 PETSC_INTERN PetscErrorCode SceneViewShapeKeys(PetscViewer), SceneViewConstantKeys(PetscViewer);
 
+/* describe_loads.c: prints the loads of a scene */
+PETSC_INTERN PetscErrorCode SceneDescribeLoads(Scene, PetscViewer);
+PETSC_INTERN PetscErrorCode SceneDescribeVelocity(const SceneBody *, PetscViewer);
+
 /* print_scene.c, describe.c, scene.c: their functions are declared in the public header */
 
 #endif

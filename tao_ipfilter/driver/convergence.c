@@ -278,7 +278,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
   const IPKKT  *k  = ip->kkt;
   PetscBool     own, stationary = PETSC_FALSE, fritz_john, unbounded;
-  PetscReal     fmin;
+  PetscReal     lowest, fmin;
 
   PetscFunctionBegin;
   (void)ctx;
@@ -289,7 +289,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
   PetscCall(TaoGetFunctionLowerBound(tao, &fmin));
   if (!Converged(ip)) PetscCall(TestWithoutMultipliers(tao, &stationary));
   PetscCall(IPDegenerateFritzJohn(tao, &fritz_john));
-  PetscCall(IPTestUnbounded(tao, &unbounded));
+  PetscCall(IPTestUnbounded(tao, &lowest, &unbounded));
   if (stationary) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_GATOL,
       "converged: the gradient of the objective is zero, and the constraints are met"));
@@ -307,7 +307,7 @@ PetscErrorCode TaoIPFilterDefaultConvergenceTest(Tao tao, void *ctx)
       "converged: the point is feasible and its objective %g is below the given minimum %g", (double)ip->at.f,
       (double)fmin));
   } else if (unbounded) {
-    PetscCall(IPSetUnbounded(tao));
+    PetscCall(IPSetUnbounded(tao, lowest));
   } else if (ip->rec->nacceptable >= IP_ACCEPTABLE_IT && IPConstraintsMet(tao)) {
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: KKT error %g stayed below %g, but did not reach the tolerance %g", (double)IPBothErrors(ip),

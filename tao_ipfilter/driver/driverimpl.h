@@ -18,8 +18,9 @@ PETSC_INTERN PetscErrorCode IPDegenerateFritzJohn(Tao, PetscBool *holds);
 PETSC_INTERN PetscErrorCode IPLeaveSaddle(Tao, PetscBool *left);
 
 /* unbounded.c */
-PETSC_INTERN PetscErrorCode IPTestUnbounded(Tao, PetscBool *unbounded);
-PETSC_INTERN PetscErrorCode IPSetUnbounded(Tao);
+PETSC_INTERN PetscErrorCode IPTestUnbounded(Tao, PetscReal *, PetscBool *);
+PETSC_INTERN PetscErrorCode IPTestUnboundedRays(Tao, PetscReal *f, PetscBool *unbounded);
+PETSC_INTERN PetscErrorCode IPSetUnbounded(Tao, PetscReal lowest);
 
 /* convergence.c */
 PETSC_INTERN PetscErrorCode IPTestFirstPoint(Tao);

@@ -16,7 +16,7 @@
    Finds whether the matrix may be indefinite although no solve has reported it. This is possible in five cases:
    - A factorization that the user has chosen solves with any matrix.
    - After a relaxation of constraints the inertia of factors is not tested.
-   - The inertia of the filter's factors is tested only here.
+   - The inertia of the filter's factors is tested only here, until a direction of negative curvature has been found.
    - With equality constraints each step tests the inertia, and shifts an indefinite Hessian. At a stationary point the
      shifted step is zero.
    - A Krylov method does not see a direction of negative curvature that is orthogonal to all gradients, by symmetry for
@@ -40,13 +40,14 @@ static PetscErrorCode SaddleUnknown(Tao tao, PetscBool *unknown)
   PetscCall(VecGetSize(tao->solution, &n));
   *unknown =
     (PetscBool)(*unknown || ip->relax->times || (n <= few && !ip->given->primal_mass && !ip->method->constant));
-  if (!*unknown && ip->lin->filtered) PetscCall(IPKrylovIndefinite(tao, unknown));
+  if (!*unknown && ip->lin->filtered && !ip->bar->curved) PetscCall(IPKrylovIndefinite(tao, unknown));
   PetscFunctionReturn(0);
 }
 
 /*
-   Tries to leave a point at which the solve is about to end along a direction of negative curvature. *left: whether a
-   better point was found.
+   Tries to leave a point at which the solve is about to end. The ways are a direction of negative curvature, and longer
+   steps beyond a point of inflection. The second one is not used for quadratic programs, nor for relaxed constraints,
+   which are too curved. *left: whether a better point was found.
 */
 PetscErrorCode IPLeaveSaddle(Tao tao, PetscBool *left)
 {
@@ -57,9 +58,12 @@ PetscErrorCode IPLeaveSaddle(Tao tao, PetscBool *left)
   PetscFunctionBegin;
   *left = PETSC_FALSE;
   if (ip->method->on || ip->terms->n || ip->rec->nsaddles >= most) PetscFunctionReturn(0);
-  PetscCall(SaddleUnknown(tao, &unknown));
-  if (unknown) PetscCall(IPNegativeCurvature(tao, &found));
-  if (found) PetscCall(IPLeaveStationary(tao, left));
+  if (!ip->method->constant && !ip->relax->times) PetscCall(IPLeaveInflection(tao, left));
+  if (!*left) {
+    PetscCall(SaddleUnknown(tao, &unknown));
+    if (unknown) PetscCall(IPNegativeCurvature(tao, &found));
+    if (found) PetscCall(IPLeaveStationary(tao, left));
+  }
   if (!*left) PetscFunctionReturn(0);
   PetscCall(PetscInfo(tao, "The point is stationary, but not a minimum\n"));
   ip->rec->nsaddles++;

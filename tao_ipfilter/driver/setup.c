@@ -84,6 +84,7 @@ static PetscErrorCode FreeSizes(Tao tao)
   PetscCall(VecDestroy(&ip->stiff->reach));
   PetscCall(VecDestroy(&ip->stiff->equality_rows));
   PetscCall(VecDestroy(&ip->stiff->hdiag));
+  PetscCall(VecDestroy(&ip->search->slow));
   PetscCall(VecDestroy(&ip->lin->residual));
   PetscCall(VecDestroy(&ip->rows->inequality));
   PetscCall(VecDestroy(&ip->rows->equality));
@@ -140,6 +141,7 @@ PetscErrorCode TaoSetUp_IPFilter(Tao tao)
   PetscCall(VecDestroy(&ce));
   PetscCall(DuplicateAfresh(x, &ip->rx));
   PetscCall(DuplicateAfresh(x, &ip->stiff->hdiag));
+  PetscCall(DuplicateAfresh(x, &ip->search->slow));
   PetscCall(SetUpHessian(tao));
   PetscFunctionReturn(0);
 }

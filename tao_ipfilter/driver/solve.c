@@ -28,7 +28,8 @@ static PetscErrorCode ResetSolve(Tao tao)
                 .lowest                   = PETSC_INFINITY};
   *ip->lin         = (IPLinear){.flexible = ip->lin->flexible, .residual = ip->lin->residual};
   *ip->bar         = (IPBarrier){.free = (PetscBool)(ip->opt->barrier == IP_BARRIER_MEHROTRA)};
-  *ip->search      = (IPSearch){.theta0 = -1.0, .tag = ' '};
+  *ip->search      = (IPSearch){.theta0 = -1.0, .tag = ' ', .slow = ip->search->slow};
+  *ip->watch       = (IPWatchdog){.left = 0};
   *ip->relax       = (IPRelaxation){.least_slack = PETSC_INFINITY, .least_bound = PETSC_INFINITY};
   *ip->shift       = (IPShift){.delta = 0.0};
   *ip->first       = (IPFirst){.f = 0.0, .energy = -1.0};
@@ -141,11 +142,14 @@ static PetscErrorCode EndLinear(Tao tao)
 */
 static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violated, PetscBool infeasible)
 {
-  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  TAO_IPFILTER *ip        = (TAO_IPFILTER *)tao->data;
+  PetscBool     unbounded = PETSC_FALSE;
+  PetscReal     lowest;
 
   PetscFunctionBegin;
   PetscCall(IPTestNumbers(tao));
   if (tao->reason == TAO_DIVERGED_NAN) PetscFunctionReturn(0);
+  if (solved && !infeasible && !violated) PetscCall(IPTestUnboundedRays(tao, &lowest, &unbounded));
   if (solved && ip->search->ntrials && !ip->search->ndefined)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_NAN,
       "the objective or a constraint is not a number at all points that were tried after iteration %" PetscInt_FMT
@@ -163,6 +167,7 @@ static PetscErrorCode EndUnrestored(Tao tao, PetscBool solved, PetscBool violate
   else if (violated)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "no step reduces the constraint violation %g any further",
       (double)ip->kkt->inf_pr));
+  else if (unbounded) PetscCall(IPSetUnbounded(tao, lowest));
   else
     PetscCall(
       IPSetReason(tao, TAO_DIVERGED_LS_FAILURE, "line search failed at KKT error %g", (double)IPBothErrors(ip)));
@@ -257,7 +262,7 @@ static PetscErrorCode RenewMultipliers(Tao tao)
 static PetscErrorCode RestoreIfCut(Tao tao)
 {
   TAO_IPFILTER  *ip       = (TAO_IPFILTER *)tao->data;
-  const PetscInt patience = 11;
+  const PetscInt patience = 11; /* one more than that of the watchdog, which comes first */
   PetscBool      ok, infeasible;
 
   PetscFunctionBegin;
@@ -265,6 +270,7 @@ static PetscErrorCode RestoreIfCut(Tao tao)
   ip->search->ncut = 0;
   PetscCall(IPComputeKKT(tao));
   if (!StillViolated(ip)) PetscFunctionReturn(0);
+  PetscCall(IPWatchdogEnd(ip->watch));
   PetscCall(IPMeritMeasure(tao));
   PetscCall(IPRestore(tao, &ok, &infeasible));
   if (ok) ip->search->tag = 'R';
@@ -289,6 +295,7 @@ static PetscErrorCode TakeNewtonStep(Tao tao)
   PetscCall(IPStiffnessUpdate(tao));
   PetscCall(IPComputeDirection(tao, &solved));
   if (solved) PetscCall(IPLineSearch(tao, &ok));
+  if (!ok) PetscCall(IPWatchdogReturn(tao, &ok));
   if (!ok) {
     PetscCall(Recover(tao, solved));
     PetscFunctionReturn(0);
@@ -457,6 +464,7 @@ static PetscErrorCode EndSolve(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPDirectDestroy(ip->direct));
+  PetscCall(IPWatchdogEnd(ip->watch));
   PetscCall(EndMethod(tao));
   PetscCall(RestoreBest(tao));
   PetscCall(IPConvergeRefined(tao));

@@ -39,13 +39,20 @@ PETSC_INTERN PetscErrorCode IPDirectionAssemble(Tao);
 /* curvature.c */
 PETSC_INTERN PetscErrorCode IPNegativeCurvature(Tao, PetscBool *found);
 
+/* watchdog.c */
+PETSC_INTERN PetscErrorCode IPWatchdogBegin(Tao, PetscReal, PetscReal);
+PETSC_INTERN PetscErrorCode IPWatchdogReturn(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPWatchdogEnd(IPWatchdog *);
+
 /* linesearch.c */
 PETSC_INTERN PetscErrorCode IPLineSearch(Tao, PetscBool *);
 PETSC_INTERN PetscErrorCode IPSearchTrial(Tao, PetscReal, PetscReal *, PetscReal *, PetscBool *);
 PETSC_INTERN PetscErrorCode IPSearchTakeStep(Tao, PetscReal, PetscReal);
+PETSC_INTERN PetscBool      IPSearchIsLinear(const TAO_IPFILTER *);
 
 /* leave.c */
 PETSC_INTERN PetscErrorCode IPLeaveStationary(Tao, PetscBool *);
+PETSC_INTERN PetscErrorCode IPLeaveInflection(Tao, PetscBool *);
 
 /* penalty.c */
 PETSC_INTERN PetscErrorCode IPPenaltyPressure(Tao, Vec, Vec);

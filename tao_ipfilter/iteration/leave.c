@@ -1,4 +1,7 @@
-/* Leaves points at which the gradient vanishes, but which are no minimizers, along a direction of negative curvature */
+/*
+   Leaves points at which the gradient vanishes, but which are no minimizers: along a direction of negative curvature,
+   or through a point of inflection of the barrier function or of the Lagrangian
+*/
 #include "iterationimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
 #include "tao_ipfilter/solver/constants.h"
@@ -145,5 +148,132 @@ PetscErrorCode IPLeaveStationary(Tao tao, PetscBool *left)
     *left = (PetscBool)(finite && phi < here - rounding && theta <= IP_LEAVE_MET * ip->search->theta_ref);
     if (*left) PetscCall(LeaveStartAgain(tao, alpha));
   }
+  PetscFunctionReturn(0);
+}
+
+/*
+   Computes the longest step along dir.x, whose largest entry is `norm`: a fraction of the size of the unknowns, within
+   the bounds
+*/
+static PetscErrorCode LeaveLongestStep(Tao tao, PetscReal norm, PetscReal *longest)
+{
+  TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
+  const PetscReal part = 0.1;
+  PetscReal       size;
+
+  PetscFunctionBegin;
+  PetscCall(VecNorm(tao->solution, NORM_INFINITY, &size));
+  *longest = part * PetscMax(size, ip->first->x) / norm;
+  PetscCall(IPFractionToBoundary(tao, IP_SLACK, IP_TAU_MIN, longest, NULL));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Computes the trial point at the step length alpha, and there the Lagrangian or the barrier function. Adds the
+   rounding error of the Lagrangian to *rounding. *feasible: whether the point has finite values and satisfies the
+   constraints
+*/
+static PetscErrorCode LeaveTrial(Tao tao, PetscReal alpha, PetscBool lagrangian, PetscReal *value, PetscReal *rounding,
+  PetscBool *feasible)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  PetscReal     theta = 0.0;
+
+  PetscFunctionBegin;
+  PetscCall(IPSearchTrial(tao, alpha, &theta, value, feasible));
+  if (*feasible && lagrangian) {
+    PetscCall(LeaveRaiseSlacks(tao, &theta, value));
+    PetscCall(LeaveLagrangian(tao, &ip->trial, PETSC_TRUE, value, rounding));
+  }
+  if (theta > IP_LEAVE_MET * ip->search->theta_ref) *feasible = PETSC_FALSE;
+  PetscFunctionReturn(0);
+}
+
+/*
+   Tests longer and longer steps along dir.x, up to the length `longest`, as long as the Lagrangian or the barrier
+   function does not rise. The solve continues from the last one if the decrease is clear: much larger than the rounding
+   error and than slope times the step length. The Lagrangian must not rise up to `longest`. With constraints the first
+   step of a clear decrease of the barrier function is taken, since longer ones violate them.
+   *left: whether the solve continues.
+*/
+static PetscErrorCode LeaveGrowingSteps(Tao tao, PetscBool lagrangian, PetscReal longest, PetscReal slope,
+  PetscBool *left)
+{
+  TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
+  const PetscReal growth = 10.0, clear = 1e3;
+  const PetscBool earliest = (PetscBool)(!lagrangian && (ip->mi || ip->me));
+  PetscReal       here = ip->search->phi, rounding = lagrangian ? 0.0 : ip->search->rounding, lowest, last = 0.0, value;
+  PetscBool       falls = PETSC_TRUE;
+
+  PetscFunctionBegin;
+  if (lagrangian) PetscCall(LeaveLagrangian(tao, &ip->at, PETSC_FALSE, &here, &rounding));
+  lowest = here;
+  for (PetscReal alpha = PetscMin(2.0, longest); falls && last < longest && !(*left && earliest);
+       alpha           = PetscMin(growth * alpha, longest)) {
+    PetscCall(LeaveTrial(tao, alpha, lagrangian, &value, &rounding, &falls));
+    if (falls && value > lowest + rounding) falls = PETSC_FALSE;
+    if (!falls) break;
+    last   = alpha;
+    lowest = PetscMin(lowest, value);
+    *left  = (PetscBool)(here - lowest > clear * PetscMax(rounding, last * slope));
+  }
+  if (lagrangian && !falls) *left = PETSC_FALSE;
+  if (!*left) PetscFunctionReturn(0);
+  if (!falls) PetscCall(LeaveTrial(tao, last, lagrangian, &value, &rounding, &falls));
+  PetscCall(LeaveStartAgain(tao, last));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Tries to leave a point of inflection of the Lagrangian along the last direction of linear convergence. With curved
+   constraints the barrier function need not fall there.
+*/
+static PetscErrorCode LeaveLagrangianInflection(Tao tao, PetscBool *left)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPPair       *slack = &ip->pair[IP_SLACK], *ceiling = &ip->pair[IP_CEILING];
+  PetscReal     longest, norm;
+  PetscScalar   slope;
+
+  PetscFunctionBegin;
+  PetscCall(VecCopy(ip->search->slow, ip->dir.x));
+  PetscCall(VecDot(ip->rx, ip->dir.x, &slope));
+  PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &norm));
+  PetscCall(LeaveFollow(tao));
+  if (ip->mi) PetscCall(VecSet(slack->dt, 0.0));
+  if (ceiling->n) PetscCall(VecSet(ceiling->dt, 0.0));
+  PetscCall(IPMeritMeasure(tao));
+  PetscCall(LeaveLongestStep(tao, norm, &longest));
+  PetscCall(LeaveGrowingSteps(tao, PETSC_TRUE, longest, PetscAbsScalar(slope), left));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Tries to leave a point of inflection of the barrier function along the last direction. At such a point Newton's
+   method converges only linearly, or with a shift that shortens its steps.
+*/
+static PetscErrorCode LeaveBarrierInflection(Tao tao, PetscBool *left)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscReal     longest;
+
+  PetscFunctionBegin;
+  if (!(ip->dir.norm > 0.0) || !(IPSearchIsLinear(ip) || ip->shift->delta > 0.0)) PetscFunctionReturn(0);
+  PetscCall(LeaveFollow(tao));
+  PetscCall(IPMeritMeasure(tao));
+  PetscCall(LeaveLongestStep(tao, ip->dir.norm, &longest));
+  if (longest >= 1.0) PetscCall(LeaveGrowingSteps(tao, PETSC_FALSE, longest, 0.0, left));
+  PetscFunctionReturn(0);
+}
+
+/* Tries to leave a point of inflection of the barrier function or of the Lagrangian. *left: whether it succeeds */
+PetscErrorCode IPLeaveInflection(Tao tao, PetscBool *left)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  *left = PETSC_FALSE;
+  PetscCall(LeaveBarrierInflection(tao, left));
+  if (!*left && (ip->mi || ip->me) && ip->search->slows) PetscCall(LeaveLagrangianInflection(tao, left));
   PetscFunctionReturn(0);
 }

@@ -249,22 +249,83 @@ static PetscErrorCode SearchCorrect(Tao tao, PetscReal alpha, PetscReal slope, P
 }
 
 /*
+   Takes a step of the watchdog, if it is active: the longest step that the bounds allow, without a test. The new point
+   is compared with the iterate at which the watchdog began. *taken: whether such a step was taken, or the iteration
+   returned to that iterate.
+*/
+static PetscErrorCode SearchWatched(Tao tao, PetscReal alpha, PetscReal slope, PetscReal dual, PetscBool *taken)
+{
+  TAO_IPFILTER *ip    = (TAO_IPFILTER *)tao->data;
+  IPWatchdog   *watch = ip->watch;
+  PetscReal     theta = 0.0, phi = 0.0;
+  PetscBool     finite = PETSC_FALSE, accepted = PETSC_FALSE, objective = PETSC_FALSE;
+
+  PetscFunctionBegin;
+  PetscCall(IPWatchdogBegin(tao, alpha, slope));
+  *taken = (PetscBool)(watch->left > 0);
+  if (!*taken) PetscFunctionReturn(0);
+  ip->search->theta   = watch->theta;
+  ip->search->phi     = watch->phi;
+  ip->search->ntrials = 1;
+  PetscCall(IPSearchTrial(tao, alpha, &theta, &phi, &finite));
+  if (finite) PetscCall(SearchAccepts(tao, watch->alpha, watch->slope, theta, phi, &accepted, &objective));
+  if (accepted) {
+    PetscCall(SearchAccept(tao, alpha, dual, objective, PETSC_FALSE));
+    PetscCall(IPWatchdogEnd(watch));
+  } else if (finite && watch->left > 1) {
+    PetscCall(IPSearchTakeStep(tao, alpha, dual));
+    ip->search->tag = 'w';
+    watch->left--;
+  } else PetscCall(IPWatchdogReturn(tao, taken));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Returns whether the Newton steps shrink by a constant factor only (linear convergence). This happens if gradient and
+   curvature vanish at the same point.
+*/
+PetscBool IPSearchIsLinear(const TAO_IPFILTER *ip)
+{
+  const PetscReal quadratic = 0.2;
+
+  return (
+    PetscBool)(ip->search->alpha == 1.0 && ip->search->tag != 'R' && ip->dir.norm > quadratic * ip->search->before);
+}
+
+/* If Newton's method converges only linearly, stores the direction of the step in ip->search->slow. Does nothing if the
+   step has length zero. */
+static PetscErrorCode SearchKeepSlow(Tao tao)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+
+  PetscFunctionBegin;
+  if (!(ip->dir.norm > 0.0)) PetscFunctionReturn(0);
+  ip->search->slows = IPSearchIsLinear(ip);
+  if (ip->search->slows) PetscCall(VecCopy(ip->dir.x, ip->search->slow));
+  PetscFunctionReturn(0);
+}
+
+/*
    Shortens the step along the direction until the filter accepts the trial point. *ok: false if no step is acceptable.
 */
 PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
 {
   TAO_IPFILTER   *ip  = (TAO_IPFILTER *)tao->data;
   const PetscReal tau = PetscMax(IP_TAU_MIN, 1.0 - ip->mu / ip->scale->product), small = 0.05;
-  PetscReal       alpha = 1.0, dual = 1.0, slope = 0.0, least;
+  PetscReal       alpha = 1.0, dual = 1.0, slope = 0.0, least, longest;
 
   PetscFunctionBegin;
   PetscCall(IPMeritMeasure(tao));
   PetscCall(IPMeritSlope(tao, &slope));
   PetscCall(IPFractionToBoundary(tao, IP_SLACK, tau, &alpha, &dual));
+  longest            = alpha;
+  ip->search->before = ip->dir.norm;
   PetscCall(VecNorm(ip->dir.x, NORM_INFINITY, &ip->dir.norm));
   least               = SearchSmallestStep(ip, slope);
   ip->search->ntrials = ip->search->ndefined = 0;
   *ok                                        = PETSC_FALSE;
+  PetscCall(SearchWatched(tao, alpha, slope, dual, ok));
+  if (*ok) PetscFunctionReturn(0);
   for (; alpha >= least && !*ok; alpha *= 0.5) {
     PetscReal theta = 0.0, phi = 0.0;
     PetscBool finite = PETSC_FALSE, objective = PETSC_FALSE;
@@ -276,6 +337,8 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
     if (*ok) PetscCall(SearchAccept(tao, alpha, dual, objective, PETSC_FALSE));
     else if (finite && ip->search->ntrials == 1) PetscCall(SearchCorrect(tao, alpha, slope, theta, tau, ok));
   }
-  ip->search->ncut = *ok && ip->search->alpha < small ? ip->search->ncut + 1 : 0;
+  if (*ok) PetscCall(SearchKeepSlow(tao));
+  ip->search->ncut  = *ok && ip->search->alpha < small ? ip->search->ncut + 1 : 0;
+  ip->watch->nshort = *ok && ip->search->alpha < longest ? ip->watch->nshort + 1 : 0;
   PetscFunctionReturn(0);
 }

@@ -120,6 +120,7 @@ static PetscErrorCode RelaxConstraints(Tao tao)
   PetscReal     limit = PETSC_INFINITY, gradient;
 
   PetscFunctionBegin;
+  PetscCall(IPWatchdogEnd(ip->watch));
   PetscCall(RelaxChoose(tao));
   PetscCall(PetscInfo(tao, "No interior: constraints relaxed by %g\n", (double)ip->relax->told));
   if (ip->mi) limit = ip->relax->by * ip->scale->balance;

@@ -18,10 +18,22 @@ struct _n_IPSearch {
   PetscReal rounding;           /* rounding error of phi */
   PetscReal theta_rounding;     /* rounding error of theta */
   PetscReal alpha, alpha_dual;
+  PetscReal before;            /* norm of the previous search direction; that of the last one is dir.norm */
+  PetscBool slows;             /* whether the last step of a length above zero was one of linear convergence */
+  Vec       slow;              /* its direction then */
   PetscInt  ntrials, ndefined; /* number of trial points of the last search; of those with finite values, also in the
                                   restoration after it */
   PetscInt  ncut;              /* number of consecutive steps that were shortened to a small fraction */
-  char      tag;               /* how the step was accepted: f, h, F or H (second-order correction), R (restoration) */
+  char      tag; /* how the step was accepted: f, h, F or H (second-order correction), R (restoration), w (watchdog) */
+};
+
+/* watchdog.c: steps taken without a test, and the iterate to return to if they fail */
+struct _n_IPWatchdog {
+  IPIterate from;
+  PetscReal mu, theta, phi, slope; /* values at the iterate `from` */
+  PetscReal alpha;                 /* length of the first step from there */
+  PetscInt  left;                  /* number of steps without a test that may still be taken; 0: the watchdog is off */
+  PetscInt  nshort, patience;      /* number of consecutive shortened steps; number that starts the watchdog */
 };
 
 #endif

@@ -40,6 +40,7 @@ typedef struct _n_IPShift       IPShift;
 typedef struct _n_IPBarrier     IPBarrier;
 typedef struct _n_IPFilterSet   IPFilterSet;
 typedef struct _n_IPSearch      IPSearch;
+typedef struct _n_IPWatchdog    IPWatchdog;
 typedef struct _n_IPRelaxation  IPRelaxation;
 typedef struct _n_IPRestoration IPRestoration;
 typedef struct _n_IPMethod      IPMethod;
@@ -145,6 +146,7 @@ struct _n_TAO_IPFILTER {
   IPShift       *shift;   /* barrier.h: multiple of M_u that is added to the Hessian */
   IPFilterSet   *filter;  /* search.h: the filter */
   IPSearch      *search;  /* search.h: the line search */
+  IPWatchdog    *watch;   /* search.h: the watchdog */
   IPRelaxation  *relax;   /* relaxation.h: relaxation of constraints without an interior */
   IPRestoration *restore; /* relaxation.h: feasibility restoration */
   IPMethod      *method;  /* method.h: alternative to the interior point method */

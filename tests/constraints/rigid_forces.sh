@@ -16,7 +16,7 @@ for scene in roller tilt ${long:+punch rubber rolled beam rubs sprung}; do
     echo "$scene, three ranks: exit code $?"
 done
 "$PYTHON" "$AMGF_DIR/tests/constraints/rigid_forces.py" judge
-"$contact" tilt.yaml -scene_check | grep '^  - \(guide\|load\)'
+"$contact" tilt.yaml -scene_check | grep '^  \(displacement guide\|force load\)'
 
 try() {
   sed "$1" tilt.yaml > tried.yaml

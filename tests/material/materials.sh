@@ -16,7 +16,7 @@ probes:
   - a: {point: [1, 1, 1]}
   - b: {point: [4, 1, 1]}
 YAML
-"$contact" bars.yaml -summary bars.json -elasticity_ksp_rtol 1e-13 > log || echo "exit code $?"
+"$contact" bars.yaml -tables_view -summary bars.json -elasticity_ksp_rtol 1e-13 > log || echo "exit code $?"
 grep '^Units' log
 "$PYTHON" - <<'PY'
 import json, os, re

@@ -10,7 +10,7 @@ decks judge
 
 mpiexec --oversubscribe -n 2 "$contact" keyword.inp -quiet 2>&1 | grep "^contact"
 mesh keyword.inp -scene keyword.yaml -deck_ignore mpc -quiet
-try keyword.yaml -scene_check | sed -n "/^contact:/,/^  -/p"
+try keyword.yaml -scene_check | grep "contact pair"
 mesh pressure.inp -scene pressure_deck.yaml -deck_ignore EQUATION
 echo "problem: mine" > pressure_deck.yaml
 try pressure.inp

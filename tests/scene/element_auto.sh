@@ -26,8 +26,8 @@ pressures:
   - inside: {face: balloon.zmin, value: 0.1, follows: true}
 weak_springs: true
 SCENE
-"$AMGF_DIR/bin/contact" bodies.yaml -scene_check |
-  sed -n '1,/^Bodies/d; s/^  \([a-z0-9]*\): .*/\1/p; s/.*; element/  element/p' | sed '/problem/d' | head -27
+"$AMGF_DIR/bin/contact" bodies.yaml -scene_check | sed -n 's/^  \([a-z0-9]*\): .*/\1/p; s/.*; element/  element/p' |
+  sed '/problem/d' | head -27
 beam() { # name, keys of the beam
   cat > "$1.yaml" <<SCENE
 bodies:

@@ -25,7 +25,7 @@ echo "loose: exit $?"; cat out
   echo "displacements:"
   for i in $(seq 0 2 598); do echo "  - foot$i: {face: block$i.zmin, value: [0, 0, 0]}"; done
 } > assembly.yaml
-"$AMGF_DIR/bin/contact" assembly.yaml -scene_check | grep -c '^  - foot'
+"$AMGF_DIR/bin/contact" assembly.yaml -scene_check | grep -c '^  displacement foot'
 # What a scene may have besides: a named material, velocities, friction, a tie, time integration, a long load program
 cat > full.yaml <<END
 problem: full
@@ -46,7 +46,7 @@ ramps:
   - rub: {expression: "sin(t * 1e4)"}
 dynamics: {time_step: 1e-6, end_time: 100e-6, damping_mass: 3}
 END
-"$contact" full.yaml -scene_check | sed '/^Contact at/,$d; /expansion:\|rub: {times/d'
+"$contact" full.yaml -scene_check | sed '/^Contact at/,$d; s/expansion = [^;]*, rho/rho/'
 # What the run refuses is refused here, in the same words: a tie whose faces do not cover one another, and all bodies
 # that are not held
 sed '/^ramps/,$d; /^contact/,/hit/d; s/density: 2e-9,/density: 2e-9}/; /velocity/d' full.yaml > static.yaml

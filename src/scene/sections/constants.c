@@ -125,8 +125,20 @@ static PetscErrorCode ConstantView(const MaterialConstant *constant, PetscInt n,
   PetscFunctionReturn(0);
 }
 
-/* Prints the constants that are required or not 0 as YAML, one per line */
-PetscErrorCode SceneViewConstants(const Material *material, PetscViewer viewer)
+static PetscErrorCode ConstantDescribe(const MaterialConstant *constant, PetscInt n, const PetscReal value[],
+  PetscViewer viewer)
+{
+  const char *name = constant->symbol ? constant->symbol : constant->name;
+
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, ", %s =", name));
+  for (PetscInt k = 0; k < n; ++k) PetscCall(PetscViewerASCIIPrintf(viewer, " %.6g", (double)value[k]));
+  PetscFunctionReturn(0);
+}
+
+/* Calls `show` for each constant that is required or not 0. */
+static PetscErrorCode ConstantsShow(const Material *material,
+  PetscErrorCode (*show)(const MaterialConstant *, PetscInt, const PetscReal[], PetscViewer), PetscViewer viewer)
 {
   const MaterialLaw *law;
 
@@ -136,8 +148,24 @@ PetscErrorCode SceneViewConstants(const Material *material, PetscViewer viewer)
     const PetscReal *value;
     const PetscInt   n = MaterialConstantGet(c, material, &value);
 
-    if (MaterialConstantIsSet(c, n, value)) PetscCall(ConstantView(c, n, value, viewer));
+    if (MaterialConstantIsSet(c, n, value)) PetscCall(show(c, n, value, viewer));
   }
+  PetscFunctionReturn(0);
+}
+
+/* Prints the constants as YAML, one per line. */
+PetscErrorCode SceneViewConstants(const Material *material, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(ConstantsShow(material, ConstantView, viewer));
+  PetscFunctionReturn(0);
+}
+
+/* Describes the constants within a line. */
+PetscErrorCode SceneDescribeConstants(const Material *material, PetscViewer viewer)
+{
+  PetscFunctionBegin;
+  PetscCall(ConstantsShow(material, ConstantDescribe, viewer));
   PetscFunctionReturn(0);
 }
 

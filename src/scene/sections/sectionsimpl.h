@@ -25,6 +25,7 @@ PETSC_INTERN PetscErrorCode SceneFinishInertia(SceneKeys, Scene, const char owne
 /* constants.c: constants of a material's law, with the keys <owner>_<constant> */
 PETSC_INTERN PetscErrorCode SceneReadConstants(SceneKeys, const char owner[], PetscBool listed, Material *);
 PETSC_INTERN PetscErrorCode SceneViewConstants(const Material *, PetscViewer);
+PETSC_INTERN PetscErrorCode SceneDescribeConstants(const Material *, PetscViewer);
 PETSC_INTERN PetscErrorCode SceneValidateConstants(MPI_Comm, const SceneBody *);
 
 /* materials.c: named materials; SceneFindMaterial() finds the material of a body, and whether its name is in a list */
