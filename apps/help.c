@@ -15,9 +15,9 @@ contact DECK.inp translates a deck of Abaqus or CalculiX into the scene DECK_dec
 Results\n\
   -output BASE         write fields for ParaView, BASE.xmf with BASE.h5 and BASE_0001.h5, ..., and a table with a\n\
                        line per load step, BASE.csv\n\
-  -output BASE.pvd     also write files of VTK, which have the surfaces of rigid tools, too\n\
+  -output BASE.pvd     also write VTK files, which contain the surfaces of rigid tools\n\
   -output_every N      keep the fields of every Nth load step and of the last one\n\
-  -output_last         keep the fields of the last load step alone\n\
+  -output_last         keep the fields of the last load step only.\n\
                        The table has all load steps. PETSc's -viewer_hdf5_sp_output: in single precision\n\
   -output_gauss        also write the stress at quadrature points, BASE_gauss.xmf\n\
   -summary FILE.json   write all numbers of the run\n\

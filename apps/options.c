@@ -2,7 +2,7 @@
 #include "appsimpl.h"
 #include <string.h>
 
-/* Splits the name BASE.pvd of -output, which asks for files of VTK, too */
+/* Reads whether -output has the ending .pvd, which asks for VTK files, and removes this ending */
 static PetscErrorCode AppCompleteOutput(AppOptions *app)
 {
   PetscFunctionBeginUser;
@@ -51,7 +51,7 @@ PetscErrorCode AppGetOptions(int argc, char **argv, AppOptions *app)
     app->every, &app->every, NULL));
   PetscCheck(app->every > 0, PETSC_COMM_WORLD, PETSC_ERR_USER_INPUT,
     "-output_every must be at least 1, not %" PetscInt_FMT, app->every);
-  PetscCall(PetscOptionsBool("-output_last", "Keep the fields of the last load step alone", NULL, last, &last, NULL));
+  PetscCall(PetscOptionsBool("-output_last", "Keep the fields of the last load step only", NULL, last, &last, NULL));
   if (last) app->every = 0;
   PetscCall(PetscOptionsInt("-checkpoint_every", "Number of load steps between two checkpoints; 0: none", NULL,
     app->checkpoint_every, &app->checkpoint_every, NULL));

@@ -25,7 +25,9 @@ struct _p_SubspaceBodies {
   Mat        K;
   IS         W;
   Mat        R, RW;                /* rows of the contacts: three for each contact of this rank; columns W of R */
-  Mat        D, DR, RI, DRK, A, F; /* D; D R_W; (R_W; I); (D R_W; K_WW); A_WW, and its factors */
+  Mat        D, DR;                /* D, and D R_W */
+  Mat        RI, DRK;              /* R_W above the unit matrix; D R_W above K_WW */
+  Mat        A, F;                 /* A_WW = RI^T DRK, and its factors */
   Vec        x, dx, r, Kx, Kdx, g; /* K x is kept beside x, K dx beside dx */
   Vec        kept_x, kept_Kx;
   Vec        first;                 /* the residual of which a part is left out; NULL: none */

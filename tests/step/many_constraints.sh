@@ -1,5 +1,5 @@
-# 6,561 constraints of contact without friction, or that stick: no dense matrix of them is stored, and the answer is
-# that of a bar
+# 6,561 contacts, without friction and with stick. No dense matrix of the contacts is stored. The force is that of a
+# bar in compression.
 cat > many.yaml <<'SCENE'
 bodies:
   - base: {lower: [0, 0, 0], upper: [80, 80, 2], cells: [80, 80, 2], young: 1000, poisson: 0}

@@ -1,5 +1,5 @@
-# Hexahedra of 20 nodes (serendipity): two cells against stiffness matrices of an independent program, on one rank and
-# on two; a contact of such bodies; what is refused.
+# Hexahedra of 20 nodes (serendipity). Two cells are compared with stiffness matrices of an independent program, on one
+# and two ranks. Bodies of such cells come into contact. Wrong input is refused.
 contact=$AMGF_DIR/bin/contact
 judge="$AMGF_DIR/tests/step/serendipity.py"
 cat > cells.yaml <<'YAML'
