@@ -63,36 +63,54 @@ static PetscErrorCode BodiesCopyRow(Mat from, PetscInt row, Mat R, PetscInt to, 
   PetscFunctionReturn(0);
 }
 
+/*
+   Creates a matrix with m rows on this rank, which are rows of two matrices with the same columns. source[i]: number of
+   row i among the rows of `first` on this rank, then those of `second`; negative: the row is empty
+*/
+static PetscErrorCode BodiesCombineRows(Mat first, Mat second, PetscInt m, const PetscInt source[], Mat *combined)
+{
+  PetscInt nfirst, columns, start[2], to = 0, *counts;
+
+  PetscFunctionBegin;
+  PetscCall(MatGetLocalSize(first, &nfirst, &columns));
+  PetscCall(MatGetOwnershipRange(first, &start[0], NULL));
+  PetscCall(MatGetOwnershipRange(second, &start[1], NULL));
+  PetscCall(PetscCalloc1(m, &counts));
+  *combined = NULL;
+  for (PetscInt pass = 0; pass < 2; pass++) {
+    if (pass) {
+      PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)first), m, columns, PETSC_DETERMINE, PETSC_DETERMINE, 0,
+        counts, 0, counts, combined));
+      PetscCall(MatGetOwnershipRange(*combined, &to, NULL));
+    }
+    for (PetscInt i = 0; i < m; i++) {
+      const PetscBool in_first = (PetscBool)(source[i] < nfirst);
+      const PetscInt  row      = in_first ? start[0] + source[i] : start[1] + source[i] - nfirst;
+
+      if (source[i] >= 0) PetscCall(BodiesCopyRow(in_first ? first : second, row, *combined, to + i, &counts[i]));
+    }
+  }
+  PetscCall(MatAssemblyBegin(*combined, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*combined, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscFree(counts));
+  PetscFunctionReturn(0);
+}
+
 /* Creates R from the rows of constraints J and of norm terms T. n: number of contacts on this rank */
 static PetscErrorCode BodiesCreateRows(Mat J, Mat T, PetscInt n, Mat *R)
 {
-  PetscInt mJ, mT, startJ, startT, columns, start = 0, *counts;
+  PetscInt mJ, mT, *source;
 
   PetscFunctionBegin;
-  PetscCall(MatGetLocalSize(J, &mJ, &columns));
+  PetscCall(MatGetLocalSize(J, &mJ, NULL));
   PetscCall(MatGetLocalSize(T, &mT, NULL));
-  PetscCall(MatGetOwnershipRange(J, &startJ, NULL));
-  PetscCall(MatGetOwnershipRange(T, &startT, NULL));
-  PetscCall(PetscCalloc1(3 * n, &counts));
-  *R = NULL;
-  for (PetscInt pass = 0; pass < 2; pass++) {
-    if (pass) {
-      PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)J), 3 * n, columns, PETSC_DETERMINE, PETSC_DETERMINE, 0,
-        counts, 0, counts, R));
-      PetscCall(MatGetOwnershipRange(*R, &start, NULL));
-    }
-    for (PetscInt i = 0; i < n; i++) {
-      for (PetscInt a = 0; a < 3; a++) {
-        const PetscInt row = a ? startT + 2 * i + a - 1 : startJ + i;
-
-        if (a ? 2 * i < mT : i < mJ)
-          PetscCall(BodiesCopyRow(a ? T : J, row, *R, start + 3 * i + a, &counts[3 * i + a]));
-      }
-    }
+  PetscCall(PetscMalloc1(3 * n, &source));
+  for (PetscInt i = 0; i < n; i++) {
+    source[3 * i] = i < mJ ? i : -1;
+    for (PetscInt a = 0; a < 2; a++) source[3 * i + 1 + a] = 2 * i < mT ? mJ + 2 * i + a : -1;
   }
-  PetscCall(MatAssemblyBegin(*R, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(*R, MAT_FINAL_ASSEMBLY));
-  PetscCall(PetscFree(counts));
+  PetscCall(BodiesCombineRows(J, T, 3 * n, source, R));
+  PetscCall(PetscFree(source));
   PetscFunctionReturn(0);
 }
 
@@ -119,28 +137,15 @@ static PetscErrorCode BodiesCreateBlocks(Mat R, PetscInt n, Mat *D)
 /* Creates the matrix with the rows of `top` above those of `bottom` on each rank. Both have the same columns. */
 static PetscErrorCode BodiesStack(Mat top, Mat bottom, Mat *stack)
 {
-  PetscInt m, n, columns, start[2], first = 0, *counts;
+  PetscInt m, n, *source;
 
   PetscFunctionBegin;
-  PetscCall(MatGetLocalSize(top, &m, &columns));
+  PetscCall(MatGetLocalSize(top, &m, NULL));
   PetscCall(MatGetLocalSize(bottom, &n, NULL));
-  PetscCall(MatGetOwnershipRange(top, &start[0], NULL));
-  PetscCall(MatGetOwnershipRange(bottom, &start[1], NULL));
-  PetscCall(PetscCalloc1(m + n, &counts));
-  *stack = NULL;
-  for (PetscInt pass = 0; pass < 2; pass++) {
-    if (pass) {
-      PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)top), m + n, columns, PETSC_DETERMINE, PETSC_DETERMINE, 0,
-        counts, 0, counts, stack));
-      PetscCall(MatGetOwnershipRange(*stack, &first, NULL));
-    }
-    for (PetscInt i = 0; i < m + n; i++)
-      PetscCall(
-        BodiesCopyRow(i < m ? top : bottom, i < m ? start[0] + i : start[1] + i - m, *stack, first + i, &counts[i]));
-  }
-  PetscCall(MatAssemblyBegin(*stack, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(*stack, MAT_FINAL_ASSEMBLY));
-  PetscCall(PetscFree(counts));
+  PetscCall(PetscMalloc1(m + n, &source));
+  for (PetscInt i = 0; i < m + n; i++) source[i] = i;
+  PetscCall(BodiesCombineRows(top, bottom, m + n, source, stack));
+  PetscCall(PetscFree(source));
   PetscFunctionReturn(0);
 }
 
