@@ -65,7 +65,7 @@ static PetscErrorCode PetscPartitionerPartition_Metis(PetscPartitioner part, Pet
   }
   RankCallFor(comm, nv > 0,
     MetisPartitionGraph(nparts, nv, start, adjacency, vertexsection ? weights : NULL, assignment),
-    "The first rank cannot partition a graph of %" PetscInt_FMT " vertices into %" PetscInt_FMT " parts: ", nv, nparts);
+    "The first rank cannot partition the graph of the mesh into %" PetscInt_FMT " parts: ", nparts);
 
   PetscCall(PetscArrayzero(next, nparts));
   for (PetscInt v = 0; v < nv; ++v) ++next[assignment[v]];

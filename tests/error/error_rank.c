@@ -144,8 +144,7 @@ static PetscErrorCode TestMemory(void)
     const char *what, *function;
     PetscInt    body;
   } work[] = {{"the grid of a box", "ShapeGridCreate", 0}, {"the mesh of all bodies", "MeshJoinVertices", 0},
-    {"the graph of the mesh", "IntegersGather", 0}, {"the graph for METIS", "MetisPartitionGraph", 0},
-    {"the partition", "MetisPartitionGathered", 0}, {"the vertices of a ball", "OctantNumberSurface", 1},
+    {"the partition", "MetisPartitionGraph", 0}, {"the vertices of a ball", "OctantNumberSurface", 1},
     {"the names of a Gmsh file", "GmshScanPhysicalNames", 2}, {"the nodes of a Gmsh file", "GmshCheckNodes", 2},
     {"the cells of a Gmsh body", "GmshCutVolume", 2}, {"the vertices of a Gmsh body", "GmshCheckVertices", 2}};
 
