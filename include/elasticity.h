@@ -124,6 +124,8 @@ PETSC_EXTERN PetscErrorCode ElasticityRecoverStress(Elasticity, Vec u, PetscReal
 PETSC_EXTERN PetscErrorCode ElasticityCommit(Elasticity, Vec u);
 /* Finds whether any point has a plastic strain */
 PETSC_EXTERN PetscErrorCode ElasticityHasYielded(Elasticity, PetscBool *);
+/* Sets the displacement from which the pressure in later tangents is linearized; NULL: none */
+PETSC_EXTERN void ElasticitySetPressureBase(Elasticity, Vec before);
 /* Gets the plastic work since the start [force length], and the largest equivalent plastic strain of each body */
 PETSC_EXTERN PetscErrorCode ElasticityPlasticWork(Elasticity, PetscReal *work, PetscReal largest[]);
 /* Computes, for a trial displacement u, the elastic energy, the plastic work since the last equilibrium in bodies

@@ -69,33 +69,43 @@ static PetscErrorCode ElasticityZeroAssembledAgain(Elasticity e, const PetscInt 
 */
 static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, const PetscInt global[], Mat tangent)
 {
-  Vec                local;
-  const PetscScalar *x, *ul;
+  Vec                local, local_before;
+  const PetscScalar *x, *ul, *before;
 
   PetscFunctionBegin;
   PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
+  PetscCall(ElasticityGetLocals(e, e->before ? e->before : u, &local_before, &before, &x));
   for (PetscInt c = 0; c < e->ncells; ++c) {
-    CellState   cell;
+    CellState   cell, last;
     PetscInt    rows[CELL_MAX_NODES];
     PetscScalar K[9 * CELL_MAX_NODES * CELL_MAX_NODES];
 
     if (e->bodies[e->cellbody[c]].kept && !all) continue;
     ElasticityGetCell(e, c, x, ul, &cell);
-    if (!cell.body->element->stiffness(cell.body->basis, cell.material, cell.X, cell.U, K)) {
+    if (e->before) ElasticityGetCell(e, c, x, before, &last);
+    if (!cell.body->element->stiffness(cell.body->basis, cell.material, cell.X, cell.U, e->before ? last.U : NULL, K)) {
       PetscReal undeformed[3][CELL_MAX_NODES] = {{0}};
 
-      (void)cell.body->element->stiffness(cell.body->basis, cell.material, cell.X, undeformed, K);
+      (void)cell.body->element->stiffness(cell.body->basis, cell.material, cell.X, undeformed, NULL, K);
     }
     CellAddInertia(e, &cell, K);
     if (e->prescribed) CellMaskPrescribed(e->prescribed, cell.n, cell.nodes, K);
     for (PetscInt a = 0; a < cell.n; ++a) rows[a] = global[cell.nodes[a]];
     PetscCall(MatSetValuesBlocked(tangent, cell.n, rows, cell.n, rows, K, ADD_VALUES));
   }
+  PetscCall(ElasticityRestoreLocals(e, &local_before, &before, &x));
   PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
   PetscCall(SpringsAddTangent(e, all, global, tangent));
   PetscCall(MatAssemblyBegin(tangent, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(tangent, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);
+}
+
+/* Sets the displacement from which elements with mean dilatation linearize the pressure in later tangents, see bbar.c;
+   NULL: they use the pressure at the displacement of the tangent */
+void ElasticitySetPressureBase(Elasticity e, Vec before)
+{
+  e->before = before;
 }
 
 /*@

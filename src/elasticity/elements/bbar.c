@@ -161,12 +161,12 @@ AMGF_CLONES static PetscBool ElementForce_Bbar(const CellBasis *basis, const Bod
   return CELL_CALL(BbarForce, basis, m, X, U, F);
 }
 
-/* Returns Theta at a point */
-static PetscReal DilatationAt(const Dilatation *d, PetscInt q)
+/* Returns Theta at a point. mean: Theta_k */
+static PetscReal DilatationAt(const Dilatation *d, const PetscReal mean[POLYNOMIALS], PetscInt q)
 {
   PetscReal theta = 0;
 
-  for (int k = 0; k < d->npolynomials; ++k) theta += d->mean[k] * LANE(d->p[q / LANES][k], q % LANES);
+  for (int k = 0; k < d->npolynomials; ++k) theta += mean[k] * LANE(d->p[q / LANES][k], q % LANES);
   return theta;
 }
 
@@ -176,16 +176,38 @@ static void DilatationGetGradient(const Dilatation *d, PetscInt q, PetscReal H[9
   for (int i = 0; i < 9; ++i) H[i] = LANE(d->pack[q / LANES].H[i], q % LANES);
 }
 
-/* Adds kappa Theta times the second derivative of the dilatation to the tangents at the points of a pack */
-static void BbarAddCurvature(const CellBasis *basis, const BodyMaterial *m, const Dilatation *d, PetscInt pack,
-  Lanes A[81])
+/* Adds kappa Theta times the second derivative of the dilatation to the tangents at the points of a pack. mean: Theta_k */
+static void BbarAddCurvature(const CellBasis *basis, const BodyMaterial *m, const Dilatation *d,
+  const PetscReal mean[POLYNOMIALS], PetscInt pack, Lanes A[81])
 {
   for (PetscInt q = LANES * pack; m->law->curvature && q < PetscMin(basis->npoints, LANES * (pack + 1)); ++q) {
     PetscReal H[9], B[81] = {0};
 
     DilatationGetGradient(d, q, H);
-    m->law->curvature((m->moduli.bulk - m->rest) * DilatationAt(d, q), H, B);
+    m->law->curvature((m->moduli.bulk - m->rest) * DilatationAt(d, mean, q), H, B);
     for (int i = 0; i < 81; ++i) LANE(A[i], q % LANES) += B[i];
+  }
+}
+
+/*
+   Computes Theta_k of U linearized at `before`. If a step of Newton's method goes from `before` to U, kappa Theta is then
+   the pressure that the step was to give. That of U itself is false: the step changes volumes in the second order, and
+   kappa is large. Its product with the second derivative of the dilatation would make the stiffness indefinite.
+   Reference: Magisano, Leonetti and Garcea, How to improve efficiency and robustness of the Newton method in
+   geometrically non-linear structural problem discretized via displacement-based finite elements, 2017.
+*/
+LANES_INLINE void BbarLinearize(const int n, const CellBasis *basis, const BodyMaterial *m,
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal before[3][CELL_MAX_NODES], Dilatation *d,
+  PetscReal mean[POLYNOMIALS])
+{
+  ElementDilatation(n, basis, m, X, before, d);
+  for (int k = 0; k < d->npolynomials; ++k) {
+    PetscReal change = 0;
+
+    for (int i = 0; i < 3; ++i) {
+      for (int a = 0; a < n; ++a) change += d->g[k][i][a] * (U[i][a] - before[i][a]);
+    }
+    mean[k] = d->mean[k] + change / d->square[k];
   }
 }
 
@@ -194,15 +216,19 @@ static void BbarAddCurvature(const CellBasis *basis, const BodyMaterial *m, cons
    times the second derivative of the dilatation
 */
 LANES_INLINE PetscBool BbarTangents(const int n, const CellBasis *basis, const BodyMaterial *m,
-  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], Dilatation *d, CellTangents *t)
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal before[3][CELL_MAX_NODES], Dilatation *d,
+  CellTangents *t)
 {
   MaterialModuli        own;
   const MaterialModuli *moduli = BbarModuli(m, &own);
+  PetscReal             mean[POLYNOMIALS];
 
+  if (before) BbarLinearize(n, basis, m, X, U, before, d, mean);
   ElementDilatation(n, basis, m, X, U, d);
+  for (int k = 0; k < d->npolynomials && !before; ++k) mean[k] = d->mean[k];
   for (PetscInt pack = 0; pack < basis->npacks; ++pack) {
     if (!PointsTangent(m->law, moduli, pack, basis->npoints, d->pack[pack].H, t->A[pack])) return PETSC_FALSE;
-    BbarAddCurvature(basis, m, d, pack, t->A[pack]);
+    BbarAddCurvature(basis, m, d, mean, pack, t->A[pack]);
     CellTangentsSetGradients(n, basis, pack, d->pack[pack].G, t);
     for (int i = 0; i < 81; ++i) t->A[pack][i] *= d->pack[pack].w;
   }
@@ -210,11 +236,12 @@ LANES_INLINE PetscBool BbarTangents(const int n, const CellBasis *basis, const B
 }
 
 AMGF_CLONES static PetscBool ElementStiffnessPoints_Bbar(const CellBasis *basis, const BodyMaterial *m,
-  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], Dilatation *d, PetscScalar K[])
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal before[3][CELL_MAX_NODES], Dilatation *d,
+  PetscScalar K[])
 {
   CellTangents t;
 
-  if (!CELL_CALL(BbarTangents, basis, m, X, U, d, &t)) return PETSC_FALSE;
+  if (!CELL_CALL(BbarTangents, basis, m, X, U, before, d, &t)) return PETSC_FALSE;
   CellStiffness(basis, &t, K);
   return PETSC_TRUE;
 }
@@ -227,7 +254,7 @@ AMGF_CLONES static void ElementDilatation_Bbar(const CellBasis *basis, const Bod
 
 /* Computes the stiffness K = int d2W_iso/du2 + kappa int Theta d2theta/du2 + kappa sum_k g_k g_k^T / int p_k^2 */
 static PetscBool ElementStiffness_Bbar(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
-  PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
+  PetscReal U[3][CELL_MAX_NODES], PetscReal before[3][CELL_MAX_NODES], PetscScalar K[])
 {
   const PetscInt width = 3 * basis->nnodes;
   Dilatation     d;
@@ -238,7 +265,7 @@ static PetscBool ElementStiffness_Bbar(const CellBasis *basis, const BodyMateria
 
     ElementDilatation_Bbar(basis, m, X, undeformed, &d);
     CellStiffnessConstant(basis, m->law, &m->isochoric, X, K);
-  } else if (!ElementStiffnessPoints_Bbar(basis, m, X, U, &d, K)) return PETSC_FALSE;
+  } else if (!ElementStiffnessPoints_Bbar(basis, m, X, U, before, &d, K)) return PETSC_FALSE;
   for (int k = 0; k < d.npolynomials; ++k) {
     for (PetscInt r = 0; r < width; ++r)
       rank1[r] = PetscSqrtReal((m->moduli.bulk - m->rest) / d.square[k]) * d.g[k][r % 3][r / 3];
@@ -280,7 +307,7 @@ static void ElementStrains_Bbar(const CellBasis *basis, const BodyMaterial *m, P
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     w[q] = LANE(d.pack[q / LANES].w, q % LANES);
     DilatationGetGradient(&d, q, H[q]);
-    H[q][9] = DilatationAt(&d, q);
+    H[q][9] = DilatationAt(&d, d.mean, q);
   }
 }
 

@@ -243,9 +243,9 @@ typedef struct {
   PetscBool (*force)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
     PetscReal U[3][CELL_MAX_NODES], PetscReal F[3][CELL_MAX_NODES]);
   /* computes the second derivative of the energy, K[(3 a + i) 3 n + 3 b + k]; U is not used if the law's tangent is
-     constant */
+     constant. `before`: displacements from which the pressure in it is linearized (bbar.c); NULL: the pressure of U */
   PetscBool (*stiffness)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
-    PetscReal U[3][CELL_MAX_NODES], PetscScalar K[]);
+    PetscReal U[3][CELL_MAX_NODES], PetscReal before[3][CELL_MAX_NODES], PetscScalar K[]);
   /* computes the Cauchy stress averaged over the reference cell: xx yy zz xy yz zx */
   PetscBool (*cauchy)(const CellBasis *, const BodyMaterial *, PetscReal X[3][CELL_MAX_NODES],
     PetscReal U[3][CELL_MAX_NODES], PetscReal sigma[6]);
@@ -348,6 +348,7 @@ struct _n_Elasticity {
                                                 0 */
   PetscInt       nbeyond;
   AssembledTangent assembled;
+  Vec              before;             /* see ElasticitySetPressureBase(); NULL: none */
   PetscReal        inertia, viscosity; /* of tangents in a dynamic analysis: factor of the mass matrix, 0 in a static
                                           analysis; factor by which viscosity increases the stiffness, minus 1 */
   PetscBool        consistent, *light; /* true if the mass is consistent; for each local node: true if it has no

@@ -71,8 +71,9 @@ AMGF_CLONES static PetscBool FullStiffness(const CellBasis *basis, const BodyMat
 }
 
 static PetscBool ElementStiffness_Full(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
-  PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
+  PetscReal U[3][CELL_MAX_NODES], PetscReal before[3][CELL_MAX_NODES], PetscScalar K[])
 {
+  (void)before;
   if (!m->law->constant) return FullStiffness(basis, m, X, U, K);
   CellStiffnessConstant(basis, m->law, &m->moduli, X, K);
   return PETSC_TRUE;

@@ -88,14 +88,14 @@ static PetscBool ElementForce_Incompatible(const CellBasis *basis, const BodyMat
 
 /* Computes K = K_uu - (L^(-1) K_au)^T (L^(-1) K_au) */
 static PetscBool ElementStiffness_Incompatible(const CellBasis *basis, const BodyMaterial *m,
-  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscScalar K[])
+  PetscReal X[3][CELL_MAX_NODES], PetscReal U[3][CELL_MAX_NODES], PetscReal before[3][CELL_MAX_NODES], PetscScalar K[])
 {
   Incompatibility modes;
   PetscReal       row[24];
 
   if (m->law->advance) return CondensedStiffness(basis, m, X, U, K);
   IncompatibleSetUp(basis, m, X, &modes);
-  if (!ElementFull.stiffness(basis, m, X, U, K)) return PETSC_FALSE;
+  if (!ElementFull.stiffness(basis, m, X, U, before, K)) return PETSC_FALSE;
   for (int k = 0; k < MODES; ++k) {
     for (int r = 0; r < 24; ++r) {
       PetscReal *entry = &modes.K[k][r % 3][r / 3];

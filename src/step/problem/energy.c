@@ -122,6 +122,25 @@ PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Ve
   PetscFunctionReturn(0);
 }
 
+/* Keeps the displacement u of a tangent. Before the first one it is the last state that is kept. */
+static PetscErrorCode EnergyKeepTangent(StepProblem *p, Vec u)
+{
+  PetscBool same;
+
+  PetscFunctionBegin;
+  if (!p->tangent_at) {
+    PetscCall(VecDuplicate(u, &p->tangent_at));
+    PetscCall(VecDuplicate(u, &p->tangent_before));
+    PetscCall(VecCopy(p->state->path->u, p->tangent_at));
+    PetscCall(VecCopy(p->state->path->u, p->tangent_before));
+  }
+  PetscCall(VecEqual(u, p->tangent_at, &same));
+  if (same) PetscFunctionReturn(0);
+  PetscCall(VecSwap(p->tangent_at, p->tangent_before));
+  PetscCall(VecCopy(u, p->tangent_at));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode EnergyHessian(Tao tao, Vec iterate, Mat H, Mat Hpre, void *ctx)
 {
   StepProblem *p = (StepProblem *)ctx;
@@ -131,7 +150,10 @@ PetscErrorCode EnergyHessian(Tao tao, Vec iterate, Mat H, Mat Hpre, void *ctx)
   (void)tao;
   (void)Hpre;
   PetscCall(EnergyGetState(p, iterate, &u));
+  PetscCall(EnergyKeepTangent(p, u));
+  ElasticitySetPressureBase(p->model->elasticity, p->tangent_before);
   PetscCall(EnergyGetTangent(p, u, H));
+  ElasticitySetPressureBase(p->model->elasticity, NULL);
   PetscFunctionReturn(0);
 }
 

@@ -244,6 +244,8 @@ PetscErrorCode StepProblemDestroy(StepProblem *p)
   PetscCall(VecDestroy(&p->lower));
   PetscCall(VecDestroy(&p->upper));
   PetscCall(VecDestroy(&p->w));
+  PetscCall(VecDestroy(&p->tangent_at));
+  PetscCall(VecDestroy(&p->tangent_before));
   PetscCall(VecDestroy(&p->Kw));
   PetscCall(MatDestroy(&p->directions));
   PetscCall(PetscFree(p->direction));

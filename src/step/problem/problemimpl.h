@@ -98,6 +98,7 @@ typedef struct {
   PetscBool   beyond_limit; /* true if follower loads seem to exceed a limit load */
   const char *flowing;      /* name of the body that flows, so that there is no equilibrium; NULL: none */
   Vec         w, Kw;
+  Vec         tangent_at, tangent_before; /* displacements of the last two tangents [length] */
 
   Mat       directions; /* impact scheme: derivatives of the gaps at the last state; NULL without contact */
   PetscInt *direction;  /* row of `directions` at each index of the contact history; negative: none */
