@@ -84,6 +84,9 @@ WIDTH, LOWEST, HIGHEST = 1100, 420, 800  # of the picture [pixels]
 VIEW = (20, -60)  # elevation and azimuth [degrees]
 BODIES = 0.82  # of the width, left of the colour bar
 CAPTION = 44  # below the bodies [pixels]
+# Values that differ by less are equal; among their places the one with the smallest product is taken. The program does
+# the same: REPORT_TIE and LargestOrder()
+TIE, ORDER = 1e-6, (1, 0.6180339887, 0.4142135624)
 TRIAD = 130  # below the colour bar
 
 
@@ -154,7 +157,7 @@ def body_grid(run, cells):
 
 
 def plane_of(args):
-    """Normal and distance of the plane of --section"""
+    """Normal, away from the camera, and distance of the plane of --section"""
     words, _, number = args.section.partition("=")
     try:
         normal = np.eye(3)["xyz".index(words)] if words in ("x", "y", "z") else np.array(words.split(","), float)
@@ -163,7 +166,18 @@ def plane_of(args):
         stop(f"{CUT}, not '{args.section}'")
     if normal.shape != (3, ) or not normal.any():
         stop(f"{CUT}, not '{args.section}'")
+    if normal @ directions(args)[0] > 0:
+        normal, distance = -normal, -distance
     return normal, distance
+
+
+def not_cut_off(args, run):
+    """Whether each vertex is on the plane of --section or behind it"""
+    if not args.section:
+        return np.ones(len(run.vertices), bool)
+    normal, distance = plane_of(args)
+    along = run.vertices @ normal
+    return along >= distance - TIE * np.ptp(along)
 
 
 def cut(args, grid):
@@ -171,10 +185,9 @@ def cut(args, grid):
     if not args.section:
         return grid
     normal, distance = plane_of(args)
-    towards, _ = directions(args)
     plane, clip = vtkPlane(), vtkTableBasedClipDataSet()
     plane.SetOrigin(*(normal * distance / (normal @ normal)))
-    plane.SetNormal(*(normal if normal @ towards <= 0 else -normal))
+    plane.SetNormal(*normal)
     clip.SetInputData(grid)
     clip.SetClipFunction(plane)
     clip.Update()
@@ -549,9 +562,14 @@ def write(scene, picture):
         renderer.ResetCameraClippingRange()
     hidden = False
     if best:
-        window.Render()
         value, place, unit = best
+        clear = [actor for actor in renderers[1].GetActors() if actor.GetProperty().GetOpacity() < 1]
+        for actor in clear:  # what is seen through hides nothing
+            actor.VisibilityOff()
+        window.Render()
         hidden = mark(renderers[1], place, value, unit)
+        for actor in clear:
+            actor.VisibilityOn()
     window.Render()
     image.SetInput(window)
     image.ReadFrontBufferOff()
@@ -617,15 +635,19 @@ def largest_place(args, run, cells, values, points):
     """The largest value of what is drawn, and where it is; None for a field of names"""
     if args.field == "body" or args.field.startswith("contact_status"):
         return None
-    numbers = cells if len(values) == len(run.cells) else nodes_of(run, cells)
-    numbers = numbers[np.isfinite(values[numbers])]
+    by_cell, left = len(values) == len(run.cells), not_cut_off(args, run)
+    numbers = cells if by_cell else nodes_of(run, cells)
+    shown = np.array([left[run.cells[cell]].any() for cell in cells]) if by_cell else left[numbers]
+    numbers = numbers[shown & np.isfinite(values[numbers])]
     if not len(numbers):
         return None
-    best = numbers[np.argmax(values[numbers])]
-    if len(values) != len(run.cells):
-        return values[best], points[best]
-    corners = points[run.cells[best]]
-    return values[best], corners[np.argmax(corners @ directions(args)[0])]  # the one next to the viewer
+    largest = values[numbers].max()
+    best = numbers[values[numbers] >= largest - TIE * abs(largest)]
+    if not by_cell:
+        return largest, points[best[np.argmin(run.vertices[best] @ ORDER)]]
+    corners = np.concatenate([run.cells[cell] for cell in best])
+    corners = points[corners[left[corners]]]
+    return largest, corners[np.argmax(corners @ directions(args)[0])]  # the one next to the viewer
 
 
 def number(value):

@@ -11,6 +11,7 @@ import importlib.util
 import io
 import json
 import os
+import re
 import shutil
 import sys
 import tempfile
@@ -346,20 +347,30 @@ def when(run, figure):
     return f", load step {figure['step']}" if len(run["steps"]) > 1 else ""
 
 
+def listed(run, quantity):
+    """The values of all owners of a quantity, in words"""
+    return "; ".join(f"{html.escape(figure['name'])}: {amount(figure)}{when(run, figure)}"
+                     for figure in run["figures"] if figure["quantity"] == quantity)
+
+
 def yields(run):
     """Whether the material yields, in words"""
     strain = largest(run, "eq. plastic strain")
     found = [figure for figure in run["figures"] if figure["quantity"] == "safety against yield"]
-    safety = min(found, key=lambda figure: figure["value"], default=None)
+    if not found:
+        return "Not known: no yield stress is given (key <code>yield</code> of a material)."
+    known = {figure["name"] for figure in found}
+    others = [figure["name"] for figure in run["figures"]
+              if figure["quantity"] == "von Mises stress" and figure["name"] not in known]
+    rest = f" No yield stress is given for {html.escape(', '.join(others))}." if others else ""
     if strain:
-        return f"Yes: {html.escape(strain['name'])}, largest equivalent plastic strain {text(strain['value'])}."
-    if not safety:
-        return "Not known: no material has the key <code>yield</code>."
+        return f"Yes: {html.escape(strain['name'])}, largest equivalent plastic strain {text(strain['value'])}.{rest}"
+    safety = min(found, key=lambda figure: figure["value"])
     name = html.escape(safety["name"])
     if safety["value"] < 1:
         times = text(1 / safety["value"])
-        return f"It would: the stress of {name} is {times} times its yield stress. Its law is elastic."
-    return f"No: the smallest safety factor is {text(safety['value'])} ({name})."
+        return f"It would: the stress of {name} is {times} times its yield stress. Its law is elastic.{rest}"
+    return f"No: the smallest safety factor is {text(safety['value'])} ({name}).{rest}"
 
 
 def answers(run, symmetric):
@@ -367,10 +378,10 @@ def answers(run, symmetric):
     stress, error = largest(run, "von Mises stress"), largest(run, "stress error, estimate")
     if not stress:
         return
-    areas = [figure for figure in run["figures"] if figure["quantity"] == "contact area"]
     tools = [figure for figure in run["figures"] if figure["quantity"] == "reaction"]
     tools = [figure for figure in tools if figure["name"].endswith(".*")] or tools
     force = max(tools, key=lambda figure: figure["value"], default=None)
+    normal, areas = listed(run, "normal force"), listed(run, "contact area")
     part = " (of the part that is modelled: there are symmetry planes)" * symmetric
     large = error["value"] if error else 0
     advice = " The stresses have no meaning." if large > 100 else " Refine the mesh." if large > 30 else ""
@@ -384,10 +395,8 @@ def answers(run, symmetric):
         ("yield", "Does the material yield?", yields(run)),
         ("force", "Which force does the tool or the support need?",
          f"{amount(force)} at {html.escape(force['name'].removesuffix('.*'))}{when(run, force)}{part}"
-         if force else "There is none."),
-        ("area", "How large is the contact area?",
-         "; ".join(f"{html.escape(figure['name'])}: {amount(figure)}{when(run, figure)}" for figure in areas) + part
-         if areas else "There is no contact."),
+         if force else "There is none." + f" Normal force of the contact: {normal}{part}" * bool(normal)),
+        ("area", "How large is the contact area?", areas + part if areas else "There is no contact."),
         ("accuracy", "How accurate is it?", mean or "Not estimated."),
     ]
     yield "<dl>\n" + "".join(f'<dt>{question}</dt><dd id="answer-{name}">{answer}</dd>\n'
@@ -551,7 +560,7 @@ def time_and_memory(run):
 def page(base, run, scene, command, versions):
     """The parts of the page in turn"""
     good = run["exit_code"] == 0
-    last = run["steps"][-1] if run["steps"] else None
+    last = next((step for step in reversed(run["steps"]) if step["bodies"]), None)  # others ended before any forces
     yield "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
     yield f"<title>{text(run['problem'])}</title>\n<style>{STYLE}</style>\n<script>{SLIDER}{TURN}</script>\n</head>\n"
     yield f"<body>\n<h1>{text(run['problem'])}</h1>\n"
@@ -566,17 +575,20 @@ def page(base, run, scene, command, versions):
     yield "<h2>Results</h2>\n"
     with open(scene, encoding="utf-8", errors="replace") as file:
         written = file.read()
-    yield from answers(run, "\nsymmetry:" in written)
+    yield from answers(run, re.search(r"^(symmetry|cyclic)\s*:", written, re.M) is not None)
     yield from results(run)
-    if last:
+    if any(step["converged"] for step in run["steps"]):
         yield "<h2>Pictures</h2>\n"
         yield from pictures(base, run)
+    if last:
         yield "<h2>History</h2>\n" + history(base)
-        yield f"<h2>Forces, load step {last['step']}</h2>\n"
+        number = f"load step {last['step']}" + ", which did not converge" * (not last["converged"])
+        yield f"<h2>Forces, {number}</h2>\n"
         yield f"<p>In the units of the scene{': ' + text(run['units']) if run['units'] else ''}.</p>\n"
         yield from forces(last)
-        yield f"<h2>Accuracy, load step {last['step']}</h2>\n"
+        yield f"<h2>Accuracy, {number}</h2>\n"
         yield from accuracy(run, last)
+    if run["steps"]:
         yield "<h2>Load steps</h2>\n"
         yield from steps(run)
     yield "<h2>Time and memory</h2>\n"

@@ -11,6 +11,7 @@ typedef struct {
 } FigureTable;
 
 static const char place_heading[] = "at", components_heading[] = "components";
+static const char stress_column[] = "von Mises stress", safety_column[] = "safety";
 
 static char *FigureTableCell(const FigureTable *table, PetscInt row, PetscInt column)
 {
@@ -71,6 +72,11 @@ static PetscErrorCode FigureTableAdd(FigureTable *table, const RunFigure *figure
     (void)snprintf(FigureTableCell(table, row, column + 2), CELL, "%" PetscInt_FMT, figure->step);
   }
   *ncolumns = PetscMax(*ncolumns, column + (steps ? 3 : 2));
+  if (strcmp(figure->column, stress_column)) PetscFunctionReturn(0);
+  /* The column is there for all bodies with stresses: "-" says that the material has no yield stress */
+  column = FigureTableFind(table, PETSC_TRUE, safety_column, *ncolumns);
+  (void)snprintf(FigureTableCell(table, 0, column), CELL, "%s", safety_column);
+  *ncolumns = PetscMax(*ncolumns, column + 1);
   PetscFunctionReturn(0);
 }
 
@@ -112,7 +118,7 @@ static PetscErrorCode FiguresViewTable(const RunReport *report, FigureOwner owne
   for (PetscInt f = 0; f < report->nfigures; ++f) {
     if (report->figures[f].owner != owner) continue;
     ++table.nrows;
-    table.ncolumns += 3;
+    table.ncolumns += 4;
   }
   if (table.nrows == 1) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(table.nrows * table.ncolumns, &table.cells));
@@ -126,29 +132,27 @@ static PetscErrorCode FiguresViewTable(const RunReport *report, FigureOwner owne
   PetscFunctionReturn(0);
 }
 
-/* Prints the reactions of the symmetry planes, a row a body */
+/* Prints the reactions of the symmetry planes in one line. The name of a body stands before those of its planes. */
 static PetscErrorCode FiguresViewPlanes(const RunReport *report, PetscViewer viewer)
 {
-  const RunFigure *figures = report->figures;
+  const RunFigure *before = NULL;
 
   PetscFunctionBegin;
   for (PetscInt f = 0; f < report->nfigures; ++f) {
-    const size_t n     = strcspn(figures[f].name, ".") + 1; /* the body's name and the point */
-    PetscInt     first = 0;
+    const RunFigure *figure = &report->figures[f];
+    const size_t     n      = strcspn(figure->name, ".") + 1; /* the body's name and the point */
+    char             value[32];
 
-    if (figures[f].owner != FIGURE_OF_PLANE) continue;
-    while (figures[first].owner != FIGURE_OF_PLANE || strncmp(figures[first].name, figures[f].name, n)) ++first;
-    if (first < f) continue;
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  symmetry reactions %.*s:", (int)n - 1, figures[f].name));
-    for (PetscInt g = f; g < report->nfigures; ++g) {
-      char value[32];
-
-      if (figures[g].owner != FIGURE_OF_PLANE || strncmp(figures[g].name, figures[f].name, n)) continue;
-      (void)snprintf(value, sizeof(value), "%.5g", (double)figures[g].value);
-      PetscCall(PetscViewerASCIIPrintf(viewer, "%s %s %s", g > f ? "," : "", figures[g].name + n, value));
-    }
-    PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s\n", figures[f].unit[0] ? " " : "", figures[f].unit));
+    if (figure->owner != FIGURE_OF_PLANE) continue;
+    if (!before) PetscCall(PetscViewerASCIIPrintf(viewer, "  symmetry reactions"));
+    if (!before || strncmp(before->name, figure->name, n))
+      PetscCall(PetscViewerASCIIPrintf(viewer, "%s %.*s:", before ? ";" : "", (int)n - 1, figure->name));
+    else PetscCall(PetscViewerASCIIPrintf(viewer, ","));
+    (void)snprintf(value, sizeof(value), "%.5g", (double)figure->value);
+    PetscCall(PetscViewerASCIIPrintf(viewer, " %s %s", figure->name + n, value));
+    before = figure;
   }
+  if (before) PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s\n", before->unit[0] ? " " : "", before->unit));
   PetscFunctionReturn(0);
 }
 

@@ -2,7 +2,7 @@
 # the faces of contact pairs, a status has one colour, and errors say what there is.
 unset DISPLAY
 cp "$AMGF_DIR/tests/lib/boxes.yaml" .
-"$AMGF_DIR/bin/contact" boxes.yaml -quiet -output boxes || echo "exit code $?"
+"$AMGF_DIR/bin/contact" boxes.yaml -quiet -output boxes -summary boxes.json || echo "exit code $?"
 draw() { "$PYTHON" -B "$AMGF_DIR/share/plot/draw.py" "$@"; }
 
 draw boxes bodies.png --field body

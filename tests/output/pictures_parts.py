@@ -1,4 +1,6 @@
 """Parts of the pictures of two boxes: one side of a pair, the mark, light, a section, and load steps with one view."""
+import json
+
 import draw
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -32,14 +34,20 @@ print("one side of the pair:", bool(off < 1e-5 and values.max() == pressure.max(
 print("no light on colours:", not any(actor.GetProperty().GetLighting() for actor in actors))
 _, _, (value, place, unit) = scene("--field nodal_von_mises")
 stress = run.field(step, "nodal_von_mises")
-best = np.argmax(stress)
-print("mark:", bool(value == stress.max() and np.allclose(place, (run.vertices + run.displacement(step))[best])), unit)
+with open("boxes.json", encoding="utf-8") as file:
+    figures = [figure for figure in json.load(file)["figures"] if figure["quantity"] == "von Mises stress"]
+named = max(figures, key=lambda figure: figure["value"])["place"]  # one of several with the same stress
+best = np.argmin(np.linalg.norm(run.vertices - named, axis=1) + (stress < (1 - 1e-6) * stress.max()) * 1e9)
+print("mark:", bool(value == stress.max() and np.allclose(run.vertices[best], named)
+                    and np.allclose(place, (run.vertices + run.displacement(step))[best])), unit)
 low, high = run.vertices.min(axis=0), run.vertices.max(axis=0)
 middle = (low + high) / 2
 for view, keep in (("20 -60", 1), ("20 60", -1)):
     points, _, _ = coloured(f"--field nodal_von_mises --scale 0 --view {view} --section y={middle[1]}")
     left = keep * (points[:, 1] - middle[1])
-    print(f"section, seen from {view}:", bool(left.min() > -1e-6 and left.max() > 0.4 * (high - low)[1]))
+    _, _, (_, place, _) = scene(f"--field nodal_von_mises --scale 0 --view {view} --section y={middle[1]}")
+    print(f"section, seen from {view}:",
+          bool(left.min() > -1e-6 and left.max() > 0.4 * (high - low)[1] and keep * (place[1] - middle[1]) > -1e-6))
 args = draw.arguments(["boxes", "no.png", "--field", "nodal_von_mises", "--scale", "auto"])
 frame = draw.one_frame(args, run, sorted(run.files))
 cameras = []

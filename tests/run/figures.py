@@ -244,6 +244,12 @@ def terminal(name, run):
     steps = sum(step["converged"] for step in run["steps"]) > 1
     missing = [figure for figure in run["figures"] if not said(figure, lines, steps)]
     say(name + ": the terminal has the figures of the summary", not missing, missing)
+    known = [figure["name"] for figure in run["figures"] if figure["quantity"] == "safety against yield"]
+    said_none = [
+        table(lines, "body")[figure["name"]]["safety"] == ("-", ) for figure in run["figures"]
+        if figure["quantity"] == "von Mises stress" and figure["name"] not in known
+    ]
+    say(name + ": no safety factor without a yield stress", all(said_none), lines)
     end = len(lines) - next(k for k, line in enumerate(lines) if line.startswith("Problem "))
     say(name + ": at most a dozen lines", end <= 12, lines[-end:])
 
