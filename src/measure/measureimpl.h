@@ -89,6 +89,9 @@ PETSC_INTERN PetscErrorCode PenetrationMeasure(Model, State, StepReport *);
 PETSC_INTERN PetscErrorCode PenetrationTest(Simulation, StepReport *);
 PETSC_INTERN PetscErrorCode PenetrationWarn(Simulation);
 
+/* displacement_warnings.c: prescribed displacements that are larger than the bodies that they press */
+PETSC_INTERN PetscErrorCode DisplacementWarn(Simulation, const StepReport *);
+
 /*
    pair_mesh.c, strain_warnings.c: warn of contact meshes that are too coarse, and of strains that are too large for
    laws of small strain

@@ -111,6 +111,28 @@ static PetscErrorCode DescribeFindChoices(Scene scene, DM dm, BodyChoice choices
   PetscFunctionReturn(0);
 }
 
+/* Prints a rigid surface. The mesh has one cell for it, whose place has no meaning. */
+static PetscErrorCode DescribeSurface(const SceneBody *body, PetscViewer viewer)
+{
+  const PetscReal *point = body->own + SURFACE_POINT, *axis = body->own + SURFACE_AXIS;
+  const char      *turned = body->shape == SHAPE_RIGID_PLANE ? "normal" : "axis";
+
+  PetscFunctionBegin;
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %s", body->name, BodyShapes[body->shape]));
+  if (body->shape != SHAPE_RIGID_STL) {
+    PetscCall(
+      PetscViewerASCIIPrintf(viewer, " at (%.6g, %.6g, %.6g)", (double)point[0], (double)point[1], (double)point[2]));
+    if (body->shape != SHAPE_RIGID_SPHERE)
+      PetscCall(PetscViewerASCIIPrintf(viewer, ", %s (%.6g, %.6g, %.6g)", turned, (double)axis[0], (double)axis[1],
+        (double)axis[2]));
+    if (body->own[SURFACE_RADIUS] > 0.0)
+      PetscCall(PetscViewerASCIIPrintf(viewer, ", radius %.6g", (double)body->own[SURFACE_RADIUS]));
+  }
+  PetscCall(PetscViewerASCIIPrintf(viewer, "\n    rigid\n"));
+  PetscCall(SceneDescribeVelocity(body, viewer));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode DescribeBodies(Scene scene, DM dm, const BodyChoice choices[], PetscViewer viewer)
 {
   BodyMesh *meshes;
@@ -124,6 +146,12 @@ static PetscErrorCode DescribeBodies(Scene scene, DM dm, const BodyChoice choice
     const SceneBody *body = &scene->bodies[b];
     const BodyMesh  *mesh = &meshes[b];
 
+    ncells += mesh->ncells;
+    nnodes += mesh->nnodes;
+    if (SceneBodyIsSurface(body)) {
+      PetscCall(DescribeSurface(body, viewer));
+      continue;
+    }
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %s, x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g\n", body->name,
       BodyShapes[body->shape], (double)mesh->lower[0], (double)mesh->upper[0], (double)mesh->lower[1],
       (double)mesh->upper[1], (double)mesh->lower[2], (double)mesh->upper[2]));
@@ -142,8 +170,6 @@ static PetscErrorCode DescribeBodies(Scene scene, DM dm, const BodyChoice choice
         mesh->nnodes, choices[b].order > 1 ? "nodes" : "vertices", 3 * mesh->nnodes));
     PetscCall(SceneDescribeVelocity(body, viewer));
     order = PetscMax(order, choices[b].order);
-    ncells += mesh->ncells;
-    nnodes += mesh->nnodes;
   }
   PetscCall(PetscViewerASCIIPrintf(viewer,
     "  total: %" PetscInt_FMT " cells, %" PetscInt_FMT " %s, %" PetscInt_FMT " unknowns\n", ncells, nnodes,
@@ -168,8 +194,11 @@ static PetscErrorCode DescribeMeasureFace(DM dm, const char face[], PetscInt *nf
   PetscFunctionReturn(0);
 }
 
-/* Prints a line per body with its faces, sorted by name. Faces are the labels of the DM whose names contain a dot. */
-static PetscErrorCode DescribeFaces(DM dm, PetscViewer viewer)
+/*
+   Prints a line per body with its faces, sorted by name. Faces are the labels of the DM whose names contain a dot.
+   Those of rigid surfaces are left out, since a formula stands for their facets.
+*/
+static PetscErrorCode DescribeFaces(Scene scene, DM dm, PetscViewer viewer)
 {
   PetscInt     nlabels, n   = 0, nfacets, *order;
   const char **faces, *body = "";
@@ -182,7 +211,7 @@ static PetscErrorCode DescribeFaces(DM dm, PetscViewer viewer)
   for (PetscInt l = 0; l < nlabels; ++l) {
     PetscCall(DMGetLabelName(dm, l, &faces[n]));
     order[n] = n;
-    if (strchr(faces[n], '.')) ++n;
+    if (strchr(faces[n], '.') && !SceneBodyIsSurface(SceneFaceBody(scene, faces[n]))) ++n;
   }
   PetscCall(PetscSortStrWithPermutation(n, faces, order));
   PetscCall(PetscViewerASCIIPrintf(viewer, "Faces, with area and number of facets"));
@@ -204,18 +233,22 @@ static PetscErrorCode DescribeFaces(DM dm, PetscViewer viewer)
 }
 
 /* Prints the mean facet areas of both sides of a pair. The nonmortar side should have the smaller facets. */
-static PetscErrorCode DescribeSides(DM dm, const SceneContactPair *pair, PetscViewer viewer)
+static PetscErrorCode DescribeSides(Scene scene, DM dm, const SceneContactPair *pair, PetscViewer viewer)
 {
-  PetscInt  n[2];
-  PetscReal area[2], size[2];
+  const PetscBool formula = SceneBodyIsSurface(SceneFaceBody(scene, pair->mortar));
+  PetscInt        n[2];
+  PetscReal       area[2], size[2];
 
   PetscFunctionBegin;
   PetscCall(DescribeMeasureFace(dm, pair->mortar, &n[0], &area[0]));
   PetscCall(DescribeMeasureFace(dm, pair->nonmortar, &n[1], &area[1]));
   for (PetscInt i = 0; i < 2; ++i) size[i] = n[i] ? area[i] / n[i] : 0.0;
-  PetscCall(PetscViewerASCIIPrintf(viewer,
-    "    facets of mean area %.3g on the mortar side, %.3g on the nonmortar side%s\n", (double)size[0], (double)size[1],
-    size[1] > 4.0 * size[0] ? ": the nonmortar side is the coarser one; swap the two sides" : ""));
+  if (formula)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "    facets of mean area %.3g on the nonmortar side\n", (double)size[1]));
+  else
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+      "    facets of mean area %.3g on the mortar side, %.3g on the nonmortar side%s\n", (double)size[0],
+      (double)size[1], size[1] > 4.0 * size[0] ? ": the nonmortar side is the coarser one; swap the two sides" : ""));
   PetscFunctionReturn(0);
 }
 
@@ -269,7 +302,7 @@ static PetscErrorCode DescribePairs(Scene scene, DM dm, PetscViewer viewer)
       else PetscCall(PetscViewerASCIIPrintf(viewer, "the faces meet during the run\n"));
     }
     PetscCall(DescribeLaw(scene, here, viewer));
-    if (!here->self) PetscCall(DescribeSides(dm, here, viewer));
+    if (!here->self) PetscCall(DescribeSides(scene, dm, here, viewer));
   }
   PetscFunctionReturn(0);
 }
@@ -517,7 +550,7 @@ PetscErrorCode SceneDescribe(Scene scene, DM dm, PetscViewer viewer)
   PetscCall(PetscMalloc1(scene->nbodies, &choices));
   PetscCall(DescribeFindChoices(scene, dm, choices));
   PetscCall(DescribeBodies(scene, dm, choices, viewer));
-  PetscCall(DescribeFaces(dm, viewer));
+  PetscCall(DescribeFaces(scene, dm, viewer));
   PetscCall(SceneDescribeLoads(scene, viewer));
   PetscCall(DescribePairs(scene, dm, viewer));
   PetscCall(DescribeTies(scene, viewer));

@@ -306,6 +306,7 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   PetscCall(SimulationGetState(sim, report, state));
   PetscCall(PetscTime(&t1));
   report->step_time = t1 - t0;
+  PetscCall(DisplacementWarn(sim, report));
   if (report->converged && step + 1 == sim->model->scene->nsteps) PetscCall(SimulationWarn(sim, report));
   PetscFunctionReturn(0);
 }

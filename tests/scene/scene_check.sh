@@ -60,3 +60,18 @@ for name in short free; do
   "$contact" $name.yaml -scene_check > out 2> one; echo "$name: exit $?, $(cat one)"
   "$contact" $name.yaml -quiet > out 2> two; echo "$name: exit $?, $(cmp -s one two && echo same || cat two)"
 done
+# A rigid tool is described by its surface, not by the cell that stands for it. A displacement that is larger than the
+# body that it presses is named where the run fails
+cat > tool.yaml <<'YAML'
+bodies:
+  - slab: {lower: [0, 0, 0], upper: [4, 4, 1], cells: [4, 4, 2], young: 1000, poisson: 0.3}
+  - roll: {shape: rigid_cylinder, center: [2, 2, 4], direction: [0, 1, 0], radius: 3}
+displacements:
+  - foot: {face: slab.zmin, value: [0, 0, 0]}
+  - down: {body: roll, value: [0, 0, -6]}
+contact:
+  - touch: {mortar: roll.surface, nonmortar: slab.zmax}
+YAML
+"$contact" tool.yaml -scene_check | grep -A1 -E '^  roll|friction$'
+"$contact" tool.yaml -quiet > out 2> err; echo "tool: exit $?"
+grep -o 'displacement .*' err

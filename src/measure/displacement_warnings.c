@@ -1,0 +1,85 @@
+/* Names prescribed displacements that no body can follow, after a load step that failed. */
+#include "measureimpl.h"
+#include <mesh.h>
+#include <vector3.h>
+
+/* Collective. Gets the undeformed height of a body along a direction, a unit vector */
+static PetscErrorCode DisplacementGetHeight(DM dm, PetscInt body, const PetscReal along[3], PetscReal *height)
+{
+  PetscReal    ends[2] = {PETSC_NINFINITY, PETSC_NINFINITY}; /* largest places along the direction, and against it */
+  PetscInt     start, end, owner, n, nodes[MESH_MAX_NODES], offset;
+  PetscSection section;
+  Vec          coordinates;
+  const PetscScalar *x;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalSection(dm, &section));
+  PetscCall(DMPlexGetHeightStratum(dm, 0, &start, &end));
+  PetscCall(MeshGetNodeCoordinates(dm, &coordinates));
+  PetscCall(VecGetArrayRead(coordinates, &x));
+  for (PetscInt c = start; c < end; ++c) {
+    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, c, &owner));
+    if (owner != body) continue;
+    PetscCall(MeshGetCellNodes(dm, c, &n, nodes));
+    for (PetscInt a = 0; a < n; ++a) {
+      PetscReal place = 0.0;
+
+      PetscCall(PetscSectionGetOffset(section, nodes[a], &offset));
+      for (PetscInt i = 0; i < 3; ++i) place += along[i] * PetscRealPart(x[offset + i]);
+      ends[0] = PetscMax(ends[0], place);
+      ends[1] = PetscMax(ends[1], -place);
+    }
+  }
+  PetscCall(VecRestoreArrayRead(coordinates, &x));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, ends, 2, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)dm)));
+  *height = ends[0] + ends[1];
+  PetscFunctionReturn(0);
+}
+
+/* Warns of a displacement that is larger than the height of an elastic body on which the displaced one presses */
+static PetscErrorCode DisplacementTest(const Measured *at, const SceneDisplacement *here, const SceneBody *moved,
+  const SceneBody *pressed, PetscReal time)
+{
+  PetscReal along[3], motion, factor, height = 0.0;
+
+  PetscFunctionBegin;
+  if (pressed == moved || pressed->material.type == MATERIAL_RIGID) PetscFunctionReturn(0);
+  for (PetscInt i = 0; i < 3; ++i) along[i] = here->fixed[i] ? here->value[i] : 0.0;
+  motion = VectorNorm(along);
+  if (here->inclined || motion == 0.0) PetscFunctionReturn(0);
+  for (PetscInt i = 0; i < 3; ++i) along[i] /= motion;
+  PetscCall(SceneGetFactor(at->scene, here->ramp, time, &factor));
+  PetscCall(DisplacementGetHeight(at->dm, (PetscInt)(pressed - at->scene->bodies), along, &height));
+  motion *= PetscAbsReal(factor);
+  if (motion > height)
+    PetscCall(ReportWarn(at->comm, at->report, here->place,
+      "displacement \"%s\" moves body \"%s\" by %.3g, %.2g times the height of body \"%s\", on which it presses: is it "
+      "meant?",
+      here->name, moved->name, (double)motion, (double)(motion / height), pressed->name));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Warns of displacements that are larger than the bodies that they press, if the load step has failed */
+PetscErrorCode DisplacementWarn(Simulation sim, const StepReport *report)
+{
+  const Measured at    = SimulationMeasured(sim);
+  Scene          scene = at.scene;
+
+  PetscFunctionBegin;
+  if (report->converged) PetscFunctionReturn(0);
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
+    const SceneDisplacement *here = &scene->displacements[d];
+    const SceneBody         *moved =
+      here->at == DISPLACEMENT_FACE ? SceneFaceBody(scene, here->face) : &scene->bodies[here->body];
+
+    for (PetscInt p = 0; p < scene->npairs; ++p) {
+      const SceneBody *sides[2] = {SceneFaceBody(scene, scene->pairs[p].mortar),
+        SceneFaceBody(scene, scene->pairs[p].nonmortar)};
+
+      for (PetscInt s = 0; s < 2; ++s) {
+        if (sides[s] == moved) PetscCall(DisplacementTest(&at, here, moved, sides[1 - s], (PetscReal)report->step));
+      }
+    }
+  }
+  PetscFunctionReturn(0);
+}
