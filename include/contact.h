@@ -14,10 +14,8 @@ typedef struct {
   Vec g;     /* gap at u_ref, divided by the lumped mass [length] */
   Vec doubt; /* uncertainty of the gap between smooth surfaces: they may be as much higher than the true ones
                 [length] */
-  Mat J;     /* m x n AIJ, derivative of the gap, dimensionless; columns are the DM's global rows */
-  /* derivative of the gap that includes the rotation of the normals; J is the derivative for patches of smooth pairs
-     that keep their shape. NULL if no pair is smooth, or if it was not requested */
-  Mat       derivative;
+  Mat J; /* m x n AIJ, derivative of the gap, dimensionless; columns are the DM's global rows. Patches of smooth pairs
+                keep their shape */
   PetscBool gaps_only; /* whether derivatives of smooth pairs are left out, so that J is the derivative for their
                           facets */
   Mat       cover;     /* like J, but for the facets instead of smooth surfaces or order 2; used to distribute areas to
@@ -56,9 +54,9 @@ PETSC_EXTERN PetscErrorCode ContactSetReach(Contact, PetscReal distance, PetscRe
 typedef enum { CONTACT_DUAL_NONE, CONTACT_DUAL_AUTO, CONTACT_DUAL_ALL } ContactDualPairs;
 PETSC_EXTERN PetscErrorCode ContactSetDual(Contact, ContactDualPairs, PetscBool *changed);
 PETSC_EXTERN PetscErrorCode ContactGetDual(Contact, ContactDualPairs *);
-/* What ContactLinearize() computes for smooth pairs: only the gap; also J and lin->cover; also lin->derivative. For
-   other pairs everything is always computed. */
-typedef enum { CONTACT_GAPS, CONTACT_FORCES, CONTACT_DERIVATIVE } ContactParts;
+/* What ContactLinearize() computes for smooth pairs: only the gap, or also J and lin->cover. For other pairs everything
+   is always computed. */
+typedef enum { CONTACT_GAPS, CONTACT_FORCES } ContactParts;
 /* Collective. Searches, clips and integrates at the global displacement u */
 PETSC_EXTERN PetscErrorCode ContactLinearize(Contact, Vec u, ContactParts, ContactLinearization *);
 /* Collective. Computes by how much the nonmortar faces have grown at u since a linearization, around each row's vertex.

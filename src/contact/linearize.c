@@ -57,8 +57,7 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
 + contact - the contact
 . u       - global displacement vector, 3 components per vertex [length]
 - parts   - what is computed: CONTACT_GAPS, the gap and its rows, without the derivatives that only a solve needs; J of
-            smooth pairs is the derivative for their facets. CONTACT_FORCES: all but lin->derivative, which is NULL.
-            CONTACT_DERIVATIVE: all
+            smooth pairs is the derivative for their facets. CONTACT_FORCES: all
 
   Output Parameter:
 . lin - the linearized gap; it may have no rows
@@ -96,11 +95,9 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
   through the deformed vertices whose edges follow the mean normals of the facets around the vertices. Where a face ends
   on a plane on which it is held (`ContactSetDisplacements()`), its smooth surface is continued by the mirror image. The
   mortar gap is then measured along the normal of each nonmortar facet, and the gap of a vertex along the normal of the
-  mortar surface. lin->derivative is the exact derivative of the gap, including the rotation of the normals; it depends
-  on nodes up to two facets away. J is the derivative of the mean gap of a row times its present covered area, for
-  patches that keep their shape and rotate with their facets. The forces of J are distributed like those of facets, and
-  no force reduces a gap by reducing the covered area. The forces on both bodies, and their moments, balance up to
-  rounding. lin->derivative serves to predict the gap.
+  mortar surface. J is the derivative of the mean gap of a row times its present covered area, for patches that keep
+  their shape and rotate with their facets. The forces of J are distributed like those of facets, and no force reduces
+  a gap by reducing the covered area. The forces on both bodies, and their moments, balance up to rounding.
 
   If the same prescribed displacement holds both faces at a vertex, and the cells beside it do not match, it has no row.
   The integrals of its row are added to those of its free neighbours.
@@ -206,7 +203,6 @@ PetscErrorCode ContactLinearizationDestroy(ContactLinearization *lin)
   PetscCall(VecDestroy(&(*lin)->doubt));
   PetscCall(VecDestroy(&(*lin)->mass));
   PetscCall(MatDestroy(&(*lin)->J));
-  PetscCall(MatDestroy(&(*lin)->derivative));
   PetscCall(MatDestroy(&(*lin)->cover));
   PetscCall(MatDestroy(&(*lin)->slip));
   PetscCall(MatDestroy(&(*lin)->mortar));

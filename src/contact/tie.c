@@ -181,7 +181,7 @@ static PetscErrorCode TieSetTrace(DM dm, const ContactSurface *mortar, const Con
 
   PetscFunctionBegin;
   PetscCall(ContactTraceCreate(dm, 1, &mortar, CONTACT_TRACE_FORWARD, 1, &correction));
-  if (correction) PetscCall(ContactTraceDifferentiate(correction, NULL, rows));
+  if (correction) PetscCall(ContactTraceDifferentiate(correction, rows));
   PetscCall(MatDestroy(&correction));
   PetscCall(ContactTraceCreate(dm, 1, &nonmortar, CONTACT_TRACE_INVERSE, 1, &correction));
   if (correction) PetscCall(ContactTraceRecover(correction, rows));

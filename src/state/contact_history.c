@@ -152,24 +152,6 @@ PetscErrorCode ContactHistoryChange(const ContactHistory *m, ContactLinearizatio
 }
 
 /*
-   Sets closed[r] = 1 in the rows r of lin whose vertices were under pressure in the last solve, and 0 in the other
-   rows.
-*/
-PetscErrorCode ContactHistoryFindClosed(const ContactHistory *m, ContactLinearization lin, Vec closed)
-{
-  PetscScalar *c;
-  PetscReal    largest;
-
-  PetscFunctionBegin;
-  PetscCall(ContactHistoryLargest(m, PetscObjectComm((PetscObject)closed), &largest));
-  PetscCall(VecGetArrayWrite(closed, &c));
-  for (PetscInt i = 0; i < lin->nlocal; ++i)
-    c[i] = ContactHistoryPressure(m, ContactHistoryIndex(m, lin, i)) > negligible_pressure * largest ? 1.0 : 0.0;
-  PetscCall(VecRestoreArrayWrite(closed, &c));
-  PetscFunctionReturn(0);
-}
-
-/*
    Relates the rows of the last solve to the rows of a new linearization. (*row)[r]: row of lin that belongs to the
    vertex of row r of `solved`; PETSC_DECIDE if row r was not under pressure or lin has no row at this vertex. The
    caller frees *row.

@@ -42,7 +42,6 @@ PETSC_INTERN PetscErrorCode ContactHistoryRecall(const ContactHistory *, Contact
 PETSC_INTERN PetscErrorCode ContactHistoryChange(const ContactHistory *, ContactLinearization, PetscReal *change);
 PETSC_INTERN PetscErrorCode ContactHistoryFollowRows(const ContactHistory *, ContactLinearization solved,
   ContactLinearization, PetscInt                                                                **row);
-PETSC_INTERN PetscErrorCode ContactHistoryFindClosed(const ContactHistory *, ContactLinearization, Vec closed);
 PETSC_INTERN PetscErrorCode ContactHistoryFindLostRows(const ContactHistory *, ContactLinearization, PetscBool **lost,
   PetscInt *nlost);
 PETSC_INTERN PetscErrorCode ContactHistoryLeastGap(const ContactHistory *, const PetscBool lost[], ContactLinearization,

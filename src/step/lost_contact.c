@@ -245,7 +245,7 @@ PetscErrorCode LostContactSettle(const StepProblem *p, ContactLinearization last
     PetscCall(LostContactMove(p->model, p->state, w, u, sol));
     PetscCall(LostContactReport(p->model, p->state, &p->sim->report, last, w, u, report));
     PetscCall(ContactLinearizationDestroy(at_u));
-    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, PETSC_FALSE, at_u));
+    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, at_u));
   }
   PetscCall(VecDestroy(&unheld));
   PetscCall(VecDestroy(&w));

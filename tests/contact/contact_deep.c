@@ -36,7 +36,7 @@ static PetscErrorCode Try(const char what[], PetscReal thickness, PetscReal heig
   PetscCall(VecSet(u, 0.0));
   PetscCall(ContactCreate(dm, 1, &pair, &contact));
   PetscCall(ContactSetFromOptions(contact));
-  PetscCall(ContactLinearize(contact, u, CONTACT_DERIVATIVE, &lin));
+  PetscCall(ContactLinearize(contact, u, CONTACT_FORCES, &lin));
   PetscCall(VecGetSize(lin->g, &nrows));
   PetscCall(AttemptBegin());
   ierr = ContactCheckDepth(contact);

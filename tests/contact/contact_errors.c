@@ -26,7 +26,7 @@ static PetscErrorCode Attempt(DM dm, PetscInt npairs, const SceneContactPair pai
   PetscCall(AttemptBegin());
   ierr = ContactCreate(dm, npairs, pairs, &contact);
   if (!ierr) ierr = ContactSetFromOptions(contact);
-  if (!ierr) ierr = ContactLinearize(contact, u, CONTACT_DERIVATIVE, &lin);
+  if (!ierr) ierr = ContactLinearize(contact, u, CONTACT_FORCES, &lin);
   PetscCall(AttemptEnd());
   PetscCall(AttemptPrint(ierr));
   if (contact) PetscCall(ContactDestroy(&contact));

@@ -91,7 +91,7 @@ static PetscErrorCode TestPlanes(DM dm, PetscReal length, PetscReal gap, const c
   PetscCall(DMCreateGlobalVector(dm, &u));
   PetscCall(VecDuplicate(u, &v));
   PetscCall(SetField(dm, RigidField, &rigid, u));
-  PetscCall(ContactLinearize(contact, u, CONTACT_DERIVATIVE, &lin));
+  PetscCall(ContactLinearize(contact, u, CONTACT_FORCES, &lin));
   PetscCall(MatGetSize(lin->J, &m, NULL));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " rows\n", what, m));
   PetscCall(Deviation(lin, lin->g, -1, rigid.gap, &error));
@@ -136,7 +136,7 @@ static PetscErrorCode CountRows(DM dm, char mortar[], char nonmortar[])
   PetscCall(DMCreateGlobalVector(dm, &u));
   PetscCall(ContactCreate(dm, 1, &pair, &contact));
   PetscCall(ContactSetFromOptions(contact));
-  PetscCall(ContactLinearize(contact, u, CONTACT_DERIVATIVE, &lin));
+  PetscCall(ContactLinearize(contact, u, CONTACT_FORCES, &lin));
   PetscCall(MatGetSize(lin->J, &m, NULL));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "mortar %s, nonmortar %s: %" PetscInt_FMT " rows\n", mortar, nonmortar, m));
   PetscCall(ContactLinearizationDestroy(&lin));
@@ -182,7 +182,7 @@ static PetscErrorCode TestDerivative(DM dm)
   PetscCall(ContactSetFromOptions(contact));
   PetscCall(DMCreateGlobalVector(dm, &u));
   PetscCall(VecDuplicate(u, &v));
-  PetscCall(ContactLinearize(contact, u, CONTACT_DERIVATIVE, &lin));
+  PetscCall(ContactLinearize(contact, u, CONTACT_FORCES, &lin));
   PetscCall(ContactGetReach(contact, &distance, &depth));
   PetscCall(
     PetscPrintf(PETSC_COMM_WORLD, "least search distance %g, largest depth %g\n", (double)distance, (double)depth));
@@ -194,7 +194,7 @@ static PetscErrorCode TestDerivative(DM dm)
   for (PetscInt side = 0; side < 2; ++side) {
     PetscCall(VecCopy(v, u));
     PetscCall(VecScale(u, side ? -eps : eps));
-    PetscCall(ContactLinearize(contact, u, CONTACT_DERIVATIVE, &moved));
+    PetscCall(ContactLinearize(contact, u, CONTACT_FORCES, &moved));
     PetscCall(VecAXPY(difference, (side ? -0.5 : 0.5) / eps, moved->g));
     PetscCall(ContactLinearizationDestroy(&moved));
   }
@@ -268,7 +268,7 @@ static PetscErrorCode TestForces(DM dm, PetscBool moments)
   PetscCall(VecDuplicate(u, &v));
   PetscCall(VecDuplicate(u, &f));
   PetscCall(SetField(dm, RigidField, &rigid, u));
-  PetscCall(ContactLinearize(contact, u, CONTACT_DERIVATIVE, &lin));
+  PetscCall(ContactLinearize(contact, u, CONTACT_FORCES, &lin));
   PetscCall(VecDuplicate(lin->g, &p));
   PetscCall(DMGetCoordinatesLocal(dm, &coordinates));
   PetscCall(DMGetCoordinateSection(dm, &section));
@@ -338,7 +338,7 @@ static PetscErrorCode Sums(MPI_Comm comm, PetscInt cells, PetscReal amplitude, P
   PetscCall(VecDuplicate(u, &Jtg));
   PetscCall(SetField(dm, WavyField, &amplitude, u));
   PetscCall(SetField(dm, WavyField, &one, v));
-  PetscCall(ContactLinearize(contact, u, CONTACT_DERIVATIVE, &lin));
+  PetscCall(ContactLinearize(contact, u, CONTACT_FORCES, &lin));
   PetscCall(VecDuplicate(lin->g, &Jv));
   PetscCall(MatMult(lin->J, v, Jv));
   PetscCall(MatMultTranspose(lin->J, lin->g, Jtg));
@@ -377,7 +377,7 @@ static PetscErrorCode CheckIdleRanks(DM dm)
   PetscCall(ContactCreate(dm, 2, pairs, &contact));
   PetscCall(ContactSetFromOptions(contact));
   PetscCall(DMCreateGlobalVector(dm, &u));
-  PetscCall(ContactLinearize(contact, u, CONTACT_DERIVATIVE, &lin));
+  PetscCall(ContactLinearize(contact, u, CONTACT_FORCES, &lin));
   PetscCallMPI(MPI_Allreduce(&lin->nlocal, &fewest, 1, MPIU_INT, MPI_MIN, PETSC_COMM_WORLD));
   PetscCheck(fewest == 0, PETSC_COMM_WORLD, PETSC_ERR_PLIB, "Every rank owns a contact row, at least %" PetscInt_FMT,
     fewest);
@@ -399,7 +399,7 @@ static PetscErrorCode TestNoPairs(DM dm)
   PetscCall(ContactCreate(dm, 0, NULL, &contact));
   PetscCall(DMCreateGlobalVector(dm, &u));
   PetscCall(VecGetSize(u, &N));
-  PetscCall(ContactLinearize(contact, u, CONTACT_DERIVATIVE, &lin));
+  PetscCall(ContactLinearize(contact, u, CONTACT_FORCES, &lin));
   PetscCall(MatGetSize(lin->J, &m, &n));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "no pairs: %" PetscInt_FMT " rows, %s\n", m,
     n == N ? "a column an unknown" : "wrong number of columns"));

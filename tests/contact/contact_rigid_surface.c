@@ -86,7 +86,7 @@ static PetscErrorCode TestSurface(SceneBody bodies[2], const char what[])
     }
     PetscCall(DMCreateGlobalVector(dm, &u[k]));
     PetscCall(SetMotion(dm, &moved, u[k]));
-    PetscCall(ContactLinearize(contact, u[k], CONTACT_DERIVATIVE, &lin[k]));
+    PetscCall(ContactLinearize(contact, u[k], CONTACT_FORCES, &lin[k]));
   }
   PetscCall(MatGetSize(lin[1]->J, &m, NULL));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " rows\n", what, m));

@@ -53,8 +53,8 @@ int main(int argc, char **argv)
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   for (PetscInt kind = 0; kind < 2; ++kind) {
     const PetscBool scattered = (PetscBool)kind;
-    PetscReal       found[2] = {0.0, 0.0}, growth;
-    PetscLogDouble  count[2] = {0.0, 0.0};
+    PetscReal       found[2]  = {0.0, 0.0}, growth;
+    PetscLogDouble  count[2]  = {0.0, 0.0};
 
     PetscCall(Count(24, scattered, &count[0], &found[0]));
     PetscCall(Count(192, scattered, &count[1], &found[1]));

@@ -1,5 +1,5 @@
 static char help[] = "Derivatives of gap and cover over an overlap against central differences, where mesh lines cross "
-                     "and where they pass through vertices.\n";
+                     "and where they pass through vertices, and for curved patches that move as rigid bodies.\n";
 
 #include "src/contact/contactimpl.h"
 #include "contact_report.h"
@@ -8,10 +8,10 @@ static ContactRule rule;
 
 static const ContactOverlapLimits limits = {-0.174, 1e-12, 1e30, 1e30};
 
-/* Both facets' vertices, the nonmortar one's first, and the derivatives of the sums over their overlap by all of them
- */
+/* Both facets' vertices and normals, the nonmortar one's first, and the derivatives of the sums over their overlap by
+   all vertices. Patches without normals are flat. */
 typedef struct {
-  PetscReal x[2][12];
+  PetscReal x[2][12], normal[2][12];
 } Facets;
 typedef struct {
   PetscReal gap[4], cover[4], by_gap[4][24], by_cover[4][24];
@@ -19,18 +19,16 @@ typedef struct {
 
 static PetscBool SumsFind(const Facets *f, Sums *sums)
 {
-  static const PetscReal straight[12] = {0}; /* normals that are missing */
-  ContactOverlap         o;
-  ContactPatch           patch[2];
-  ContactSlopes          nonmortar = {.x = {{0}}}, mortar;
+  ContactOverlap o;
+  ContactPatch   patch[2];
+  ContactSlopes  nonmortar = {.rigid = {{0}}}, mortar;
 
   if (!ContactOverlapFind(f->x[0], f->x[1], &limits, &rule, &o)) return PETSC_FALSE;
-  for (PetscInt side = 0; side < 2; ++side) ContactPatchCreate(f->x[side], straight, &patch[side]);
-  ContactOverlapSlopes(&o, &rule, f->x[0], f->x[1], &patch[0], &patch[1], sums->gap, sums->cover, PETSC_TRUE,
-    &nonmortar, &mortar);
+  for (PetscInt side = 0; side < 2; ++side) ContactPatchCreate(f->x[side], f->normal[side], &patch[side]);
+  ContactOverlapSlopes(&o, &rule, f->x[0], f->x[1], &patch[0], &patch[1], sums->gap, sums->cover, &nonmortar, &mortar);
   for (PetscInt a = 0; a < 4; ++a) {
     for (PetscInt i = 0; i < 24; ++i) {
-      sums->by_gap[a][i]   = i < 12 ? nonmortar.x[a][i] : mortar.x[a][i - 12];
+      sums->by_gap[a][i]   = i < 12 ? nonmortar.rigid[a][i] : mortar.rigid[a][i - 12];
       sums->by_cover[a][i] = i < 12 ? nonmortar.cover[a][i] : mortar.cover[a][i - 12];
     }
   }
@@ -41,7 +39,7 @@ static PetscBool SumsFind(const Facets *f, Sums *sums)
 static Facets FacetsOver(const PetscReal q[4][2], PetscInt first, PetscReal slope)
 {
   static const PetscReal square[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  Facets                 f;
+  Facets                 f            = {.x = {{0}}};
 
   for (PetscInt a = 0; a < 4; ++a) {
     const PetscReal *p = square[(a + first) % 4], *r = q[3 - a];
@@ -82,6 +80,69 @@ static PetscErrorCode TestDifferences(const char name[], const PetscReal q[4][2]
   PetscFunctionReturn(0);
 }
 
+/* Moves the facet of one side along an axis (motion 0 to 2), or turns it with its normals about one (3 to 5), by
+   `size` [length or rad] */
+static void Move(Facets *f, PetscInt side, PetscInt motion, PetscReal size)
+{
+  const PetscInt  d = (motion + 1) % 3, e = (motion + 2) % 3;
+  const PetscReal c = PetscCosReal(size), s = PetscSinReal(size);
+
+  for (PetscInt a = 0; a < 4; ++a) {
+    PetscReal *turned[2] = {&f->x[side][3 * a], &f->normal[side][3 * a]};
+
+    if (motion < 3) turned[0][motion] += size;
+    for (PetscInt k = 0; motion >= 3 && k < 2; ++k) {
+      const PetscReal p = turned[k][d], q = turned[k][e];
+
+      turned[k][d] = c * p - s * q;
+      turned[k][e] = s * p + c * q;
+    }
+  }
+}
+
+/* Curved patches, each of which is moved as a rigid body: the derivative for patches that keep their shape is exact */
+static PetscErrorCode TestRigidMotions(const PetscReal q[4][2])
+{
+  const PetscReal step  = 1e-5;
+  PetscReal       error = 0.0;
+  Facets          f     = FacetsOver(q, 1, 0.3);
+  Sums            at, beside[2];
+
+  PetscFunctionBeginUser;
+  for (PetscInt i = 0; i < 24; i += 3) {
+    const PetscReal *x = &f.x[i / 12][i % 12], up = i < 12 ? 1.0 : -1.0,
+                    tilt[2] = {0.2 * x[0] - 0.1, 0.3 * x[1] + 0.05},
+                    size    = PetscSqrtReal(1.0 + tilt[0] * tilt[0] + tilt[1] * tilt[1]);
+    PetscReal *n            = &f.normal[i / 12][i % 12];
+
+    n[0] = tilt[0] / size;
+    n[1] = tilt[1] / size;
+    n[2] = up / size;
+  }
+  if (!SumsFind(&f, &at)) error = PETSC_MAX_REAL;
+  for (PetscInt m = 0; m < 12; ++m) {
+    Facets rate;
+
+    for (PetscInt k = 0; k < 2; ++k) {
+      Facets moved = f;
+
+      Move(&moved, m / 6, m % 6, k ? step : -step);
+      if (!SumsFind(&moved, &beside[k])) error = PETSC_MAX_REAL;
+      for (PetscInt i = 0; i < 24; ++i)
+        rate.x[i / 12][i % 12] =
+          k ? (moved.x[i / 12][i % 12] - rate.x[i / 12][i % 12]) / (2.0 * step) : moved.x[i / 12][i % 12];
+    }
+    for (PetscInt a = 0; a < 4; ++a) {
+      PetscReal change = 0.0;
+
+      for (PetscInt i = 0; i < 24; ++i) change += at.by_gap[a][i] * rate.x[i / 12][i % 12];
+      error = PetscMax(error, PetscAbsReal(change - (beside[1].gap[a] - beside[0].gap[a]) / (2.0 * step)));
+    }
+  }
+  PetscCall(Report("curved patches that move as rigid bodies", error, 1e-6));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   static const struct {
@@ -99,6 +160,7 @@ int main(int argc, char **argv)
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(ContactRuleCreate(4, &rule));
   for (size_t c = 0; c < PETSC_STATIC_ARRAY_LENGTH(cases); ++c) PetscCall(TestDifferences(cases[c].name, cases[c].q));
+  PetscCall(TestRigidMotions(cases[0].q));
   PetscCall(PetscFinalize());
   return 0;
 }

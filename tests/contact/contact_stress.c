@@ -227,7 +227,7 @@ static PetscErrorCode Solve(const Patch *patch, const SceneContactPair *pair, co
   PetscCall(ElasticityTangent(e, u, K));
   PetscCall(ContactCreate(dm, 1, pair, &contact));
   PetscCall(ContactSetFromOptions(contact));
-  PetscCall(ContactLinearize(contact, u, CONTACT_DERIVATIVE, &lin));
+  PetscCall(ContactLinearize(contact, u, CONTACT_FORCES, &lin));
   PetscCall(VecDuplicate(u, &f));
   PetscCall(SetField(dm, ExactField, patch, f));
   PetscCall(VecDuplicate(lin->g, &c));

@@ -30,7 +30,7 @@ static PetscErrorCode LinearizeAt(DM dm, PetscInt npairs, const SceneContactPair
   PetscCall(SetField(dm, field, ctx, u));
   PetscCall(ContactCreate(dm, npairs, pairs, &contact));
   PetscCall(ContactSetFromOptions(contact));
-  PetscCall(ContactLinearize(contact, u, CONTACT_DERIVATIVE, lin));
+  PetscCall(ContactLinearize(contact, u, CONTACT_FORCES, lin));
   PetscCall(ContactDestroy(&contact));
   PetscCall(VecDestroy(&u));
   PetscFunctionReturn(0);

@@ -1,6 +1,6 @@
-# A nearly incompressible rod is twisted by 45 degrees a load step. Newton's steps change volumes in the second order; the
-# false pressures of that must not enter the tangent, with which it would take twice as many steps. The energy is that
-# of short load steps
+# A nearly incompressible rod is twisted by 45 degrees a load step. Newton's steps change volumes in the second order;
+# the false pressures of that must not enter the tangent, with which it would take twice as many steps. The energy is
+# that of short load steps
 contact=$AMGF_DIR/bin/contact
 cat > rod.yaml <<'YAML'
 bodies:

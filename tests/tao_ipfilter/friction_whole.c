@@ -93,7 +93,7 @@ static PetscErrorCode AssembleContact(DM dm, Vec bent, IS held, Blocks *b)
 
   PetscFunctionBeginUser;
   PetscCall(ContactCreate(dm, 1, &pair, &contact));
-  PetscCall(ContactLinearize(contact, bent, CONTACT_DERIVATIVE, &lin));
+  PetscCall(ContactLinearize(contact, bent, CONTACT_FORCES, &lin));
   PetscCall(VecDuplicate(bent, &mask));
   PetscCall(VecSet(mask, 1.0));
   PetscCall(VecISSet(mask, held, 0.0));

@@ -11,7 +11,7 @@ static void AssemblyStart(Contact contact, ContactParts parts, ContactAssembly *
 {
   as->parts       = parts;
   as->dim         = contact->normals == CONTACT_NORMALS_NODAL ? 1 : 3;
-  as->rigid.width = as->by_cover.width = as->by_node.width = as->by_normal.width = 3;
+  as->rigid.width = as->by_cover.width = 3;
   for (PetscInt c = 0; c < as->dim; ++c) as->coupling[c].width = 1;
 }
 
@@ -22,7 +22,7 @@ PetscErrorCode ContactAssemblyCreate(Contact contact, ContactParts parts, Contac
   AssemblyStart(contact, parts, as);
   if (contact->self) {
     PetscCall(PetscNew(&as->mortar));
-    AssemblyStart(contact, PetscMin(parts, CONTACT_FORCES), as->mortar);
+    AssemblyStart(contact, parts, as->mortar);
   }
   PetscCall(VecDuplicate(contact->rows.mass, &as->gap));
   PetscCall(VecZeroEntries(as->gap));
@@ -51,17 +51,14 @@ PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, PetscInt n,
 }
 
 /* Adds the derivatives of the weighted gaps of one facet's four rows with respect to the coordinates of the facet's
-   vertices and to the normals there (smooth pairs) */
+   vertices (smooth pairs) */
 PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *as, const PetscInt row[4], const PetscInt node[4],
-  const PetscInt normal_id[4], const ContactSlopes *slopes)
+  const ContactSlopes *slopes)
 {
   PetscFunctionBegin;
   for (PetscInt a = 0; a < 4; ++a) {
     PetscCall(ContactEntriesAdd(&as->rigid, row[a], 4, node, slopes->rigid[a]));
     PetscCall(ContactEntriesAdd(&as->by_cover, row[a], 4, node, slopes->cover[a]));
-    if (as->parts != CONTACT_DERIVATIVE) continue;
-    PetscCall(ContactEntriesAdd(&as->by_node, row[a], 4, node, slopes->x[a]));
-    PetscCall(ContactEntriesAdd(&as->by_normal, row[a], 4, normal_id, slopes->normal[a]));
   }
   PetscFunctionReturn(0);
 }
@@ -73,8 +70,6 @@ PetscErrorCode ContactAssemblyDestroy(ContactAssembly *as)
   PetscCall(PetscFree(as->mortar));
   PetscCall(ContactEntriesDestroy(&as->rigid));
   PetscCall(ContactEntriesDestroy(&as->by_cover));
-  PetscCall(ContactEntriesDestroy(&as->by_node));
-  PetscCall(ContactEntriesDestroy(&as->by_normal));
   for (PetscInt c = 0; c < as->dim; ++c) PetscCall(ContactEntriesDestroy(&as->coupling[c]));
   PetscCall(VecDestroy(&as->cover));
   PetscCall(VecDestroy(&as->doubt));
@@ -268,29 +263,14 @@ static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Cont
 static PetscErrorCode SlopesCreateRigid(Contact contact, ContactAssembly *as, ContactAssembly *part, Mat *rigid)
 {
   PetscInt n;
+  Vec      u;
 
   PetscFunctionBegin;
-  PetscCall(MatGetLocalSize(contact->smooth.slopes, NULL, &n));
+  PetscCall(DMGetGlobalVector(contact->dm, &u));
+  PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(DMRestoreGlobalVector(contact->dm, &u));
   PetscCall(SlopesCreateMatrix(contact, n, &part->rigid, rigid));
   PetscCall(SlopesHoldCover(contact, as, &part->by_cover, *rigid));
-  PetscFunctionReturn(0);
-}
-
-/* Collective. Computes the same derivatives as SlopesCreateRigid(), but with patches that bend with the normals */
-static PetscErrorCode SlopesCreateBending(Contact contact, ContactAssembly *as, Mat *bending)
-{
-  PetscInt n;
-  Mat      by_normals, through;
-
-  PetscFunctionBegin;
-  PetscCall(ContactSmoothNormalsUpdate(contact));
-  PetscCall(MatGetLocalSize(contact->smooth.slopes, NULL, &n));
-  PetscCall(SlopesCreateMatrix(contact, n, &as->by_node, bending));
-  PetscCall(SlopesCreateMatrix(contact, 3 * contact->smooth.nlocal, &as->by_normal, &by_normals));
-  PetscCall(MatMatMult(by_normals, contact->smooth.slopes, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &through));
-  PetscCall(MatAXPY(*bending, 1.0, through, DIFFERENT_NONZERO_PATTERN));
-  PetscCall(MatDestroy(&through));
-  PetscCall(MatDestroy(&by_normals));
   PetscFunctionReturn(0);
 }
 
@@ -424,21 +404,17 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
   PetscFunctionReturn(0);
 }
 
-/* Collective. If there are smooth pairs, creates J and lin->cover, and lin->derivative if as->parts requires it */
+/* Collective. If there are smooth pairs, creates J and lin->cover */
 static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *as, const Coupling *coupling,
   const PetscInt kept[], ContactLinearization lin)
 {
-  Mat rigid, bending;
+  Mat rigid;
 
   PetscFunctionBegin;
   PetscCall(SlopesCreateRigid(contact, as, as, &rigid));
   PetscCall(CouplingCreateJacobian(contact, coupling, rigid, lin->nlocal, kept, &lin->J));
   PetscCall(CouplingCreateJacobian(contact, coupling, NULL, lin->nlocal, kept, &lin->cover));
   PetscCall(MatDestroy(&rigid));
-  if (as->parts != CONTACT_DERIVATIVE) PetscFunctionReturn(0);
-  PetscCall(SlopesCreateBending(contact, as, &bending));
-  PetscCall(CouplingCreateJacobian(contact, coupling, bending, lin->nlocal, kept, &lin->derivative));
-  PetscCall(MatDestroy(&bending));
   PetscFunctionReturn(0);
 }
 
@@ -446,7 +422,7 @@ static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *a
 static PetscErrorCode LinearizationSetMortar(Contact contact, ContactAssembly *as, const PetscInt kept[],
   ContactLinearization lin)
 {
-  const PetscBool smooth   = (PetscBool)(contact->smooth.slopes && as->parts != CONTACT_GAPS);
+  const PetscBool smooth   = (PetscBool)(contact->smooth && as->parts != CONTACT_GAPS);
   Coupling        coupling = {0};
   Mat             rigid    = NULL;
 
@@ -466,22 +442,12 @@ static PetscErrorCode LinearizationSetMortar(Contact contact, ContactAssembly *a
    of order 2. The mass and the covered area of a row remain those of the facets. */
 static PetscErrorCode LinearizationSetTrace(Contact contact, ContactLinearization lin)
 {
-  Vec          facets;
-  PetscScalar *f;
-
   PetscFunctionBegin;
   if (!lin->cover) PetscCall(MatDuplicate(lin->J, MAT_COPY_VALUES, &lin->cover));
-  PetscCall(ContactTraceDifferentiate(contact->trace, NULL, lin->J));
-  if (lin->slip) PetscCall(ContactTraceDifferentiate(contact->trace, NULL, lin->slip));
-  if (lin->mortar) PetscCall(ContactTraceDifferentiate(contact->trace, NULL, lin->mortar));
-  if (lin->mortar_slip) PetscCall(ContactTraceDifferentiate(contact->trace, NULL, lin->mortar_slip));
-  if (!lin->derivative) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(lin->mass, &facets));
-  PetscCall(VecGetArrayWrite(facets, &f));
-  for (PetscInt k = 0; k < lin->nlocal; ++k) f[k] = ContactPairFollows(&contact->pairs[lin->pair[k]]) ? 0.0 : 1.0;
-  PetscCall(VecRestoreArrayWrite(facets, &f));
-  PetscCall(ContactTraceDifferentiate(contact->trace, facets, lin->derivative));
-  PetscCall(VecDestroy(&facets));
+  PetscCall(ContactTraceDifferentiate(contact->trace, lin->J));
+  if (lin->slip) PetscCall(ContactTraceDifferentiate(contact->trace, lin->slip));
+  if (lin->mortar) PetscCall(ContactTraceDifferentiate(contact->trace, lin->mortar));
+  if (lin->mortar_slip) PetscCall(ContactTraceDifferentiate(contact->trace, lin->mortar_slip));
   PetscFunctionReturn(0);
 }
 
@@ -505,7 +471,7 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   PetscCall(PetscNew(lin));
   PetscCall(PetscMalloc1(contact->rows.nlocal, &kept));
   PetscCall(CouplingKeepRows(contact, &coupling, &(*lin)->nlocal, kept));
-  if (contact->smooth.slopes && as->parts != CONTACT_GAPS)
+  if (contact->smooth && as->parts != CONTACT_GAPS)
     PetscCall(LinearizationSetSmooth(contact, as, &coupling, kept, *lin));
   else PetscCall(CouplingCreateJacobian(contact, &coupling, NULL, (*lin)->nlocal, kept, &(*lin)->J));
   PetscCall(ContactAssemblyFillRows(contact, as, kept, *lin));
@@ -513,7 +479,7 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   if (as->mortar) PetscCall(LinearizationSetMortar(contact, as, kept, *lin));
   if (contact->trace) PetscCall(LinearizationSetTrace(contact, *lin));
   PetscCall(ContactCyclicMerge(contact, *lin));
-  (*lin)->gaps_only = (PetscBool)(as->parts == CONTACT_GAPS && contact->smooth.slopes);
+  (*lin)->gaps_only = (PetscBool)(as->parts == CONTACT_GAPS && contact->smooth);
   PetscCall(PetscFree(kept));
   PetscCall(CouplingDestroy(&coupling));
   PetscFunctionReturn(0);

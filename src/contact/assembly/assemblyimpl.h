@@ -79,16 +79,6 @@ typedef struct {
   PetscBool  distributed; /* whether ContactPrescribedRowsDistribute() has changed `hanging` */
 } ContactRows;
 
-/* Derivatives of the normals of all smooth surfaces with respect to the displacement. A rank stores the normals at the
-   corners of its own facets. */
-typedef struct {
-  PetscInt            nlocal; /* number of normals on this rank */
-  ContactNormalSlopes blocks; /* 3 x 3 blocks of derivatives; their nodes and their order do not depend on the
-                                 displacement */
-  Mat                 slopes; /* derivatives [1/length]: three rows per normal, columns are global rows of the DM;
-                                 NULL if no pair is smooth */
-} ContactSmoothNormals;
-
 /* The direction along which a mortar gap is measured */
 typedef enum {
   CONTACT_NORMALS_NODAL, /* the averaged normal of the row's vertex */
@@ -116,7 +106,7 @@ struct _n_Contact {
   /* prescribed displacements of the bodies' faces; the caller owns them */
   const SceneDisplacement *displacements;
   PetscBool                smoothed; /* whether ContactSmoothFind() has determined the curved pairs */
-  ContactSmoothNormals     smooth;
+  PetscBool                smooth;   /* whether there are any */
   Mat         trace;   /* T - 1 (trace.c): added to the mesh's displacement at the surfaces' vertices; NULL if no face
                         has order 2 */
   ContactRule rule[2]; /* quadrature rules on the triangles of overlaps: between facets, and between smooth surfaces */
@@ -148,12 +138,6 @@ PETSC_INTERN PetscErrorCode ContactPrescribedRowsDistribute(Contact);
 PETSC_INTERN PetscErrorCode ContactPrescribedRowsReset(Contact);
 PETSC_INTERN PetscReal      ContactDistanceAlongFacet(const PetscReal x[3], const PetscReal nx[3], const PetscReal y[3],
        const PetscReal ny[3]);
-
-/* surface_normals.c: global numbers of the normals of smooth surfaces, and their derivatives at the current
-   displacement */
-PETSC_INTERN PetscErrorCode ContactSmoothNormalsCreate(Contact);
-PETSC_INTERN PetscErrorCode ContactSmoothNormalsUpdate(Contact);
-PETSC_INTERN PetscErrorCode ContactSmoothNormalsDestroy(Contact);
 
 /* smooth.c: determines which pairs are curved, and computes their smooth surfaces */
 PETSC_INTERN PetscErrorCode ContactSmoothFind(Contact, Vec);
@@ -195,8 +179,9 @@ typedef struct _n_ContactAssembly {
   /* [dim] couplings of rows with vertices: int phi_A (N2 - N1) [length^2]. Multiplied by the normal and divided by the
      row's mass, a coupling is the derivative of the gap with respect to the vertex's displacement. */
   ContactEntries coupling[3];
-  /* derivatives of the weighted gaps of smooth pairs, as in ContactSlopes: three columns per vertex or per normal */
-  ContactEntries rigid, by_cover, by_node, by_normal;
+  ContactEntries rigid,
+    by_cover; /* derivatives of the weighted gaps of smooth pairs, as in ContactSlopes: three columns
+                                     per vertex */
   /* couplings and rigid derivatives with respect to the mortar side alone, of pairs whose two sides are one face; NULL:
      there are none */
   struct _n_ContactAssembly *mortar;
@@ -205,7 +190,7 @@ PETSC_INTERN PetscErrorCode ContactAssemblyCreate(Contact, ContactParts, Contact
 PETSC_INTERN PetscErrorCode ContactAssemblyAdd(ContactAssembly *, PetscInt row, PetscInt n, const PetscInt node[],
   const PetscReal value[], const PetscReal normal[3]);
 PETSC_INTERN PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *, const PetscInt row[4], const PetscInt node[4],
-  const PetscInt normal_id[4], const ContactSlopes *);
+  const ContactSlopes *);
 PETSC_INTERN PetscErrorCode ContactAssemblyDestroy(ContactAssembly *);
 PETSC_INTERN PetscErrorCode ContactAssemblyFinish(Contact, ContactAssembly *, ContactLinearization *);
 

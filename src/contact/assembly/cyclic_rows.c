@@ -433,7 +433,6 @@ PetscErrorCode ContactCyclicMerge(Contact contact, ContactLinearization lin)
   PetscCall(CyclicMergeMeans(merge, lin->mass, mass, &lin->g));
   PetscCall(CyclicMergeMeans(merge, lin->mass, mass, &lin->doubt));
   PetscCall(CyclicMergeMatrix(merge, lin->mass, mass, &lin->J));
-  PetscCall(CyclicMergeMatrix(merge, lin->mass, mass, &lin->derivative));
   PetscCall(CyclicMergeMatrix(merge, lin->mass, mass, &lin->cover));
   PetscCall(CyclicMergeSlip(contact, merge, goals, nkept, lin->mass, mass, lin));
   CyclicMoveRows(nkept, kept, lin);

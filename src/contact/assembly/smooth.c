@@ -47,8 +47,7 @@ static PetscErrorCode SmoothPair(Contact contact, Vec u, ContactPairData *pair)
     undeformed.x = undeformed.reference;
     PetscCall(ContactSurfaceFindPrescribed(contact->dm, contact->ndisplacements, contact->displacements, surface[k]));
     PetscCall(ContactRingCreate(contact->comm, u, cosine, surface[k], ring[k]));
-    PetscCall(
-      PetscMalloc2(12 * surface[k]->nfacets, &surface[k]->patch, 4 * surface[k]->nfacets, &surface[k]->normal_id));
+    PetscCall(PetscMalloc1(12 * surface[k]->nfacets, &surface[k]->patch));
     undeformed.patch = surface[k]->patch;
     PetscCall(PatchSurface(ring[k], &undeformed, &largest[k], &largest[2 + k]));
   }
@@ -66,8 +65,8 @@ static PetscErrorCode SharpenPair(ContactPairData *pair)
   PetscFunctionBegin;
   PetscCall(ContactRingDestroy(&pair->mortar_ring));
   PetscCall(ContactRingDestroy(&pair->nonmortar_ring));
-  PetscCall(PetscFree2(pair->mortar.patch, pair->mortar.normal_id));
-  PetscCall(PetscFree2(pair->nonmortar.patch, pair->nonmortar.normal_id));
+  PetscCall(PetscFree(pair->mortar.patch));
+  PetscCall(PetscFree(pair->nonmortar.patch));
   pair->bulge          = 0.0;
   pair->mortar.patched = pair->nonmortar.patched = PETSC_FALSE;
   PetscFunctionReturn(0);
@@ -83,8 +82,8 @@ PetscErrorCode ContactSmoothFind(Contact contact, Vec u)
     if (!pair->smooth) continue;
     PetscCall(SmoothPair(contact, u, pair));
     if (!pair->mortar.patched) PetscCall(SharpenPair(pair));
+    contact->smooth = (PetscBool)(contact->smooth || pair->mortar.patched);
   }
-  if (!contact->smoothed) PetscCall(ContactSmoothNormalsCreate(contact));
   contact->smoothed = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
@@ -112,7 +111,6 @@ PetscErrorCode ContactSmoothReset(Contact contact)
 {
   PetscFunctionBegin;
   for (PetscInt p = 0; p < contact->npairs; ++p) PetscCall(SharpenPair(&contact->pairs[p]));
-  PetscCall(ContactSmoothNormalsDestroy(contact));
-  contact->smoothed = PETSC_FALSE;
+  contact->smooth = contact->smoothed = PETSC_FALSE;
   PetscFunctionReturn(0);
 }

@@ -58,8 +58,6 @@ void ContactDualTransform(PetscReal (*dual)[4], PetscInt n, PetscReal values[])
 /* Transforms the derivatives of the four rows of a facet from phi_A to the dual functions */
 void ContactDualTransformSlopes(PetscReal (*dual)[4], ContactSlopes *slopes)
 {
-  ContactDualTransform(dual, 12, &slopes->x[0][0]);
-  ContactDualTransform(dual, 12, &slopes->normal[0][0]);
   ContactDualTransform(dual, 12, &slopes->rigid[0][0]);
   ContactDualTransform(dual, 12, &slopes->cover[0][0]);
 }

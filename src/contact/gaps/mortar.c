@@ -57,8 +57,8 @@ static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverl
 
   PetscFunctionBegin;
   ContactPatchCreate(x, &mortar->patch[12 * k], &patch);
-  ContactOverlapSlopes(overlap, rule, facet->x, x, &facet->patch, &patch, gap, cover,
-    (PetscBool)(assembly->parts == CONTACT_DERIVATIVE), sloped ? &facet->slopes : NULL, sloped ? &slopes : NULL);
+  ContactOverlapSlopes(overlap, rule, facet->x, x, &facet->patch, &patch, gap, cover, sloped ? &facet->slopes : NULL,
+    sloped ? &slopes : NULL);
   doubt = ContactPatchDoubt(&facet->patch) + ContactPatchDoubt(&patch);
   for (PetscInt a = 0; a < 4; ++a) facet->doubt[a] += doubt * cover[a];
   if (facet->dual) {
@@ -67,11 +67,9 @@ static PetscErrorCode MortarAddPatch(const ContactRule *rule, const ContactOverl
     if (sloped) ContactDualTransformSlopes(facet->dual, &slopes);
   }
   for (PetscInt a = 0; a < 4; ++a) facet->cover[a] += cover[a];
-  if (sloped)
-    PetscCall(ContactAssemblyAddSlopes(assembly, facet->row, &mortar->node[4 * k], &mortar->normal_id[4 * k], &slopes));
+  if (sloped) PetscCall(ContactAssemblyAddSlopes(assembly, facet->row, &mortar->node[4 * k], &slopes));
   if (sloped && facet->self)
-    PetscCall(
-      ContactAssemblyAddSlopes(assembly->mortar, facet->row, &mortar->node[4 * k], &mortar->normal_id[4 * k], &slopes));
+    PetscCall(ContactAssemblyAddSlopes(assembly->mortar, facet->row, &mortar->node[4 * k], &slopes));
   PetscFunctionReturn(0);
 }
 
@@ -199,8 +197,7 @@ static PetscErrorCode MortarAddFacet(const ContactRule *rule, const ContactPairD
     PetscCall(ContactAssemblyAdd(assembly, facet.row[a], 4, facet.node, facet.D[a], &normal[3 * a]));
   }
   if (smooth && assembly->parts != CONTACT_GAPS)
-    PetscCall(
-      ContactAssemblyAddSlopes(assembly, facet.row, facet.node, &pair->nonmortar.normal_id[4 * f], &facet.slopes));
+    PetscCall(ContactAssemblyAddSlopes(assembly, facet.row, facet.node, &facet.slopes));
   PetscCall(VecSetValues(assembly->gap, 4, facet.row, gap, ADD_VALUES));
   PetscCall(VecSetValues(assembly->cover, 4, facet.row, cover, ADD_VALUES));
   PetscCall(VecSetValues(assembly->doubt, 4, facet.row, doubt, ADD_VALUES));

@@ -68,12 +68,10 @@ static PetscErrorCode ContactBox_Node(Contact contact, PetscInt p, PetscReal box
   PetscFunctionReturn(0);
 }
 
-/* The gap of a smooth pair [length], and its derivatives with respect to the coordinates of the vertex, the facet's
-   vertices and the normals there */
+/* The gap of a smooth pair [length], and its derivatives with respect to the coordinates of the vertex and of the
+   facet's vertices, if the patch rotates with the facet and keeps its shape */
 typedef struct {
-  PetscReal gap, doubt, vertex[3], facet[12], normal[12];
-  PetscReal rigid[12]; /* derivatives with respect to the facet's vertices if the patch rotates with the facet and
-                          keeps its shape */
+  PetscReal gap, doubt, vertex[3], facet[12];
 } NodeGap;
 
 /*
@@ -106,12 +104,7 @@ static void NodeMoveClosest(const PetscReal facet[12], const ContactNearest *nea
   mu[1] = moves[1] ? (-by_xi[1] - H[1] * mu[0]) / H[2] : 0.0;
   for (PetscInt d = 0; d < 2; ++d) {
     for (PetscInt c = 0; c < 3; ++c) gap->vertex[c] -= mu[d] * t[d][c];
-    for (PetscInt i = 0; i < 12; ++i) {
-      const PetscReal moved = mu[d] * (phi[i / 3] * t[d][i % 3] + dphi[i / 3][d] * r[i % 3]);
-
-      gap->facet[i] += moved;
-      gap->rigid[i] += moved;
-    }
+    for (PetscInt i = 0; i < 12; ++i) gap->facet[i] += mu[d] * (phi[i / 3] * t[d][i % 3] + dphi[i / 3][d] * r[i % 3]);
   }
 }
 
@@ -142,16 +135,13 @@ static void NodeMeasure(const PetscReal facet[12], const PetscReal normals[12], 
   }
   ContactPatchDifferentiate(&patch, nearest->xi, m, by_normal, by_xi, &by);
   ContactPatchMoment(&patch, &by, turn);
-  ContactFacetTurn(facet, turn, gap->rigid);
+  ContactFacetTurn(facet, turn, gap->facet);
   ContactShape(nearest->xi, phi);
   ContactShapeSlopes(nearest->xi, dphi);
   for (PetscInt i = 0; i < 12; ++i) {
-    gap->facet[i] = phi[i / 3] * m[i % 3];
-    gap->rigid[i] += gap->facet[i];
-    gap->normal[i] = 0.0;
+    gap->facet[i] += phi[i / 3] * m[i % 3];
     for (PetscInt d = 0; d < 2; ++d) by_xi[d] += dphi[i / 3][d] * facet[i] * m[i % 3];
   }
-  ContactPatchChain(facet, &patch, &by, gap->facet, gap->normal);
   NodeMoveClosest(facet, nearest, x, by_xi, gap);
 }
 
@@ -162,17 +152,9 @@ static PetscErrorCode NodeAddSlopes(PetscInt row, PetscInt vertex, PetscReal mas
 {
   PetscFunctionBegin;
   for (PetscInt c = 0; c < 3; ++c) gap->vertex[c] *= mass;
-  for (PetscInt i = 0; i < 12; ++i) {
-    gap->facet[i] *= mass;
-    gap->rigid[i] *= mass;
-    gap->normal[i] *= mass;
-  }
+  for (PetscInt i = 0; i < 12; ++i) gap->facet[i] *= mass;
   PetscCall(ContactEntriesAdd(&assembly->rigid, row, 1, &vertex, gap->vertex));
-  PetscCall(ContactEntriesAdd(&assembly->rigid, row, 4, &mortar->node[4 * facet], gap->rigid));
-  if (assembly->parts != CONTACT_DERIVATIVE) PetscFunctionReturn(0);
-  PetscCall(ContactEntriesAdd(&assembly->by_node, row, 1, &vertex, gap->vertex));
-  PetscCall(ContactEntriesAdd(&assembly->by_node, row, 4, &mortar->node[4 * facet], gap->facet));
-  PetscCall(ContactEntriesAdd(&assembly->by_normal, row, 4, &mortar->normal_id[4 * facet], gap->normal));
+  PetscCall(ContactEntriesAdd(&assembly->rigid, row, 4, &mortar->node[4 * facet], gap->facet));
   PetscFunctionReturn(0);
 }
 
@@ -204,7 +186,7 @@ static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, P
   offset /= 3;
   value[0] = -mass;
   PetscCall(ContactAssemblyAdd(assembly, row, 1, &offset, value, &contact->rows.normal[3 * i]));
-  if (mortar->normal_id && assembly->parts != CONTACT_GAPS)
+  if (mortar->patch && assembly->parts != CONTACT_GAPS)
     PetscCall(NodeAddSlopes(row, offset, mass, mortar, nearest->facet, gap, assembly));
   PetscCall(VecSetValue(assembly->gap, row, weighted, ADD_VALUES));
   PetscCall(VecSetValue(assembly->doubt, row, mass * gap->doubt, ADD_VALUES));

@@ -7,7 +7,7 @@
 typedef struct {
   PetscMPIInt nranks, *rank;
   PetscInt   *range; /* [2 nranks] first facet and number of facets for each receiving rank */
-  PetscInt    n, *node, *border, *normal_id;
+  PetscInt    n, *node, *border;
   PetscReal  *x, *patch, *self;
 } Outgoing;
 
@@ -35,10 +35,7 @@ static PetscErrorCode ExchangePackFacets(const ContactSurface *s, PetscMPIInt si
           out->self[CONTACT_SELF_REALS * out->n + 12] = s->rank[f];
           out->self[CONTACT_SELF_REALS * out->n + 13] = s->below[f];
         }
-        if (s->patched) {
-          PetscCall(PetscArraycpy(&out->patch[12 * out->n], &s->patch[12 * f], 12));
-          PetscCall(PetscArraycpy(&out->normal_id[4 * out->n], &s->normal_id[4 * f], 4));
-        }
+        if (s->patched) PetscCall(PetscArraycpy(&out->patch[12 * out->n], &s->patch[12 * f], 12));
       }
       ++out->n;
     }
@@ -112,22 +109,19 @@ PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const Cont
   PetscCall(PetscMalloc3(6 * size, &boxes, size, &out.rank, 2 * size, &out.range));
   PetscCallMPI(MPI_Allgather(box, 6, MPIU_REAL, boxes, 6, MPIU_REAL, comm));
   PetscCall(ExchangePackFacets(s, size, boxes, &out));
-  PetscCall(PetscMalloc6(12 * out.n, &out.x, 4 * out.n, &out.node, nborder * out.n, &out.border, 12 * npatch * out.n,
-    &out.patch, 4 * npatch * out.n, &out.normal_id, nself * out.n, &out.self));
+  PetscCall(PetscMalloc5(12 * out.n, &out.x, 4 * out.n, &out.node, nborder * out.n, &out.border, 12 * npatch * out.n,
+    &out.patch, nself * out.n, &out.self));
   if (out.n) PetscCall(ExchangePackFacets(s, size, boxes, &out));
   PetscCall(ExchangeCreateForest(comm, &out, &in->n, &sf));
-  PetscCall(PetscMalloc6(12 * in->n, &in->x, 4 * in->n, &in->node, nborder * in->n, &in->border, 12 * npatch * in->n,
-    &in->patch, 4 * npatch * in->n, &in->normal_id, nself * in->n, &in->self));
+  PetscCall(PetscMalloc5(12 * in->n, &in->x, 4 * in->n, &in->node, nborder * in->n, &in->border, 12 * npatch * in->n,
+    &in->patch, nself * in->n, &in->self));
   PetscCall(ExchangeBroadcast(sf, 12, MPIU_REAL, out.x, in->x));
   PetscCall(ExchangeBroadcast(sf, 4, MPIU_INT, out.node, in->node));
   if (nself) PetscCall(ExchangeBroadcast(sf, CONTACT_SELF_REALS, MPIU_REAL, out.self, in->self));
   if (nborder) PetscCall(ExchangeBroadcast(sf, 1, MPIU_INT, out.border, in->border));
-  if (npatch) {
-    PetscCall(ExchangeBroadcast(sf, 12, MPIU_REAL, out.patch, in->patch));
-    PetscCall(ExchangeBroadcast(sf, 4, MPIU_INT, out.normal_id, in->normal_id));
-  }
+  if (npatch) PetscCall(ExchangeBroadcast(sf, 12, MPIU_REAL, out.patch, in->patch));
   PetscCall(PetscSFDestroy(&sf));
-  PetscCall(PetscFree6(out.x, out.node, out.border, out.patch, out.normal_id, out.self));
+  PetscCall(PetscFree5(out.x, out.node, out.border, out.patch, out.self));
   PetscCall(PetscFree3(boxes, out.rank, out.range));
   PetscFunctionReturn(0);
 }
@@ -135,7 +129,7 @@ PetscErrorCode ContactExchange(MPI_Comm comm, const PetscReal box[6], const Cont
 PetscErrorCode ContactCandidatesDestroy(ContactCandidates *in)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree6(in->x, in->node, in->border, in->patch, in->normal_id, in->self));
+  PetscCall(PetscFree5(in->x, in->node, in->border, in->patch, in->self));
   in->n = 0;
   PetscFunctionReturn(0);
 }

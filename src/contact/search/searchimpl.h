@@ -15,12 +15,11 @@
 typedef struct {
   /* number of facets */
   PetscInt   n;
-  PetscInt  *node;      /* [4 n] global numbers of the vertices */
-  PetscInt  *border;    /* [n] as in ContactSurface; NULL unless the surface's border is known */
-  PetscReal *x;         /* [12 n] coordinates of the deformed vertices [length] */
-  PetscReal *patch;     /* [12 n] unit normals of the smooth surface; NULL unless the surface is smooth */
-  PetscInt  *normal_id; /* [4 n] global numbers of these normals; NULL unless the surface is smooth */
-  PetscReal *self;      /* [CONTACT_SELF_REALS n] of a surface in contact with itself: undeformed vertices, rank, and
+  PetscInt  *node;   /* [4 n] global numbers of the vertices */
+  PetscInt  *border; /* [n] as in ContactSurface; NULL unless the surface's border is known */
+  PetscReal *x;      /* [12 n] coordinates of the deformed vertices [length] */
+  PetscReal *patch;  /* [12 n] unit normals of the smooth surface; NULL unless the surface is smooth */
+  PetscReal *self;   /* [CONTACT_SELF_REALS n] of a surface in contact with itself: undeformed vertices, rank, and
                            depth below, as in ContactSurface; else not allocated */
 } ContactCandidates;
 PETSC_INTERN PetscErrorCode ContactExchange(MPI_Comm, const PetscReal box[6], const ContactSurface *,

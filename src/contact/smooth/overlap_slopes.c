@@ -14,7 +14,6 @@
 /* Two facets in the plane of the nonmortar facet */
 typedef struct {
   ContactFrame        frame;
-  PetscBool           bends;                    /* whether derivatives with respect to the patches are computed */
   const ContactPatch *patch[2];                 /* patches of the nonmortar and of the mortar facet */
   PetscReal           p[2][4][2], height[2][4]; /* coordinates of the vertices in the plane, and heights above it
                                                    [length] */
@@ -28,19 +27,17 @@ typedef struct {
 
 /* Derivatives of one row's weighted gap and of its covered area */
 typedef struct {
-  PlaneMotion  gap, cover;
-  PetscReal    height[2][4]; /* derivatives of the gap with respect to the heights of the vertices above the plane */
-  PetscReal    turn[2][3];   /* derivatives of the gap with respect to rotations of the patches [length^3] */
-  ContactPatch patch[2];     /* derivatives of the gap with respect to the coefficients of the patches, if they bend */
+  PlaneMotion gap, cover;
+  PetscReal   height[2][4]; /* derivatives of the gap with respect to the heights of the vertices above the plane */
+  PetscReal   turn[3];      /* derivatives of the gap with respect to a rotation of the mortar patch [length^3] */
 } PlaneSlopes;
 
 /* A quadrature point on one facet, in the plane's axes. Slopes are derivatives with respect to its position in the
    plane. */
 typedef struct {
-  PetscReal    phi[4], slope[4][2]; /* shape functions and their slopes */
-  PetscReal    height, tilt[2];     /* height of the smooth surface above the plane, and its slopes */
-  PetscReal    turn[3];             /* derivatives of the height with respect to a rotation of the patch */
-  ContactPatch by;                  /* derivatives of the height with respect to the patch, if it bends */
+  PetscReal phi[4], slope[4][2]; /* shape functions and their slopes */
+  PetscReal height, tilt[2];     /* height of the smooth surface above the plane, and its slopes */
+  PetscReal turn[3];             /* derivatives of the height with respect to a rotation of the patch */
 } PlanePoint;
 
 /* Converts derivatives with respect to the parameters xi into derivatives with respect to the position in the plane. J:
@@ -57,7 +54,7 @@ static void PlaneGradient(const PetscReal J[2][2], const PetscReal by_xi[2], Pet
    [length], and computes the shape functions there */
 static PetscReal PlanePointHeight(const PlanePair *pair, PetscInt side, const PetscReal xi[2], PetscReal phi[4])
 {
-  PetscReal height = ContactPatchHeight(pair->patch[side], xi, pair->frame.axis[2], NULL, NULL, NULL);
+  PetscReal height = ContactPatchHeight(pair->patch[side], xi, pair->frame.axis[2], NULL, NULL);
 
   ContactShape(xi, phi);
   for (PetscInt a = 0; a < 4; ++a) height += phi[a] * pair->height[side][a];
@@ -71,8 +68,7 @@ static void PlanePointEvaluate(const PlanePair *pair, PetscInt side, const Petsc
 
   ContactShape(xi, point->phi);
   ContactShapeSlopes(xi, dphi);
-  point->height =
-    ContactPatchHeight(pair->patch[side], xi, pair->frame.axis[2], by_xi, point->turn, pair->bends ? &point->by : NULL);
+  point->height = ContactPatchHeight(pair->patch[side], xi, pair->frame.axis[2], by_xi, point->turn);
   for (PetscInt a = 0; a < 4; ++a) {
     point->height += point->phi[a] * pair->height[side][a];
     for (PetscInt k = 0; k < 2; ++k) {
@@ -84,22 +80,9 @@ static void PlanePointEvaluate(const PlanePair *pair, PetscInt side, const Petsc
   for (PetscInt a = 0; a < 4; ++a) PlaneGradient(J, dphi[a], point->slope[a]);
 }
 
-/* Adds factor times the derivatives `by` to `sum` */
-static void AddPatch(PetscReal factor, const ContactPatch *by, ContactPatch *sum)
-{
-  for (PetscInt e = 0; e < 4; ++e) {
-    for (PetscInt k = 0; k < 2; ++k) sum->slope[e][k] += factor * by->slope[e][k];
-    for (PetscInt c = 0; c < 3; ++c) {
-      sum->direction[e][c] += factor * by->direction[e][c];
-      sum->normal[3 * e + c] += factor * by->normal[3 * e + c];
-    }
-  }
-}
-
 /* Adds the derivatives at one quadrature point to those of row a's weighted gap, and returns the point's part of the
    gap [length^3]. place: derivative of the gap with respect to the point's position in the plane */
-static PetscReal AddPoint(const PlanePoint point[2], PetscBool bends, PetscInt a, PetscReal weight, PlaneSlopes *by,
-  PetscReal place[2])
+static PetscReal AddPoint(const PlanePoint point[2], PetscInt a, PetscReal weight, PlaneSlopes *by, PetscReal place[2])
 {
   const PetscReal gap = point[1].height - point[0].height, share = weight * point[0].phi[a];
   PetscReal       own[2];
@@ -116,12 +99,7 @@ static PetscReal AddPoint(const PlanePoint point[2], PetscBool bends, PetscInt a
       by->gap.p[1][b][d] -= point[1].phi[b] * share * point[1].tilt[d];
     }
   }
-  for (PetscInt c = 0; c < 3; ++c) {
-    by->turn[0][c] -= share * point[0].turn[c];
-    by->turn[1][c] += share * point[1].turn[c];
-  }
-  if (bends) AddPatch(-share, &point[0].by, &by->patch[0]);
-  if (bends) AddPatch(share, &point[1].by, &by->patch[1]);
+  for (PetscInt c = 0; c < 3; ++c) by->turn[c] += share * point[1].turn[c];
   return share * gap;
 }
 
@@ -175,7 +153,7 @@ static void AddTriangle(const ContactOverlap *o, const ContactRule *rule, PetscI
     for (PetscInt a = 0; a < 4; ++a) {
       PetscReal place[2];
 
-      gap[a] += AddPoint(point, pair->bends, a, o->weight[k], &by[a], place);
+      gap[a] += AddPoint(point, a, o->weight[k], &by[a], place);
       AddPlace(triangle, rule->barycentric[q], place, &by[a].gap);
       cover[a] += AddPointCover(&point[0], a, o->weight[k], &by[a].cover, place);
       AddPlace(triangle, rule->barycentric[q], place, &by[a].cover);
@@ -271,12 +249,8 @@ static void AddMoment(const ContactFrame *frame, const PetscReal x[12], const Pe
   }
 }
 
-/*
-   Adds the derivatives of row a's weighted gap. The plane rotates with the nonmortar facet. Quantities that were held
-   fixed in the plane's axes therefore rotate too, which adds a moment. There are two variants: in `x` and `normal`
-   patches bend with the normals; in `rigid` patches keep their shape and rotate with their facets, the nonmortar patch
-   together with the plane.
-*/
+/* Adds the derivatives of row a's weighted gap. The plane rotates with the nonmortar facet and its patch. Quantities
+   that were held fixed in the plane's axes therefore rotate too, which adds a moment. */
 static void AddRow(const PlanePair *pair, PetscInt a, const PetscReal *const x[2], const PlaneSlopes *by,
   ContactSlopes *nonmortar, ContactSlopes *mortar)
 {
@@ -284,27 +258,17 @@ static void AddRow(const PlanePair *pair, PetscInt a, const PetscReal *const x[2
   PetscReal            moment[3] = {0, 0, 0}, back[3], tilt[12];
 
   for (PetscInt side = 0; side < 2; ++side) {
-    PetscReal by_x[12], by_normal[12] = {0};
+    PetscReal by_x[12];
 
     LeavePlane(pair, by->gap.p[side], by->height[side], by_x);
     AddMoment(&pair->frame, x[side], by_x, moment);
     for (PetscInt i = 0; i < 12; ++i) to[side]->rigid[a][i] += by_x[i];
-    if (!pair->bends) continue;
-    ContactPatchChain(x[side], pair->patch[side], &by->patch[side], by_x, by_normal);
-    for (PetscInt i = 0; i < 12; ++i) {
-      to[side]->x[a][i] += by_x[i];
-      to[side]->normal[a][i] += by_normal[i];
-    }
   }
-  ContactFacetTurn(x[1], by->turn[1], tilt);
+  ContactFacetTurn(x[1], by->turn, tilt);
   for (PetscInt i = 0; i < 12; ++i) mortar->rigid[a][i] += tilt[i];
-  for (PetscInt c = 0; c < 3; ++c) back[c] = -moment[c] - by->turn[1][c];
+  for (PetscInt c = 0; c < 3; ++c) back[c] = -moment[c] - by->turn[c];
   ContactFacetTurn(x[0], back, tilt);
   for (PetscInt i = 0; i < 12; ++i) nonmortar->rigid[a][i] += tilt[i];
-  if (!pair->bends) return;
-  for (PetscInt c = 0; c < 3; ++c) back[c] -= by->turn[0][c];
-  ContactFacetTurn(x[0], back, tilt);
-  for (PetscInt i = 0; i < 12; ++i) nonmortar->x[a][i] += tilt[i];
 }
 
 /* Adds the derivatives of row a's covered area */
@@ -359,16 +323,15 @@ static void AddSlopes(const ContactOverlap *o, const ContactRule *rule, const Pl
 /*
    Computes gap[A] = int phi_A (H2 - H1) [length^3] and cover[A] = int phi_A [length^2] over the overlap of x1 and x2
    that ContactOverlapFind() has found. The derivatives with respect to the mortar facet are stored in `mortar`; those
-   with respect to the nonmortar facet are added to `nonmortar`. If both are NULL, no derivatives are computed. bends:
-   whether the derivatives for patches that bend with the normals are computed, too
+   with respect to the nonmortar facet are added to `nonmortar`. If both are NULL, no derivatives are computed.
 */
 void ContactOverlapSlopes(const ContactOverlap *o, const ContactRule *rule, const PetscReal x1[12],
   const PetscReal x2[12], const ContactPatch *patch1, const ContactPatch *patch2, PetscReal gap[4], PetscReal cover[4],
-  PetscBool bends, ContactSlopes *nonmortar, ContactSlopes *mortar)
+  ContactSlopes *nonmortar, ContactSlopes *mortar)
 {
   const PetscReal *const x[2] = {x1, x2};
-  const ContactSlopes    none = {.x = {{0}}};
-  PlanePair              pair = {.bends = bends, .patch = {patch1, patch2}};
+  const ContactSlopes    none = {.rigid = {{0}}};
+  PlanePair              pair = {.patch = {patch1, patch2}};
 
   for (PetscInt a = 0; a < 4; ++a) gap[a] = cover[a] = 0.0;
   if (mortar) *mortar = none;

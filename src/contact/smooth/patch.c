@@ -20,7 +20,7 @@
 #define LEAST_SUM 1.01
 
 /* Returns whether edge e has two usable normals */
-PetscBool ContactPatchIsBent(const ContactPatch *p, PetscInt e)
+static PetscBool PatchIsBent(const ContactPatch *p, PetscInt e)
 {
   const PetscReal *n[2] = {&p->normal[3 * e], &p->normal[3 * ((e + 1) % 4)]};
   PetscReal        N[3];
@@ -29,7 +29,7 @@ PetscBool ContactPatchIsBent(const ContactPatch *p, PetscInt e)
   return (PetscBool)(VectorDot(N, N) > PetscSqr(LEAST_SUM));
 }
 
-/* Computes the curve of edge e, from vertex e to the next. The edge is straight if ContactPatchIsBent() is false. */
+/* Computes the curve of edge e, from vertex e to the next. The edge is straight if PatchIsBent() is false. */
 static void BendEdge(const PetscReal x[12], PetscInt e, ContactPatch *p)
 {
   const PetscReal *x0 = &x[3 * e], *x1 = &x[3 * ((e + 1) % 4)],
@@ -43,7 +43,7 @@ static void BendEdge(const PetscReal x[12], PetscInt e, ContactPatch *p)
   length         = VectorNorm(N);
   steepest       = STEEPEST * VectorNorm(d);
   p->slope[e][0] = p->slope[e][1] = 0.0;
-  if (!ContactPatchIsBent(p, e)) return;
+  if (!PatchIsBent(p, e)) return;
   for (PetscInt c = 0; c < 3; ++c) N[c] /= length;
   for (PetscInt i = 0; i < 2; ++i)
     p->slope[e][i] = PetscClipInterval(-2.0 * VectorDot(d, n[i]) / (1.0 + VectorDot(N, n[i])), -steepest, steepest);

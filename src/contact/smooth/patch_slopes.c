@@ -1,5 +1,4 @@
-/* Derivatives of quantities at a patch's points with respect to the parameters, to the patch's coefficients, and to the
-   vertices and normals that determine these coefficients */
+/* Derivatives of quantities at a patch's points with respect to the parameters and to rotations of the patch */
 #include "smoothimpl.h"
 
 /* Squared cosine of 60 degrees. If a direction makes a larger angle with the patch's normal, heights along it are not
@@ -52,10 +51,10 @@ void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], con
 }
 
 /* Returns the height of the patch above its facet's point xi along a unit direction [length], measured to the tangent
-   plane at the patch's point. Computes the derivatives of the height with respect to xi, to a rotation `turn` [rad] of
-   the patch about each axis, and to the patch, unless by_xi and turn, or by, are NULL. */
+   plane at the patch's point. Computes the derivatives of the height with respect to xi and to a rotation `turn` [rad]
+   of the patch about each axis, unless by_xi and turn are NULL. */
 PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const PetscReal direction[3],
-  PetscReal by_xi[2], PetscReal turn[3], ContactPatch *by)
+  PetscReal by_xi[2], PetscReal turn[3])
 {
   PetscReal offset[3], normal[3], by_offset[3], by_normal[3], k[3], height, cosine;
 
@@ -76,60 +75,11 @@ PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const
     }
   }
   if (!by_xi) return height;
-  ContactPatchDifferentiate(p, xi, by_offset, by_normal, by_xi, by);
+  ContactPatchDifferentiate(p, xi, by_offset, by_normal, by_xi, NULL);
   VectorCross(offset, by_offset, turn);
   VectorCross(normal, by_normal, k);
   for (PetscInt c = 0; c < 3; ++c) turn[c] += k[c];
   return height;
-}
-
-/* Adds the derivatives through edge e's slopes and direction, with respect to its chord d and to the normals at its
-   ends */
-static void ChainEdge(const PetscReal d[3], const ContactPatch *p, PetscInt e, const ContactPatch *by,
-  PetscReal by_chord[3], PetscReal by_normal[2][3])
-{
-  const PetscReal *n[2] = {&p->normal[3 * e], &p->normal[3 * ((e + 1) % 4)]}, *N = p->direction[e],
-                  length    = PetscSqrtReal(2.0 + 2.0 * VectorDot(n[0], n[1]));
-  PetscReal by_direction[3] = {by->direction[e][0], by->direction[e][1], by->direction[e][2]}, along;
-
-  for (PetscInt i = 0; i < 2; ++i) {
-    const PetscReal half = 1.0 + VectorDot(N, n[i]), slope = p->slope[e][i], factor = by->slope[e][i] / half;
-
-    if (PetscAbsReal(-2.0 * VectorDot(d, n[i]) / half) > PetscAbsReal(slope) * (1.0 + PETSC_SQRT_MACHINE_EPSILON)) {
-      /* The slope is at its limit, a fixed fraction of the chord's length. */
-      for (PetscInt c = 0; c < 3; ++c) by_chord[c] += by->slope[e][i] * slope / VectorDot(d, d) * d[c];
-      continue;
-    }
-    for (PetscInt c = 0; c < 3; ++c) {
-      by_chord[c] -= 2.0 * factor * n[i][c];
-      by_normal[i][c] -= factor * (2.0 * d[c] + slope * N[c]);
-      by_direction[c] -= factor * slope * n[i][c];
-    }
-  }
-  along = VectorDot(N, by_direction);
-  for (PetscInt i = 0; i < 2; ++i) {
-    for (PetscInt c = 0; c < 3; ++c) by_normal[i][c] += (by_direction[c] - along * N[c]) / length;
-  }
-}
-
-/* Converts derivatives with respect to the patch's coefficients into derivatives with respect to the facet's vertices x
-   and to the unit normals there, and adds them to by_x and by_normal */
-void ContactPatchChain(const PetscReal x[12], const ContactPatch *p, const ContactPatch *by, PetscReal by_x[12],
-  PetscReal by_normal[12])
-{
-  for (PetscInt e = 0; e < 4; ++e) {
-    const PetscInt  next     = (e + 1) % 4;
-    const PetscReal d[3]     = {x[3 * next] - x[3 * e], x[3 * next + 1] - x[3 * e + 1], x[3 * next + 2] - x[3 * e + 2]};
-    PetscReal       chord[3] = {0, 0, 0}, normal[2][3] = {{0}};
-
-    if (ContactPatchIsBent(p, e)) ChainEdge(d, p, e, by, chord, normal);
-    for (PetscInt c = 0; c < 3; ++c) {
-      by_x[3 * next + c] += chord[c];
-      by_x[3 * e + c] -= chord[c];
-      by_normal[3 * e + c] += by->normal[3 * e + c] + normal[0][c];
-      by_normal[3 * next + c] += normal[1][c];
-    }
-  }
 }
 
 /* Computes `moment`, the derivative with respect to a rotation [rad] of the patch about each axis */

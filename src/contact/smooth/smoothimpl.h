@@ -17,7 +17,6 @@ typedef struct {
   PetscBool triangle;
 } ContactPatch;
 PETSC_INTERN void      ContactPatchCreate(const PetscReal x[12], const PetscReal normal[12], ContactPatch *);
-PETSC_INTERN PetscBool ContactPatchIsBent(const ContactPatch *, PetscInt edge);
 PETSC_INTERN PetscReal ContactPatchBulge(const ContactPatch *);
 PETSC_INTERN PetscReal ContactPatchDoubt(const ContactPatch *);
 PETSC_INTERN void      ContactPatchEvaluate(const ContactPatch *, const PetscReal xi[2], PetscReal offset[3],
@@ -28,9 +27,7 @@ PETSC_INTERN void      ContactPatchEvaluate(const ContactPatch *, const PetscRea
 PETSC_INTERN void ContactPatchDifferentiate(const ContactPatch *, const PetscReal xi[2], const PetscReal by_offset[3],
   const PetscReal by_normal[3], PetscReal by_xi[2], ContactPatch *by);
 PETSC_INTERN PetscReal ContactPatchHeight(const ContactPatch *, const PetscReal xi[2], const PetscReal direction[3],
-  PetscReal by_xi[2], PetscReal turn[3], ContactPatch *by);
-PETSC_INTERN void      ContactPatchChain(const PetscReal x[12], const ContactPatch *, const ContactPatch *by,
-       PetscReal by_x[12], PetscReal by_normal[12]);
+  PetscReal by_xi[2], PetscReal turn[3]);
 PETSC_INTERN void      ContactPatchMoment(const ContactPatch *, const ContactPatch *by, PetscReal moment[3]);
 
 /* ring.c: this rank's facets, two layers of facets around them, and their neighbours. Corner 4 f + a is vertex a of
@@ -66,27 +63,15 @@ PETSC_INTERN PetscErrorCode ContactRingAddImages(MPI_Comm, PetscReal length, Pet
 /* ring_create.c: creates a ring */
 PETSC_INTERN PetscErrorCode ContactRingCreate(MPI_Comm, Vec u, PetscReal cosine, const ContactSurface *, ContactRing *);
 
-/* corner_normal_slopes.c: derivatives of the normals with respect to the coordinates of the nodes */
-typedef struct {
-  PetscInt     n;     /* number of blocks */
-  PetscInt    *node;  /* [n] node of the ring for each block; NULL: blocks are only counted */
-  PetscScalar *value; /* [9 n] derivatives of the normal's three components (rows) with respect to the node's three
-                         coordinates [1/length]. Blocks of repeated nodes must be added. */
-} ContactNormalSlopes;
-PETSC_INTERN void ContactRingNormalSlopes(const ContactRing *, PetscInt corner, ContactNormalSlopes *);
-
 /* overlap_slopes.c: the weighted gap between two smooth surfaces over an overlap, and its derivatives with respect to
    the vertices of one facet */
 typedef struct {
-  /* derivatives of int phi_A gap, for the four A, with respect to the facet's vertices [length^2] and to the unit
-     normals there [length^3] */
-  PetscReal x[4][12], normal[4][12];
-  PetscReal rigid[4][12]; /* derivatives of int phi_A gap with respect to the vertices, if the patches keep their
-                             shape and rotate with their facets [length^2] */
+  PetscReal rigid[4][12]; /* derivatives of int phi_A gap, for the four A, with respect to the facet's vertices, if the
+                             patches keep their shape and rotate with their facets [length^2] */
   PetscReal cover[4][12]; /* derivatives of int phi_A with respect to the vertices [length] */
 } ContactSlopes;
 PETSC_INTERN void ContactOverlapSlopes(const ContactOverlap *, const ContactRule *, const PetscReal x1[12],
   const PetscReal x2[12], const ContactPatch *, const ContactPatch *, PetscReal gap[4], PetscReal cover[4],
-  PetscBool bends, ContactSlopes *nonmortar, ContactSlopes *mortar);
+  ContactSlopes *nonmortar, ContactSlopes *mortar);
 
 #endif

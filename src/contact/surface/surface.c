@@ -191,7 +191,7 @@ PetscErrorCode ContactSurfaceDestroy(ContactSurface *s)
   PetscCall(PetscFree(s->border));
   PetscCall(PetscBTDestroy(&s->rim));
   PetscCall(PetscFree(s->prescribed));
-  PetscCall(PetscFree2(s->patch, s->normal_id));
+  PetscCall(PetscFree(s->patch));
   PetscCall(PetscFree2(s->rank, s->below));
   PetscFunctionReturn(0);
 }

@@ -31,8 +31,7 @@ typedef struct {
   PetscReal *reference;  /* [12 nfacets] coordinates of the undeformed vertices [length] */
   PetscReal *x;          /* [12 nfacets] coordinates of the deformed vertices [length] */
   PetscReal *patch;      /* [12 nfacets] unit normals of the smooth deformed surface at the vertices */
-  PetscInt  *normal_id;  /* [4 nfacets] global numbers of these normals */
-  PetscBool  patched;    /* whether patch and normal_id exist; equal on all ranks */
+  PetscBool  patched;    /* whether patch exists; equal on all ranks */
   PetscBool  cut;        /* whether the facets are parts of facets of order 2; equal on all ranks */
   PetscInt  *prescribed; /* [nfacets] Bit 3 a + c is set if a face of the mesh prescribes the displacement of vertex a
                         along axis c. */
@@ -61,7 +60,7 @@ typedef enum { CONTACT_TRACE_FORWARD, CONTACT_TRACE_INVERSE } ContactTraceType;
 PETSC_INTERN PetscErrorCode ContactTraceCreate(DM, PetscInt nsurfaces, const ContactSurface *const surface[],
   ContactTraceType, PetscInt components, Mat *correction);
 PETSC_INTERN PetscErrorCode ContactTraceApply(DM, Mat correction, Vec u, Vec local);
-PETSC_INTERN PetscErrorCode ContactTraceDifferentiate(Mat correction, Vec which, Mat jacobian);
+PETSC_INTERN PetscErrorCode ContactTraceDifferentiate(Mat correction, Mat jacobian);
 PETSC_INTERN PetscErrorCode ContactTraceRecover(Mat correction, Mat rows);
 
 /* border.c: the border of a surface, and the vertices whose displacement is prescribed */

@@ -171,16 +171,14 @@ PetscErrorCode ContactTraceApply(DM dm, Mat correction, Vec u, Vec local)
 
 /*
    Multiplies rows of a Jacobian by T from the right: derivatives with respect to the displacement of the surfaces'
-   vertices become derivatives with respect to the displacement of the mesh's nodes. This is done in rows where `which`
-   is 1, or in all rows if `which` is NULL.
+   vertices become derivatives with respect to the displacement of the mesh's nodes.
 */
-PetscErrorCode ContactTraceDifferentiate(Mat correction, Vec which, Mat jacobian)
+PetscErrorCode ContactTraceDifferentiate(Mat correction, Mat jacobian)
 {
   Mat product;
 
   PetscFunctionBegin;
   PetscCall(MatMatMult(jacobian, correction, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product));
-  if (which) PetscCall(MatDiagonalScale(product, which, NULL));
   PetscCall(MatAXPY(jacobian, 1.0, product, DIFFERENT_NONZERO_PATTERN));
   PetscCall(MatDestroy(&product));
   PetscFunctionReturn(0);

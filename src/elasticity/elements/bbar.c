@@ -176,7 +176,8 @@ static void DilatationGetGradient(const Dilatation *d, PetscInt q, PetscReal H[9
   for (int i = 0; i < 9; ++i) H[i] = LANE(d->pack[q / LANES].H[i], q % LANES);
 }
 
-/* Adds kappa Theta times the second derivative of the dilatation to the tangents at the points of a pack. mean: Theta_k */
+/* Adds kappa Theta times the second derivative of the dilatation to the tangents at the points of a pack. mean:
+   Theta_k */
 static void BbarAddCurvature(const CellBasis *basis, const BodyMaterial *m, const Dilatation *d,
   const PetscReal mean[POLYNOMIALS], PetscInt pack, Lanes A[81])
 {
@@ -190,9 +191,9 @@ static void BbarAddCurvature(const CellBasis *basis, const BodyMaterial *m, cons
 }
 
 /*
-   Computes Theta_k of U linearized at `before`. If a step of Newton's method goes from `before` to U, kappa Theta is then
-   the pressure that the step was to give. That of U itself is false: the step changes volumes in the second order, and
-   kappa is large. Its product with the second derivative of the dilatation would make the stiffness indefinite.
+   Computes Theta_k of U linearized at `before`. If a step of Newton's method goes from `before` to U, kappa Theta is
+   then the pressure that the step was to give. That of U itself is false: the step changes volumes in the second order,
+   and kappa is large. Its product with the second derivative of the dilatation would make the stiffness indefinite.
    Reference: Magisano, Leonetti and Garcea, How to improve efficiency and robustness of the Newton method in
    geometrically non-linear structural problem discretized via displacement-based finite elements, 2017.
 */

@@ -20,13 +20,9 @@ PETSC_INTERN PetscErrorCode ContactUpdateReportDriven(const StepProblem *, StepR
 PETSC_INTERN PetscErrorCode ContactUpdateNewton(StepProblem *, const ContactSolution *, ContactLinearization at_u,
   Vec x, Vec u, Vec next, StepReport *, PetscBool *found);
 
-/* anticipate.c: correction of the gap of smooth surfaces */
-PETSC_INTERN PetscErrorCode ContactUpdateAnticipate(StepProblem *, ContactLinearization);
-
 /* linearization.c: the displacements at which the gap is linearized */
 PETSC_INTERN PetscErrorCode ContactUpdateGetGaps(Model, State, PetscReal time, Vec u, ContactLinearization *);
-PETSC_INTERN PetscErrorCode ContactUpdateLinearize(Model, State, PetscReal time, Vec u, PetscBool anticipates,
-  ContactLinearization *);
+PETSC_INTERN PetscErrorCode ContactUpdateLinearize(Model, State, PetscReal time, Vec u, ContactLinearization *);
 PETSC_INTERN PetscErrorCode ContactUpdateBegin(StepProblem *, PetscBool foreseen, Vec u, const StepReport *,
   Vec *u_linearized);
 PETSC_INTERN PetscErrorCode ContactUpdateNext(StepProblem *, Anderson *, const ContactSolution *, Vec u,

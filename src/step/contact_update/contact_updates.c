@@ -81,7 +81,6 @@ static PetscErrorCode ContactUpdatesSolveLinearized(StepProblem *p, PetscBool re
     PetscCall(StepProblemSetContact(p, p->state->solved->linearization, u_linearized));
     PetscCall(ProximalLinearize(p, u_linearized));
     PetscCall(PetscLogEventEnd(CONTACT_Linearize, NULL, NULL, NULL, NULL));
-    if (resume && !p->by_newton) PetscCall(ContactUpdateAnticipate(p, p->state->solved->linearization));
     PetscCall(StepProblemSolve(p, (PetscBool)(resume && !missed), u, report, sol));
     PetscCall(ContactUpdateReportDriven(p, report));
     if (report->converged) PetscCall(ContactUpdateKeepForces(p, sol));
@@ -140,8 +139,7 @@ static PetscErrorCode ContactUpdatesOnce(StepProblem *p, PetscBool resume, Vec u
   if (!report->converged) PetscFunctionReturn(0);
   ++report->contact_updates;
   if (report->contact_updates == 1 && (p->friction.T || p->model->scene->contact_updates == 1))
-    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, PETSC_TRUE,
-      at_u)); /* in this case the gap is linearized next at u */
+    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, at_u)); /* the gap is linearized next at u */
   else PetscCall(ContactUpdateGetGaps(p->model, p->state, p->time, u, at_u));
   PetscCall(MissedFindLostRows(p, u_linearized, u, *at_u, report, slid));
   if (!report->converged) PetscFunctionReturn(0);
@@ -172,13 +170,13 @@ static PetscErrorCode ContactUpdatesUndeformed(StepProblem *p, PetscBool vanishe
   PetscCall(ZeroLoadStepIsDue(p, vanishes, &due));
   if (!due) PetscFunctionReturn(0);
   PetscCall(VecZeroEntries(u));
-  PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, PETSC_FALSE, &undeformed));
+  PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, &undeformed));
   PetscCall(ZeroLoadStepSolve(p, undeformed, u, report, sol, rests));
   if (*rests) {
     PetscCall(ContactLinearizationDestroy(&p->state->solved->linearization));
     p->state->solved->linearization = undeformed;
     PetscCall(ContactLinearizationDestroy(at_u));
-    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, PETSC_FALSE, at_u));
+    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, at_u));
     PetscCall(ContactUpdatesMeasureGap(p, u, sol, *at_u, report, &is_true));
     report->gap_change = report->normals_turn = report->slip_change = report->update_error = 0.0;
     report->gap_unconverged                                                                = PETSC_FALSE;

@@ -22,13 +22,11 @@ PetscErrorCode ContactUpdateGetGaps(Model model, State state, PetscReal time, Ve
   PetscFunctionReturn(0);
 }
 
-/* Linearizes the gap at u for a load step that ends at `time`. The ramps of initial overlaps are applied.
-   anticipates: whether the derivative that ContactUpdateAnticipate() needs is computed too */
-PetscErrorCode ContactUpdateLinearize(Model model, State state, PetscReal time, Vec u, PetscBool anticipates,
-  ContactLinearization *lin)
+/* Linearizes the gap at u for a load step that ends at `time`. The ramps of initial overlaps are applied. */
+PetscErrorCode ContactUpdateLinearize(Model model, State state, PetscReal time, Vec u, ContactLinearization *lin)
 {
   PetscFunctionBegin;
-  PetscCall(ContactLinearize(model->contact, u, anticipates ? CONTACT_DERIVATIVE : CONTACT_FORCES, lin));
+  PetscCall(ContactLinearize(model->contact, u, CONTACT_FORCES, lin));
   PetscCall(InterferenceAdd(model, state, time, 1.0, *lin));
   PetscFunctionReturn(0);
 }
@@ -116,8 +114,7 @@ PetscErrorCode ContactUpdateBegin(StepProblem *p, PetscBool foreseen, Vec u, con
     PetscCall(ContactLinearizationDestroy(&p->state->solved->upcoming));
   }
   if (!p->state->solved->upcoming)
-    PetscCall(ContactLinearize(p->model->contact, *u_linearized, foreseen ? CONTACT_DERIVATIVE : CONTACT_FORCES,
-      &p->state->solved->upcoming));
+    PetscCall(ContactLinearize(p->model->contact, *u_linearized, CONTACT_FORCES, &p->state->solved->upcoming));
   p->state->solved->linearization = p->state->solved->upcoming;
   p->state->solved->upcoming      = NULL;
   PetscCall(InterferenceAdd(p->model, p->state, p->time, 1.0, p->state->solved->linearization));
@@ -168,7 +165,7 @@ PetscErrorCode ContactUpdateNext(StepProblem *p, Anderson *secants, const Contac
   if (!at_solution || (*at_u)->gaps_only) {
     PetscCall(ContactLinearizationDestroy(at_u));
     PetscCall(ContactUpdateMakeRigid(p, u_linearized));
-    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u_linearized, (PetscBool)!p->by_newton, at_u));
+    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u_linearized, at_u));
   }
   p->state->solved->linearization = *at_u;
   *at_u                           = NULL;

@@ -53,7 +53,7 @@ PetscErrorCode MissedFind(const StepProblem *p, Vec u_linearized, Vec u, Vec own
   if (2.0 * moved > *reach) { /* each of the two faces may have moved by `moved` */
     *reach = 2.0 * PetscMax(moved, *reach);
     PetscCall(ContactSetReach(p->model->contact, *reach, 0.0));
-    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u_linearized, PETSC_TRUE, &wide));
+    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u_linearized, &wide));
     PetscCall(ContactSetReach(p->model->contact, 0.0, 0.0));
     PetscCall(VecDuplicate(wide->g, &gap));
     PetscCall(MatMultAdd(wide->J, du, wide->g, gap));
@@ -96,7 +96,7 @@ PetscErrorCode MissedFindLostRows(const StepProblem *p, Vec u_linearized, Vec u,
     PetscCall(VecDestroy(&du));
     PetscCall(ContactGetReach(p->model->contact, &distance, &depth));
     PetscCall(ContactSetReach(p->model->contact, 0.0, depth + 2.0 * moved));
-    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, PETSC_FALSE, &deep));
+    PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, &deep));
     PetscCall(ContactSetReach(p->model->contact, 0.0, 0.0));
     PetscCall(ContactHistoryLeastGap(p->state->history, lost, deep, &least));
     PetscCall(ContactLinearizationDestroy(&deep));
@@ -116,7 +116,7 @@ static PetscErrorCode MissedFindMet(Model model, State state, PetscReal time, Pe
 
   PetscFunctionBegin;
   *met = PETSC_FALSE;
-  PetscCall(ContactUpdateLinearize(model, state, time, u, PETSC_FALSE, &lin));
+  PetscCall(ContactUpdateLinearize(model, state, time, u, &lin));
   for (PetscInt r = 0; r < lin->nlocal; ++r) *met = (PetscBool)(*met || lin->pair[r] == pair);
   PetscCall(ContactLinearizationDestroy(&lin));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, met, 1, MPI_PETSCBOOL, MPI_LOR, model->comm));
