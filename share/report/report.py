@@ -575,6 +575,8 @@ def page(base, run, scene, command, versions):
     yield "<h2>Results</h2>\n"
     with open(scene, encoding="utf-8", errors="replace") as file:
         written = file.read()
+    if run["steps"] and run["steps"][0]["step"] > 1:
+        yield f"<p>Largest values since the restart at the end of load step {run['steps'][0]['step'] - 1}.</p>\n"
     yield from answers(run, re.search(r"^(symmetry|cyclic)\s*:", written, re.M) is not None)
     yield from results(run)
     if any(step["converged"] for step in run["steps"]):

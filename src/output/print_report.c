@@ -248,6 +248,9 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
   PetscFunctionBegin;
   PetscCall(PetscViewerASCIIPrintf(viewer, "\nProblem %s: %s%s%s%s\n", report->problem, report->reason,
     units ? " (" : "", units ? units : "", units ? ")" : ""));
+  if (report->nsteps && report->steps[0].step > 1)
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+      "  largest values since the restart at the end of load step %" PetscInt_FMT "\n", report->steps[0].step - 1));
   PetscCall(ReportViewFigures(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer,
     "  %.3g s, %.0f MB, %" PetscInt_FMT " unknowns, %" PetscInt_FMT " load step%s, %" PetscInt_FMT " rank%s\n",

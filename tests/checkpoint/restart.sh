@@ -58,6 +58,7 @@ judge "refined" 1e-9 whole.json part.json energy
 "$contact" later.yaml $options -summary whole.json
 "$contact" later.yaml $options -restart press.h5 -summary part.json
 judge "another load program" 1e-9 whole.json part.json
+"$contact" press.yaml -restart press.h5 | grep -A1 '^Problem'
 
 "$contact" press.yaml $options -summary whole.json
 # begun PID COMMAND...: waits until the command succeeds, as long as the run lives

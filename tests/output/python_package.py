@@ -22,7 +22,8 @@ def notebook():
         exec(compile(cell.replace("print(", "str("), "press.ipynb", "exec"), names)
     os.chdir(here)
     print(
-        f"notebook: {len(cells)} cells, a picture of more than 5,000 bytes: {os.path.getsize(names['picture']) > 5000}")
+        f"notebook: {len(cells)} cells, a picture of more than 5,000 bytes: {os.path.getsize(names['picture']) > 5000},"
+        f" which the last cell shows: {cells[-1].endswith('picture') and names['picture']._repr_png_()[1:4] == b'PNG'}")
 
 
 def calls():

@@ -57,6 +57,14 @@ class Table(dict):
         return pandas.DataFrame(dict(self))
 
 
+class Picture(str):
+    """The name of a picture's file; a notebook shows the picture"""
+
+    def _repr_png_(self):
+        with open(self, "rb") as file:
+            return file.read()
+
+
 class Run:
     """What contact -output BASE -summary BASE.json wrote. Everything is read when it is first asked for"""
 
@@ -167,7 +175,7 @@ class Run:
              FIELDS.get(field, field), *words], capture_output=True, text=True)
         if done.returncode:
             raise ContactError((done.stderr.strip().splitlines() or ["the picture failed"])[-1])
-        return picture
+        return Picture(picture)
 
 
 def load(base):
