@@ -87,6 +87,7 @@ CAPTION = 44  # below the bodies [pixels]
 # Values that differ by less are equal; among their places the one with the smallest product is taken. The program does
 # the same: REPORT_TIE and LargestOrder()
 TIE, ORDER = 1e-6, (1, 0.6180339887, 0.4142135624)
+ROUNDING = 1e-12  # displacements, relative to the size of the model, that are not drawn larger than they are
 TRIAD = 130  # below the colour bar
 
 
@@ -373,8 +374,8 @@ def colour_table(args, run, values):
 def displacement_scale(args, run, cells, displacement):
     nodes = nodes_of(run, cells)
     if args.scale == "auto":
-        largest = np.linalg.norm(displacement[nodes], axis=1).max()
-        return max(1.0, 0.1 * np.ptp(run.vertices[nodes], axis=0).max() / largest) if largest > 0 else 1.0
+        largest, size = np.linalg.norm(displacement[nodes], axis=1).max(), np.ptp(run.vertices[nodes], axis=0).max()
+        return max(1.0, 0.1 * size / largest) if largest > ROUNDING * size else 1.0
     try:
         return float(args.scale)
     except ValueError:

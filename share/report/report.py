@@ -244,17 +244,17 @@ def small_contact(files, step):
 
 
 def pictures(base, run):
-    """Stress over the load steps; displacement of the last one; pressure and plastic strain where they are largest"""
+    """Stress over the load steps; displacement and pressure where they are largest; plastic strain of the last one"""
     from contact.files import Files
 
     run_files = Files(base)
     files = run_files.files
     steps, stressed = chosen_steps(run, files)
-    last, pressure = max(files), largest(run, "contact pressure")
-    pressed = pressure["step"] if pressure and pressure["step"] in files else last
+    last, pressure, moved = max(files), largest(run, "contact pressure"), largest(run, "displacement")
+    pressed, farthest = (figure["step"] if figure and figure["step"] in files else last for figure in (pressure, moved))
     zoom = ["--around-contact", "3"] if pressure and small_contact(run_files, pressed) else []
     wanted = [("Von Mises stress", "nodal_von_mises", [], steps),
-              ("Displacement", "displacement", ["--scale", "auto"], [last])]
+              ("Displacement", "displacement", ["--scale", "auto"], [farthest])]
     if pressure:
         wanted.append(("Contact pressure", "contact_pressure", ["--contact-only", *zoom], [pressed]))
     if largest(run, "eq. plastic strain"):
@@ -478,8 +478,8 @@ def forces(step):
         heading += ["shear force", "area that sticks", "area that slips", "work of friction"]
     if step["pairs"]:
         yield table(heading, [[pair["name"], *(pair[key] for key in keys)] for pair in step["pairs"]])
-    keys = ["name", "reaction", "moment"]
-    yield table(["face", "reaction (x, y, z)", "moment"], [[face[key] for key in keys] for face in step["faces"]])
+    yield table(["face", "reaction (x, y, z)", "moment"],
+                [[face["name"].removesuffix(".*"), face["reaction"], face["moment"]] for face in step["faces"]])
     if step["rigid_bodies"]:
         keys = ["name", "position", "rotation"]
         yield table(["rigid body", "position (x, y, z)", "rotation since the start, degrees"],

@@ -49,6 +49,8 @@ for view, keep in (("20 -60", 1), ("20 60", -1)):
     print(f"section, seen from {view}:",
           bool(left.min() > -1e-6 and left.max() > 0.4 * (high - low)[1] and keep * (place[1] - middle[1]) > -1e-6))
 args = draw.arguments(["boxes", "no.png", "--field", "nodal_von_mises", "--scale", "auto"])
+cells, tiny = draw.chosen_cells(args, run), 1e-14 * run.displacement(step)
+print("rounding errors are not enlarged:", draw.displacement_scale(args, run, cells, tiny) == 1)
 frame = draw.one_frame(args, run, sorted(run.files))
 cameras = []
 for args.step in sorted(run.files):

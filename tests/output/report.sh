@@ -4,7 +4,8 @@ contact=$AMGF_DIR/bin/contact
 sed "s/problem: boxes/& \& <others>/" "$AMGF_DIR/tests/lib/boxes.yaml" > boxes.yaml
 judge() { "$PYTHON" -B "$AMGF_DIR/tests/output/report.py" "$@"; }
 
-"$contact" boxes.yaml -quiet -report one.html || echo "exit code $?"
+sed 's/load:.*/load: {factors: [1, 0.5]}/' boxes.yaml > one.yaml
+"$contact" one.yaml -quiet -report one.html || echo "exit code $?"
 judge one 5
 mkdir -p installed/bin installed/share/amgf
 cp "$contact" installed/bin
