@@ -353,6 +353,15 @@ def listed(run, quantity):
                      for figure in run["figures"] if figure["quantity"] == quantity)
 
 
+def narrow(run):
+    """The pairs whose area is only one facet wide, in words"""
+    steps = {step["step"]: [pair["name"] for pair in step["pairs"] if pair["narrow"]] for step in run["steps"]}
+    names = [figure["name"] for figure in run["figures"]
+             if figure["quantity"] == "contact area" and figure["value"] and figure["name"] in steps[figure["step"]]]
+    return (f". One facet wide, so that area and pressure depend on the mesh: {html.escape(', '.join(names))}."
+            if names else "")
+
+
 def yields(run):
     """Whether the material yields, in words"""
     strain = largest(run, "eq. plastic strain")
@@ -396,7 +405,7 @@ def answers(run, symmetric):
         ("force", "Which force does the tool or the support need?",
          f"{amount(force)} at {html.escape(force['name'].removesuffix('.*'))}{when(run, force)}{part}"
          if force else "There is none." + f" Normal force of the contact: {normal}{part}" * bool(normal)),
-        ("area", "How large is the contact area?", areas + part if areas else "There is no contact."),
+        ("area", "How large is the contact area?", areas + part + narrow(run) if areas else "There is no contact."),
         ("accuracy", "How accurate is it?", mean or "Not estimated."),
     ]
     yield "<dl>\n" + "".join(f'<dt>{question}</dt><dd id="answer-{name}">{answer}</dd>\n'

@@ -45,9 +45,23 @@ static PetscInt FigureTableFind(const FigureTable *table, PetscBool row, const c
   return i;
 }
 
+/* Returns whether a figure is a contact area that is only one facet wide */
+static PetscBool FigureIsNarrow(const RunReport *report, const RunFigure *figure)
+{
+  if (strcmp(figure->quantity, "contact area") || !(figure->value > 0.0)) return PETSC_FALSE;
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    const StepReport *step = &report->steps[s];
+
+    for (PetscInt p = 0; p < step->npairs; ++p) {
+      if (step->step == figure->step && !strcmp(step->pairs[p].name, figure->name)) return step->pairs[p].narrow;
+    }
+  }
+  return PETSC_FALSE;
+}
+
 /* Writes a figure to its row and columns: its value, place or components, and load step if there are several */
-static PetscErrorCode FigureTableAdd(FigureTable *table, const RunFigure *figure, PetscBool steps, PetscInt *nrows,
-  PetscInt *ncolumns)
+static PetscErrorCode FigureTableAdd(FigureTable *table, const RunReport *report, const RunFigure *figure,
+  PetscBool steps, PetscInt *nrows, PetscInt *ncolumns)
 {
   const PetscReal *vector = PetscIsNanReal(figure->place[0]) ? figure->components : figure->place;
   char             heading[CELL], name[CELL];
@@ -60,7 +74,8 @@ static PetscErrorCode FigureTableAdd(FigureTable *table, const RunFigure *figure
   row    = FigureTableFind(table, PETSC_FALSE, name, *nrows);
   (void)snprintf(FigureTableCell(table, 0, column), CELL, "%s", heading);
   (void)snprintf(FigureTableCell(table, row, 0), CELL, "%s", name);
-  (void)snprintf(FigureTableCell(table, row, column), CELL, "%.5g", (double)figure->value);
+  (void)snprintf(FigureTableCell(table, row, column), CELL, "%.5g%s", (double)figure->value,
+    FigureIsNarrow(report, figure) ? " (one facet wide)" : "");
   *nrows    = PetscMax(*nrows, row + 1);
   *ncolumns = PetscMax(*ncolumns, column + 1);
   if (PetscIsNanReal(vector[0])) PetscFunctionReturn(0);
@@ -125,7 +140,7 @@ static PetscErrorCode FiguresViewTable(const RunReport *report, FigureOwner owne
   (void)snprintf(FigureTableCell(&table, 0, 0), CELL, "%s", heading);
   for (PetscInt f = 0; f < report->nfigures; ++f) {
     if (report->figures[f].owner == owner)
-      PetscCall(FigureTableAdd(&table, &report->figures[f], steps, &nrows, &ncolumns));
+      PetscCall(FigureTableAdd(&table, report, &report->figures[f], steps, &nrows, &ncolumns));
   }
   PetscCall(FigureTableView(&table, nrows, ncolumns, viewer));
   PetscCall(PetscFree(table.cells));

@@ -51,6 +51,7 @@ static const ReportField pair_fields[] = {
   FIELD(PairReport, normal_force, FIELD_REAL, "force",
     .columns = {COLUMN(TABLE_PAIRS, "normal", "", 12, .format = "%.6e")}),
   FIELD(PairReport, area, FIELD_REAL, "length^2", .columns = {COLUMN(TABLE_PAIRS, "area", "", 10, .format = "%.4e")}),
+  FIELD(PairReport, narrow, FIELD_BOOL, ""),
   FIELD(PairReport, pressure, FIELD_REAL, "force/length^2",
     .columns = {COLUMN(TABLE_PAIRS, "pressure", "", 10, .format = "%.4e")}),
   FIELD(PairReport, pressure_place, FIELD_VECTOR, "length"),

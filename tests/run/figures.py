@@ -76,6 +76,17 @@ forces:
   - right: {face: strip.xmax, moment: [0, -260, 0]}
 load: {steps: 4}
 """
+ROLL = """
+problem: roll
+bodies:
+  - block: {lower: [0, 0, 0], upper: [4, 1, 1], cells: [4, 1, 2], young: 1000, poisson: 0.3}
+  - roll: {shape: rigid_cylinder, center: [2, 0, 4], direction: [0, 1, 0], radius: 3}
+displacements:
+  - base: {face: block.zmin, value: [0, 0, 0]}
+  - press: {body: roll, value: [0, 0, -0.01]}
+contact:
+  - line: {mortar: roll.surface, nonmortar: block.zmax}
+"""
 
 
 def figure(run, quantity, name=""):
@@ -177,6 +188,12 @@ def hinge(run):
         strain["value"] > 0.05 and within(stress["value"], 100 + 300 * strain["value"], 0.03), (stress, strain))
 
 
+def roll(run):
+    """A line that a cylinder presses: its width is that of the facets"""
+    pairs = {pair["name"]: pair["narrow"] for pair in run["steps"][0]["pairs"]}
+    say("roll: one facet wide", pairs["line"], pairs)
+
+
 def bolt(run):
     force = figure(run, "bolt force", "m1")
     say("bolt: force", within(force["value"], 3, 1e-6) and force["unit"] == "N", force)
@@ -217,7 +234,7 @@ def table(lines, owner):
     return rows
 
 
-def said(figure, lines, steps):
+def said(figure, lines, steps, narrow):
     """Whether the terminal has the figure, with its place or components and its load step"""
     value, vector = f"{figure['value']:.5g}", figure["components"]
     if figure["quantity"] == "symmetry reaction":
@@ -231,7 +248,7 @@ def said(figure, lines, steps):
     column += f" [{figure['unit']}]" if figure["unit"] else ""
     if figure["place"][0] is not None:
         vector = figure["place"]
-    expected = [value]
+    expected = [value + " (one facet wide)" * (figure["quantity"] == "contact area" and figure["name"] in narrow)]
     if vector[0] is not None:
         expected.append(f"({words(vector, 1e-9 * max(map(abs, vector)))})")
         expected += [str(figure["step"])] * steps
@@ -242,7 +259,8 @@ def terminal(name, run):
     with open(name + ".txt", encoding="utf-8") as file:
         lines = file.readlines()
     steps = sum(step["converged"] for step in run["steps"]) > 1
-    missing = [figure for figure in run["figures"] if not said(figure, lines, steps)]
+    narrow = [pair["name"] for pair in run["steps"][0]["pairs"] if pair["narrow"]]
+    missing = [figure for figure in run["figures"] if not said(figure, lines, steps, narrow)]
     say(name + ": the terminal has the figures of the summary", not missing, missing)
     known = [figure["name"] for figure in run["figures"] if figure["quantity"] == "safety against yield"]
     said_none = [
@@ -280,7 +298,7 @@ def ranks(name, run):
 
 def check():
     for name, test in (("cantilever", cantilever), ("tube", tube), ("tool", tool), ("bolt", bolt), ("layer", layer),
-                       ("hinge", hinge)):
+                       ("hinge", hinge), ("roll", roll)):
         run = load(name)
         test(run)
         terminal(name, run)
@@ -301,7 +319,7 @@ def check():
 
 if sys.argv[1] == "write":
     for name, text in (("cantilever", CANTILEVER), ("tube", TUBE), ("tool", TOOL), ("bolt", BOLT), ("layer", LAYER),
-                       ("hinge", HINGE)):
+                       ("hinge", HINGE), ("roll", ROLL)):
         with open(name + ".yaml", "w", encoding="utf-8") as file:
             file.write(text.lstrip())
 else:
