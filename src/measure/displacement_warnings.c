@@ -36,7 +36,7 @@ static PetscErrorCode DisplacementGetHeight(DM dm, PetscInt body, const PetscRea
   PetscFunctionReturn(0);
 }
 
-/* Warns of a displacement that is larger than the height of an elastic body on which the displaced one presses */
+/* Warns of a displacement that is more than twice the height of an elastic body on which the displaced one presses */
 static PetscErrorCode DisplacementTest(const Measured *at, const SceneDisplacement *here, const SceneBody *moved,
   const SceneBody *pressed, PetscReal time)
 {
@@ -51,7 +51,7 @@ static PetscErrorCode DisplacementTest(const Measured *at, const SceneDisplaceme
   PetscCall(SceneGetFactor(at->scene, here->ramp, time, &factor));
   PetscCall(DisplacementGetHeight(at->dm, (PetscInt)(pressed - at->scene->bodies), along, &height));
   motion *= PetscAbsReal(factor);
-  if (motion > height)
+  if (motion > 2.0 * height)
     PetscCall(ReportWarn(at->comm, at->report, here->place,
       "displacement \"%s\" moves body \"%s\" by %.3g, %.2g times the height of body \"%s\", on which it presses: is it "
       "meant?",
@@ -59,7 +59,7 @@ static PetscErrorCode DisplacementTest(const Measured *at, const SceneDisplaceme
   PetscFunctionReturn(0);
 }
 
-/* Collective. Warns of displacements that are larger than the bodies that they press, if the load step has failed */
+/* Collective. Warns of displacements much larger than the bodies that they press, if the load step has failed */
 PetscErrorCode DisplacementWarn(Simulation sim, const StepReport *report)
 {
   const Measured at    = SimulationMeasured(sim);
