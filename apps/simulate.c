@@ -5,7 +5,7 @@
 #include <checkpoint.h>
 
 static PetscErrorCode AppCreateSimulation(const AppOptions *app, Scene scene, Accuracy *accuracy,
-  const MeshMarks *marks, StepForecast *forecast, Simulation *sim)
+  const MeshMarks *marks, Simulation *sim)
 {
   StepTolerances tolerances;
 
@@ -18,7 +18,7 @@ static PetscErrorCode AppCreateSimulation(const AppOptions *app, Scene scene, Ac
   PetscCall(SimulationSetFields(*sim, app->write, (PetscBool)(app->write && app->gauss)));
   PetscCall(SimulationSetFromOptions(*sim));
   if (accuracy->adaptive) PetscCall(SimulationSetMarks(*sim, marks));
-  if (accuracy->target > 0.0) PetscCall(SimulationSetForecast(*sim, forecast));
+  if (accuracy->target > 0.0) PetscCall(SimulationSetMeshFollows(*sim));
   PetscCall(SimulationSetUp(*sim));
   PetscFunctionReturn(0);
 }
@@ -152,8 +152,8 @@ static PetscErrorCode AppSimulateSteps(const AppOptions *app, Scene scene, Simul
 }
 
 /* Solves all load steps on one mesh. *again: -accuracy needs another run, with the settings that it has changed. */
-static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, MeshMarks *marks,
-  StepForecast *forecast, RunEnd *end, PetscBool *again)
+static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *accuracy, MeshMarks *marks, RunEnd *end,
+  PetscBool *again)
 {
   Simulation       sim;
   Output           output;
@@ -166,7 +166,7 @@ static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *
 
   PetscFunctionBeginUser;
   *again = PETSC_FALSE;
-  PetscCall(AppCreateSimulation(app, scene, accuracy, marks, forecast, &sim));
+  PetscCall(AppCreateSimulation(app, scene, accuracy, marks, &sim));
   PetscCall(AppRestart(app, scene, sim, &first, &same));
   PetscCall(AppCreateOutput(app, scene, sim, &output));
   if (output && first) PetscCall(OutputContinue(output, first, SceneTimeStep(scene), same));
@@ -191,10 +191,9 @@ static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *
 
 PetscErrorCode AppSolve(const AppOptions *app, Scene scene, RunEnd *end)
 {
-  Accuracy     accuracy;
-  MeshMarks    marks    = {0, NULL, NULL};
-  StepForecast forecast = {.dm = NULL};
-  PetscBool    again;
+  Accuracy  accuracy;
+  MeshMarks marks = {0, NULL, NULL};
+  PetscBool again;
 
   PetscFunctionBeginUser;
   PetscCall(AppCheckFiles(app, scene));
@@ -203,11 +202,10 @@ PetscErrorCode AppSolve(const AppOptions *app, Scene scene, RunEnd *end)
     "-accuracy solves the scene on several meshes: it cannot be combined with -checkpoint_every or -restart");
   PetscCall(SimulationCatchSignals());
   do {
-    PetscCall(AppSimulate(app, scene, &accuracy, &marks, &forecast, end, &again));
+    PetscCall(AppSimulate(app, scene, &accuracy, &marks, end, &again));
     if (again && !app->quiet) PetscCall(ReportViewNextMesh(&accuracy, scene->refine, PETSC_VIEWER_STDOUT_WORLD));
   } while (again);
   PetscCall(AccuracyDestroy(&accuracy));
   PetscCall(MeshMarksDestroy(&marks));
-  PetscCall(StepForecastDestroy(&forecast));
   PetscFunctionReturn(0);
 }

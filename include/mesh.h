@@ -144,11 +144,6 @@ typedef struct {
   PetscReal N[MESH_MAX_NODES];
 } MeshPlace;
 
-/* Evaluates fields, which are global vectors, at points of this rank: [nfields][3] values per point. *missing:
-   number of points on all ranks that have no cell near them */
-PETSC_EXTERN PetscErrorCode MeshEvaluate(DM, PetscInt nfields, const Vec fields[], PetscInt npoints,
-  const PetscReal points[][3], const PetscInt body[], PetscReal values[], PetscInt *missing);
-
 /* Finds the cells that contain given points, among the cells of a DM or any other cells */
 typedef struct _n_MeshLocator *MeshLocator;
 PETSC_EXTERN PetscErrorCode    MeshLocate(DM, PetscInt n, const PetscReal points[][3], const PetscInt body[],

@@ -22,13 +22,6 @@ typedef struct {
                                 the largest displacement */
 } StepTolerances;
 
-/* Displacements and contact pressures at the ends of all load steps on a mesh. Initialize the struct with zeros. */
-typedef struct {
-  DM       dm;
-  PetscInt nsteps, nfields;
-  Vec     *fields; /* nsteps x nfields */
-} StepForecast;
-
 /* Functions must be called in this order: create, set, SimulationSetFromOptions(), SimulationSetUp(), load steps. */
 PETSC_EXTERN PetscErrorCode SimulationCreate(MPI_Comm, Scene, Simulation *);
 PETSC_EXTERN PetscErrorCode SimulationSetTolerances(Simulation, const StepTolerances *);
@@ -36,11 +29,9 @@ PETSC_EXTERN PetscErrorCode SimulationGetTolerances(Simulation, StepTolerances *
 PETSC_EXTERN PetscErrorCode SimulationSetMonitor(Simulation, PetscBool);
 PETSC_EXTERN PetscErrorCode SimulationSetFields(Simulation, PetscBool nodes, PetscBool points);
 PETSC_EXTERN PetscErrorCode SimulationSetFromOptions(Simulation);
+/* Says that the run may be followed by one on a finer mesh: progress messages do not estimate the remaining time */
+PETSC_EXTERN PetscErrorCode SimulationSetMeshFollows(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationSetMarks(Simulation, const MeshMarks *);
-/* Sets the results on another mesh from which the load steps start. At the end of the run they are replaced by those
-   on this mesh. */
-PETSC_EXTERN PetscErrorCode SimulationSetForecast(Simulation, StepForecast *);
-PETSC_EXTERN PetscErrorCode StepForecastDestroy(StepForecast *);
 PETSC_EXTERN PetscErrorCode SimulationSetUp(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationCheck(Simulation);
 PETSC_EXTERN PetscErrorCode SimulationGetDM(Simulation, DM *);

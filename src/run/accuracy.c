@@ -443,9 +443,6 @@ static PetscErrorCode AccuracyRaiseOrder(PetscInt order, Scene scene)
    and costs 8 times as much, so that all coarser meshes together cost a seventh of the last. If the first mesh already
    meets the target, the second one makes the cost 8 times that of the first.
 
-   The load steps of each mesh except the first start from the states at their ends on the previous mesh, see
-   SimulationSetForecast().
-
    Adaptive refinement also uses at least two meshes. Each refines the cells chosen by SimulationPropose(). The error is
    extrapolated with the same rates, where the ratio of cell sizes is at least the cube root of the ratio of unknowns.
 

@@ -64,7 +64,7 @@ static PetscErrorCode ProgressPrint(Simulation sim, PetscLogDouble now, const ch
   char            so_far[PROGRESS_LENGTH], to_come[PROGRESS_LENGTH];
   PetscLogDouble  left;
   const PetscBool known =
-    (PetscBool)(!sim->state->control->forecast.found &&
+    (PetscBool)(!sim->run->progress.follows &&
                 ProgressEstimate(&sim->run->progress, now - sim->run->progress.begun, nsteps - step, &left));
 
   PetscFunctionBegin;

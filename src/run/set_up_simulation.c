@@ -191,7 +191,6 @@ PetscErrorCode SimulationSetUp(Simulation sim)
   PetscCall(SimulationSetUpTangent(sim->model, sim->state));
   PetscCall(MemoryUsageGet(sim->model->comm, &sim->report.memory.assembly));
   PetscCall(PetscLogEventBegin(SIM_SetUp, NULL, NULL, NULL, NULL));
-  PetscCall(ForecastSetUp(sim->model, sim->state));
   PetscCall(SimulationSetUpReport(sim));
   PetscCall(SimulationReportRotations(sim->model, sim->state, &sim->report));
   PetscCall(PetscLogEventEnd(SIM_SetUp, NULL, NULL, NULL, NULL));

@@ -135,6 +135,26 @@ PetscErrorCode SimulationSetMonitor(Simulation sim, PetscBool monitor)
 }
 
 /*@C
+   SimulationSetMeshFollows - Says that a run on a finer mesh may follow, so that progress messages do not estimate the
+   remaining time
+
+   Logically Collective
+
+   Input Parameter:
+.  sim - the simulation, before SimulationSetUp()
+
+   Level: developer
+
+.seealso: `SimulationSetMonitor()`
+@*/
+PetscErrorCode SimulationSetMeshFollows(Simulation sim)
+{
+  PetscFunctionBegin;
+  sim->run->progress.follows = PETSC_TRUE;
+  PetscFunctionReturn(0);
+}
+
+/*@C
    SimulationSetFields - Sets which fields the states of load steps have besides displacement, contact and mean stress
    of the cells
 
@@ -317,7 +337,6 @@ PetscErrorCode SimulationDestroy(Simulation *sim)
   PetscCall(PetscFree(s->results->beyond));
   PetscCall(ResultsFree(s->results));
   PetscCall(PetscFree2(s->run->adapt.errors, s->run->adapt.marked));
-  PetscCall(StepForecastDestroy(&s->state->control->forecast.here));
   PetscCall(ProbesDestroy(&s->results->probes));
   PetscCall(ContactLinearizationDestroy(&s->state->solved->linearization));
   PetscCall(ContactLinearizationDestroy(&s->state->solved->upcoming));

@@ -3,15 +3,6 @@
 
 #include "src/state/stateimpl.h"
 
-/* forecast.c: states at the end of load steps that were computed on another mesh. `here` contains them interpolated to
-   the present mesh, and is empty if there is no forecast. */
-typedef struct {
-  StepForecast *found; /* states on the other mesh, given by the caller; NULL if there is no forecast */
-  StepForecast  here;
-  PetscBool     used, failed; /* `used`: true if the last attempt started from the forecast; `failed`: true if any
-                                 such attempt failed */
-} Forecast;
-
 /* Callbacks that run/progress.c sets; each may be NULL. */
 typedef struct {
   PetscErrorCode (*begin)(Simulation); /* called before a load step */
@@ -49,7 +40,6 @@ struct _n_StepControl {
                                 load step */
   TimeStepControl time_step;
   KSP             ksp; /* linear solver for quadratic load steps without contact; NULL until it is needed */
-  Forecast        forecast;
   StepObserver    observer;
   PetscBool       lost_contact; /* true after a warning of a body that has lost contact */
   PetscInt        unsupported;  /* number of consecutive attempts at this load step that failed because contact cannot

@@ -11,6 +11,7 @@ struct _n_Progress {
   PetscReal      every;    /* interval between printed lines; 0: nothing is printed */
   PetscReal      residual; /* first residual of the current linear solve */
   PetscInt       nsteps;   /* number of load steps that this run has solved completely */
+  PetscBool      follows;  /* whether another mesh may follow, so that the remaining time is not known */
   PetscBool      whole;    /* true if the current load step was started in this run; false if a restart began within
                               it */
   PetscLogDouble begun, said;

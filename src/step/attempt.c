@@ -36,17 +36,17 @@ static PetscBool AttemptTurnsOn(PetscReal allowed, PetscReal last, PetscReal err
 
 /*
    Solves a problem without contact. Rotations of rigid bodies that turn freely are linearized again until the
-   linearized rotations agree with the finite ones. foreseen: true if u is a forecast on entry.
+   linearized rotations agree with the finite ones.
 */
-static PetscErrorCode AttemptBodies(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report, ContactSolution *sol)
+static PetscErrorCode AttemptBodies(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol)
 {
   PetscReal allowed = 0.0, last = PETSC_MAX_REAL;
   PetscBool again = PETSC_FALSE;
 
   PetscFunctionBegin;
   for (PetscInt k = 0; !k || again; ++k) {
-    if (k || foreseen) PetscCall(StepProblemTurn(p, u));
-    PetscCall(StepProblemSolve(p, (PetscBool)(foreseen || k), u, report, sol));
+    if (k) PetscCall(StepProblemTurn(p, u));
+    PetscCall(StepProblemSolve(p, (PetscBool)(k > 0), u, report, sol));
     PetscCall(AttemptGetAllowed(p->model, p->state, u, &allowed));
     again = (PetscBool)(report->converged && AttemptTurnsOn(allowed, last, report->straightened));
     last  = report->straightened;
@@ -112,8 +112,7 @@ static PetscErrorCode AttemptJudgeTimeStep(Model model, State state, PetscReal t
 static PetscErrorCode AttemptCheckStart(Simulation sim, const StepReport *report)
 {
   PetscFunctionBegin;
-  if (!sim->model->contact || sim->state->path->time > 0.0 || report->cuts || sim->state->control->forecast.failed)
-    PetscFunctionReturn(0);
+  if (!sim->model->contact || sim->state->path->time > 0.0 || report->cuts) PetscFunctionReturn(0);
   if (!sim->state->solved->upcoming)
     PetscCall(
       ContactLinearize(sim->model->contact, sim->state->path->u, CONTACT_FORCES, &sim->state->solved->upcoming));
@@ -164,7 +163,6 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   StepProblem          p;
   ContactSolution      sol  = {.gap = NULL};
   ContactLinearization last = sim->state->solved->linearization, at_u = NULL;
-  PetscBool            foreseen;
   Vec                  u;
 
   PetscFunctionBegin;
@@ -175,14 +173,13 @@ PetscErrorCode SimulationAttempt(Simulation sim, PetscReal time, StepReport *rep
   PetscCall(VecDuplicate(sim->state->path->u, &u));
   if (first && time > (PetscReal)(first - 1) && sim->state->path->largest_increment > 0.0)
     PetscCall(StepProblemSetBounds(&p, sim->state->path->largest_increment));
-  PetscCall(ForecastGet(&p, u, &foreseen));
   if (sim->model->contact) {
-    PetscCall(ContactUpdatesSolve(&p, foreseen, u, report, &sol, &at_u));
+    PetscCall(ContactUpdatesSolve(&p, u, report, &sol, &at_u));
     PetscCall(PetscLogEventBegin(SIM_Forces, NULL, NULL, NULL, NULL));
     PetscCall(LostContactSettle(&p, last, u, &sol, &at_u, report));
     PetscCall(MissedFindPassed(sim->model, sim->state, time, u, report));
     PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
-  } else PetscCall(AttemptBodies(&p, foreseen, u, report, &sol));
+  } else PetscCall(AttemptBodies(&p, u, report, &sol));
   PetscCall(AttemptCountUnsupported(&p, report));
   PetscCall(AttemptJudgeTimeStep(sim->model, sim->state, time, u, report));
   if (report->converged) {

@@ -139,7 +139,7 @@ static PetscErrorCode SimulationAdvance(Simulation sim, PetscReal end, StepRepor
   PetscBool *again)
 {
   const PetscReal left = end - sim->state->path->time;
-  PetscBool       anew, repeated;
+  PetscBool       repeated;
 
   PetscFunctionBegin;
   if (*increment > left * (1.0 - PETSC_SQRT_MACHINE_EPSILON)) *increment = left;
@@ -151,12 +151,9 @@ static PetscErrorCode SimulationAdvance(Simulation sim, PetscReal end, StepRepor
     *increment = SimulationLengthen(sim->model, sim->state, *increment);
   }
   if (sim->state->control->time_step.too_long) PetscCall(SimulationShorten(sim->model, sim->state, report, increment));
-  else {
-    PetscCall(ForecastAssess(sim->model, sim->state, report->converged, &anew));
-    if (!report->converged && !anew) {
-      PetscCall(DualGapsTry(sim->model, sim->state, report, &repeated));
-      if (!repeated) PetscCall(SimulationCut(sim->model, sim->state, report, increment, again));
-    }
+  else if (!report->converged) {
+    PetscCall(DualGapsTry(sim->model, sim->state, report, &repeated));
+    if (!repeated) PetscCall(SimulationCut(sim->model, sim->state, report, increment, again));
   }
   sim->state->control->increment = *increment;
   PetscFunctionReturn(0);
@@ -298,7 +295,6 @@ PetscErrorCode SimulationStep(Simulation sim, PetscInt step, StepState *state)
   }
   if (sim->state->path->time >= end) {
     if (sim->model->scene->dynamics.tolerance == 0.0) sim->state->control->increment = 0.0;
-    PetscCall(ForecastRecord(sim->state));
     PetscCall(WorkWarn(sim, report));
     PetscCall(SimulationWarnOfGain(sim, report));
   }

@@ -7,12 +7,6 @@
 
 #include "src/step/contact_update/contact_updateimpl.h"
 
-/* forecast.c: starts from states on another mesh */
-PETSC_INTERN PetscErrorCode ForecastSetUp(Model, State);
-PETSC_INTERN PetscErrorCode ForecastRecord(State);
-PETSC_INTERN PetscErrorCode ForecastGet(const StepProblem *, Vec u, PetscBool *foreseen);
-PETSC_INTERN PetscErrorCode ForecastAssess(Model, State, PetscBool converged, PetscBool *again);
-
 /* attempt.c: attempts to solve up to a given time. STEP_SHORTEST: length of the shortest controlled time steps, as a
    fraction of a load step */
 #define STEP_SHORTEST (1.0 / 1024.0)

@@ -4,7 +4,7 @@ import os
 import sys
 
 from refinement import HERTZ, SLIDE, TWO
-from summaries import each, load, say, within
+from summaries import load, say, within
 
 # of the ball, by 34,770 unknowns of adaptive refinement; 414,222 of uniform refinement say 19278 and 1449
 FORCE, PEAK = 19390.0, 1473.0
@@ -57,11 +57,6 @@ def levels(run):
     return run["accuracy"]["levels"]
 
 
-def later(run):
-    """AMG applications on all meshes but the first"""
-    return sum(l["amg_applications"] for l in levels(run)[1:])
-
-
 def pair(run):
     return run["steps"][-1]["pairs"][0]
 
@@ -108,13 +103,8 @@ def judge():
     reached("cylinder of thin cells", cylinder,
             off(abs(cylinder["steps"][-1]["contact_force"][2]),
                 Cylinder().share * Cylinder().loaded()[0]))
-    for name, start, tolerance in (("cylinder", "cold", 1e-4), ("slide", "slide_cold", 2e-3)):
-        warm, cold = load(name), load(start)
-        say(
-            name + ": started from the mesh before, fewer applications of AMG, the same energies",
-            later(warm) < 0.9 * later(cold)
-            and all(within(a, b, tolerance) for a, b in zip(each(warm, "energy"), each(cold, "energy"))),
-            (levels(warm), levels(cold)))
+    slide = load("slide")
+    say("rubber that slides with friction", slide["accuracy"]["reached"], levels(slide))
     beam, energy = load("cantilever"), load("energy")
     truth = cantilever.ENERGY + (cantilever.ENERGY - beam["steps"][-1]["energy"]) / 3
     reached("cantilever", beam, off(beam["steps"][-1]["energy"], truth))

@@ -78,7 +78,8 @@ refinements:
   - fine: {near: touch, levels: 1, distance: 0.2}
 END
   "$contact" surface.yaml -scene_check > surface.txt 2>&1
-  grep -q " $((512 + 7 * $3)) cells" surface.txt && grep -q " 1 cells" surface.txt && echo "near a rigid $1: yes" ||
+  grep -q " $((512 + 7 * $3)) cells" surface.txt && grep -q "total: $((513 + 7 * $3)) cells" surface.txt &&
+    echo "near a rigid $1: yes" ||
     { echo "near a rigid $1: NO"; cat surface.txt; }
 }
 surface sphere "shape: rigid_sphere, center: [0, 0, 3], radius: 3" 24

@@ -23,8 +23,7 @@ PETSC_INTERN PetscErrorCode ContactUpdateNewton(StepProblem *, const ContactSolu
 /* linearization.c: the displacements at which the gap is linearized */
 PETSC_INTERN PetscErrorCode ContactUpdateGetGaps(Model, State, PetscReal time, Vec u, ContactLinearization *);
 PETSC_INTERN PetscErrorCode ContactUpdateLinearize(Model, State, PetscReal time, Vec u, ContactLinearization *);
-PETSC_INTERN PetscErrorCode ContactUpdateBegin(StepProblem *, PetscBool foreseen, Vec u, const StepReport *,
-  Vec *u_linearized);
+PETSC_INTERN PetscErrorCode ContactUpdateBegin(StepProblem *, Vec u, const StepReport *, Vec *u_linearized);
 PETSC_INTERN PetscErrorCode ContactUpdateNext(StepProblem *, Anderson *, const ContactSolution *, Vec u,
   Vec u_linearized, StepReport *, ContactLinearization *at_u);
 
@@ -34,8 +33,8 @@ PETSC_INTERN PetscErrorCode ContactUpdateSetDirections(StepProblem *);
 PETSC_INTERN PetscErrorCode ContactUpdateKeepForces(StepProblem *, const ContactSolution *);
 
 /* tolerance.c: tolerances of the solves */
-PETSC_INTERN PetscErrorCode ContactUpdateSetTolerance(StepProblem *, PetscBool foreseen, PetscBool again, PetscBool end,
-  Vec u, const StepReport *);
+PETSC_INTERN PetscErrorCode ContactUpdateSetTolerance(StepProblem *, PetscBool again, PetscBool end, Vec u,
+  const StepReport *);
 PETSC_INTERN PetscErrorCode ContactUpdateEndedEarly(const StepProblem *, PetscBool end, Vec u, const StepReport *,
   PetscBool *again);
 
@@ -47,7 +46,7 @@ PETSC_INTERN PetscErrorCode MissedFindLostRows(const StepProblem *, Vec u_linear
 PETSC_INTERN PetscErrorCode MissedFindPassed(Model, State, PetscReal time, Vec u, StepReport *);
 
 /* contact_updates.c: solves the problem of a load step with contact */
-PETSC_INTERN PetscErrorCode ContactUpdatesSolve(StepProblem *, PetscBool foreseen, Vec u, StepReport *,
-  ContactSolution *, ContactLinearization *at_u);
+PETSC_INTERN PetscErrorCode ContactUpdatesSolve(StepProblem *, Vec u, StepReport *, ContactSolution *,
+  ContactLinearization *at_u);
 
 #endif

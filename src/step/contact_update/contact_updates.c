@@ -231,10 +231,9 @@ static PetscErrorCode ContactUpdatesReport(StepProblem *p, PetscBool slid, Conta
 
 /*
    Updates the contact until the gap agrees, a solve fails or contact_updates is reached. On exit u is a solution of the
-   problem with state->solved->linearization, and *at_u is the linearization at u. foreseen: true if u is a forecast on
-   entry.
+   problem with state->solved->linearization, and *at_u is the linearization at u.
 */
-PetscErrorCode ContactUpdatesSolve(StepProblem *p, PetscBool foreseen, Vec u, StepReport *report, ContactSolution *sol,
+PetscErrorCode ContactUpdatesSolve(StepProblem *p, Vec u, StepReport *report, ContactSolution *sol,
   ContactLinearization *at_u)
 {
   Anderson  secants = {0};
@@ -247,12 +246,12 @@ PetscErrorCode ContactUpdatesSolve(StepProblem *p, PetscBool foreseen, Vec u, St
   report->gap_unconverged = PETSC_FALSE;
   p->by_newton            = PETSC_FALSE;
   PetscCall(FrictionRestart(p));
-  PetscCall(ContactUpdateBegin(p, foreseen, u, report, &u_linearized));
+  PetscCall(ContactUpdateBegin(p, u, report, &u_linearized));
   PetscCall(ContactUpdatesUndeformed(p, PETSC_FALSE, u, report, sol, at_u, &end));
   while (!end) {
-    PetscCall(ContactUpdateSetTolerance(p, foreseen, again, last, u, report));
-    PetscCall(ContactUpdatesOnce(p, (PetscBool)(foreseen || again || report->contact_updates > 0), u_linearized, u,
-      report, sol, at_u, &end, &slid));
+    PetscCall(ContactUpdateSetTolerance(p, again, last, u, report));
+    PetscCall(ContactUpdatesOnce(p, (PetscBool)(again || report->contact_updates > 0), u_linearized, u, report, sol,
+      at_u, &end, &slid));
     PetscCall(ContactUpdatesVanish(p, u, &vanishes, &rested));
     vanished = (PetscBool)(vanished || vanishes);
     PetscCall(ContactUpdateEndedEarly(p, end, u, report, &again));

@@ -94,22 +94,21 @@ static PetscErrorCode ContactUpdateContinue(const StepProblem *p, Vec u, PetscBo
 }
 
 /*
-   Sets state->solved->linearization, and creates *u_linearized, the displacement of this linearization. It is u if u is
-   a forecast; an extrapolation of the path if the gap may be linearized again; otherwise the last state. The last state
-   is always used in the first load step and after a cut.
+   Sets state->solved->linearization, and creates *u_linearized, the displacement of this linearization. It is an
+   extrapolation of the path if the gap may be linearized again; otherwise the last state. The last state is always used
+   in the first load step and after a cut.
 */
-PetscErrorCode ContactUpdateBegin(StepProblem *p, PetscBool foreseen, Vec u, const StepReport *report,
-  Vec *u_linearized)
+PetscErrorCode ContactUpdateBegin(StepProblem *p, Vec u, const StepReport *report, Vec *u_linearized)
 {
   PetscBool continues =
     (PetscBool)(p->state->path->time > 0.0 && p->model->scene->contact_updates > 1 && !report->cuts);
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, u_linearized));
-  PetscCall(VecCopy(foreseen ? u : p->state->path->u, *u_linearized));
+  PetscCall(VecCopy(p->state->path->u, *u_linearized));
   PetscCall(ContactUpdateKeepDirections(p));
-  if (continues && !foreseen) PetscCall(ContactUpdateContinue(p, *u_linearized, &continues));
-  if (foreseen || continues) {
+  if (continues) PetscCall(ContactUpdateContinue(p, *u_linearized, &continues));
+  if (continues) {
     PetscCall(ContactUpdateMakeRigid(p, *u_linearized));
     PetscCall(ContactLinearizationDestroy(&p->state->solved->upcoming));
   }

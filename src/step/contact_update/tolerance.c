@@ -5,7 +5,7 @@
 
 /*
    Sets p->tolerance, the relative KKT error to which the next linearized problem is solved; 0: the tolerance of the
-   load step. foreseen: u was a forecast; again: the same linearization is solved once more, to a smaller tolerance;
+   load step. again: the same linearization is solved once more, to a smaller tolerance;
    end: this is the last solve.
 
      Without friction, the first update has the tolerance 1e-3. Later updates are solved to a tenth of the relative
@@ -18,11 +18,10 @@
      The tolerance of the load step is used in these cases:
      - for the last update;
      - without friction, if the errors of the last two updates indicate that the next update is the last;
-     - for a start from a forecast;
      - with weak springs, which would carry the residual;
      - if the gap tolerance is near rounding, so that results are reproducible.
 */
-PetscErrorCode ContactUpdateSetTolerance(StepProblem *p, PetscBool foreseen, PetscBool again, PetscBool end, Vec u,
+PetscErrorCode ContactUpdateSetTolerance(StepProblem *p, PetscBool again, PetscBool end, Vec u,
   const StepReport *report)
 {
   const PetscBool slip  = (PetscBool) !!p->state->solved->linearization->slip;
@@ -35,7 +34,7 @@ PetscErrorCode ContactUpdateSetTolerance(StepProblem *p, PetscBool foreseen, Pet
   if (end || p->model->springs.weak || allowed < PETSC_SQRT_MACHINE_EPSILON ||
       report->contact_updates + 1 >= p->model->scene->contact_updates)
     PetscFunctionReturn(0);
-  p->tolerance = foreseen ? 0.0 : first;
+  p->tolerance = first;
   if (!report->contact_updates && !again) PetscFunctionReturn(0);
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
   p->tolerance = PetscMin(first, fraction * report->update_error / size);
