@@ -3,10 +3,34 @@
 #ifndef PETSCCOMPAT_H
 #define PETSCCOMPAT_H
 
-#include <petscsys.h>
+#include <petscvec.h>
 
 #if PETSC_VERSION_LT(3, 20, 0)
   #define PetscAssertPointer(pointer, argument) PetscValidPointer(pointer, argument)
+  #define VecFilter(vector, tolerance)          VecChop(vector, tolerance)
+#endif
+
+/* w = x / y, and 0 where y is 0: VecPointwiseDivide() of newer releases takes 0 / 0 for 1. w may be x or y */
+#if PETSC_VERSION_LT(3, 26, 0)
+  #define VecQuotient_AMGF(w, x, y) VecPointwiseDivide(w, x, y)
+#else
+static inline PetscErrorCode VecQuotient_AMGF(Vec w, Vec x, Vec y)
+{
+  const PetscScalar *numerator, *divisor;
+  PetscScalar       *quotient;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(w, &n));
+  PetscCall(VecGetArray(w, &quotient));
+  PetscCall(VecGetArrayRead(x, &numerator));
+  PetscCall(VecGetArrayRead(y, &divisor));
+  for (PetscInt i = 0; i < n; ++i) quotient[i] = divisor[i] == 0.0 ? 0.0 : numerator[i] / divisor[i];
+  PetscCall(VecRestoreArrayRead(y, &divisor));
+  PetscCall(VecRestoreArrayRead(x, &numerator));
+  PetscCall(VecRestoreArray(w, &quotient));
+  PetscFunctionReturn(0);
+}
 #endif
 
 /* PetscOptionItems became a pointer */

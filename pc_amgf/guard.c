@@ -42,7 +42,7 @@ static PetscErrorCode GuardClearHypre(void)
    PCAMGFGuardBegin_Private - catches library errors from here to PCAMGFGuardEnd_Private()
 
    Input Parameter:
-   . b - right-hand side of the guarded call, or NULL
+   . b - right-hand side of the guarded PCApply(), or NULL for PCSetUp()
 */
 PetscErrorCode PCAMGFGuardBegin_Private(AMGFGuard *guard, Vec b)
 {
@@ -68,7 +68,8 @@ PetscErrorCode PCAMGFGuardBegin_Private(AMGFGuard *guard, Vec b)
 */
 PetscErrorCode PCAMGFGuardEnd_Private(AMGFGuard *guard, PetscErrorCode error, PetscBool *failed)
 {
-  PetscInt nlocks;
+  PetscLogEvent event;
+  PetscInt      nlocks;
 
   PetscFunctionBegin;
   PetscCall(PetscPopErrorHandler());
@@ -78,6 +79,9 @@ PetscErrorCode PCAMGFGuardEnd_Private(AMGFGuard *guard, PetscErrorCode error, Pe
     PetscFunctionReturn(0);
   }
   PetscCall(GuardClearHypre());
+  /* PETSc has not ended its event. With -log_sync, ranks wait for one another only at events that are not open */
+  PetscCall(PetscLogEventGetId(guard->b ? "PCApply" : "PCSetUp", &event));
+  PetscCall(PetscLogEventEnd(event, NULL, NULL, NULL, NULL));
   if (!guard->b) PetscFunctionReturn(0);
   PetscCall(VecLockGet(guard->b, &nlocks));
   for (; nlocks > guard->nlocks; nlocks--) PetscCall(VecLockReadPop(guard->b));

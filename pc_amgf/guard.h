@@ -6,8 +6,8 @@
 
 typedef struct {
   char     why[128]; /* message of the library's error */
-  Vec      b;        /* right-hand side of the guarded call, which remains locked for reading if an error interrupts
-                        the call; NULL: none */
+  Vec      b;        /* right-hand side of the guarded PCApply(), which remains locked for reading if an error
+                        interrupts the call; NULL: PCSetUp() is guarded */
   PetscInt nlocks;
 } AMGFGuard;
 

@@ -153,16 +153,16 @@ static PetscErrorCode CoverAgglomerate(DM dm, PairFacets *facets, Vec cover, Pet
   PetscCall(VecDuplicate(cover, &keep));
   PetscCall(VecDuplicate(cover, &part));
   PetscCall(MatGetRowSum(facets->between, sum)); /* areas to which a vertex passes its values; 0: to none */
-  PetscCall(VecPointwiseDivide(keep, sum, sum)); /* a quotient by 0 is 0 */
+  PetscCall(VecQuotient_AMGF(keep, sum, sum));   /* a quotient by 0 is 0 */
   PetscCall(VecScale(keep, -1.0));
   PetscCall(VecShift(keep, 1.0));
   while (PetscRealPart(left) > 0.0) {
     for (PetscInt k = 0; k < n; ++k) {
-      PetscCall(VecPointwiseDivide(part, values[k], sum));
+      PetscCall(VecQuotient_AMGF(part, values[k], sum));
       PetscCall(VecPointwiseMult(values[k], values[k], keep));
       PetscCall(MatMultTransposeAdd(facets->between, part, values[k], values[k]));
     }
-    PetscCall(VecPointwiseDivide(part, values[0], sum));
+    PetscCall(VecQuotient_AMGF(part, values[0], sum));
     PetscCall(VecSum(part, &left));
   }
   PetscCall(VecDestroy(&sum));
@@ -248,13 +248,13 @@ PetscErrorCode NodalPressureEvenOut(DM dm, Elasticity elasticity, const VertexPl
   PetscCall(VecDuplicate(values[0], &edge));
   PetscCall(VecDuplicate(values[0], &mean));
   PetscCall(PairFacetsMeasure(elasticity, places, pair->self ? 1 : 2, faces, cover));
-  PetscCall(VecPointwiseDivide(cover, values[0], cover)); /* 0 at vertices without facets */
+  PetscCall(VecQuotient_AMGF(cover, values[0], cover)); /* 0 at vertices without facets */
   PetscCall(CoverAgglomerate(dm, facets, cover, n, values));
   PetscCall(CoverFindEdge(facets, cover, edge));
   PetscCall(CoverCouple(dm, facets, edge, values[0]));
   for (PetscInt k = 0; k < n * cover_exchanges; ++k) {
     if (!smooth[k % n]) continue;
-    PetscCall(VecPointwiseDivide(mean, values[k % n], values[0]));
+    PetscCall(VecQuotient_AMGF(mean, values[k % n], values[0]));
     PetscCall(MatMultAdd(facets->between, mean, values[k % n], values[k % n]));
   }
   PetscCall(VecDestroy(&cover));

@@ -22,9 +22,9 @@ static PetscErrorCode PairMeasureFacets(const PairRows *rows, PetscReal *facet, 
   PetscCall(VecPointwiseMult(area, rows->value[ROW_AREA], rows->value[ROW_CLOSED]));
   PetscCall(VecSum(area, &closed));
   PetscCall(VecDot(area, rows->value[ROW_OWN], &own));
-  PetscCall(VecPointwiseDivide(quotient, rows->value[ROW_FACING], rows->value[ROW_FACING])); /* a quotient by 0 is 0 */
+  PetscCall(VecQuotient_AMGF(quotient, rows->value[ROW_FACING], rows->value[ROW_FACING])); /* a quotient by 0 is 0 */
   PetscCall(VecDot(area, quotient, &facing));
-  PetscCall(VecPointwiseDivide(quotient, rows->value[ROW_OWN], rows->value[ROW_FACING]));
+  PetscCall(VecQuotient_AMGF(quotient, rows->value[ROW_OWN], rows->value[ROW_FACING]));
   PetscCall(VecDot(area, quotient, &ratio));
   *facet      = PetscRealPart(closed) > 0.0 ? PetscRealPart(own / closed) : 0.0;
   *coarseness = PetscRealPart(facing) > 0.0 ? PetscRealPart(ratio / facing) : 0.0;

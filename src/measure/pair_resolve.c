@@ -24,7 +24,7 @@ static PetscErrorCode ResolveMean(const PairRows *rows, Vec mark, Vec value, Vec
   PetscCall(VecPointwiseMult(mean, mark, value));
   PetscCall(MatMultTranspose(rows->shares, mark, weight));
   PetscCall(MatMultTranspose(rows->shares, mean, node));
-  PetscCall(VecPointwiseDivide(node, node, weight)); /* a quotient by 0 is 0 */
+  PetscCall(VecQuotient_AMGF(node, node, weight)); /* a quotient by 0 is 0 */
   PetscCall(PairGather(rows, node, mean));
   PetscCall(VecDestroy(&node));
   PetscCall(VecDestroy(&weight));
@@ -111,7 +111,7 @@ static PetscErrorCode ResolveMark(const Measured *at, PetscReal young, const Pai
   PetscReal          largest;
 
   PetscFunctionBegin;
-  PetscCall(VecPointwiseDivide(covered, rows->value[ROW_AREA], rows->value[ROW_AREA])); /* a quotient by 0 is 0 */
+  PetscCall(VecQuotient_AMGF(covered, rows->value[ROW_AREA], rows->value[ROW_AREA])); /* a quotient by 0 is 0 */
   PetscCall(ResolveMean(rows, covered, rows->value[ROW_PRESSURE], mean));
   PetscCall(VecGetArrayRead(mean, &z));
   PetscCall(VecGetArrays(rows->value, ROW_VALUES, &a));

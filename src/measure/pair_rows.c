@@ -169,7 +169,7 @@ PetscErrorCode PairGather(const PairRows *rows, Vec node, Vec row)
   PetscFunctionBegin;
   PetscCall(VecPointwiseMult(node, node, rows->gathered));
   PetscCall(MatMult(rows->self ? rows->mortar : rows->shares, node, row));
-  PetscCall(VecPointwiseDivide(row, row, rows->value[ROW_AREA])); /* a quotient by 0 is 0 */
+  PetscCall(VecQuotient_AMGF(row, row, rows->value[ROW_AREA])); /* a quotient by 0 is 0 */
   PetscFunctionReturn(0);
 }
 

@@ -92,13 +92,13 @@ static PetscErrorCode CurvatureScaleApply(CurvatureScale *s, Vec r, Vec z)
 {
   PetscFunctionBegin;
   if (s->forces) {
-    PetscCall(VecPointwiseDivide(r, r, s->root));
+    PetscCall(VecQuotient_AMGF(r, r, s->root));
     PetscCall(KSPSolve(s->ksp, r, s->y));
     PetscCall(VecScale(s->y, -1.0));
     PetscCall(MatMultAdd(s->forces, s->y, r, r));
     PetscCall(VecPointwiseMult(r, r, s->root));
   }
-  PetscCall(VecPointwiseDivide(z, r, s->M));
+  PetscCall(VecQuotient_AMGF(z, r, s->M));
   PetscFunctionReturn(0);
 }
 

@@ -80,7 +80,7 @@ static PetscErrorCode LeastDelta(Tao tao, PetscReal *least)
   PetscCall(MatGetDiagonal(ip->cond->A, diagonal));
   PetscCall(VecNorm(diagonal, NORM_2, &size));
   if (PetscIsInfOrNanReal(size)) PetscCall(IPResidualNotANumber(tao));
-  if (ip->given->primal_mass) PetscCall(VecPointwiseDivide(diagonal, diagonal, ip->given->primal_mass));
+  if (ip->given->primal_mass) PetscCall(VecQuotient_AMGF(diagonal, diagonal, ip->given->primal_mass));
   PetscCall(VecMin(diagonal, NULL, &smallest));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &diagonal));
   *least = ip->shift->delta - smallest;

@@ -265,7 +265,7 @@ static PetscErrorCode StartWarm(Tao tao)
   PetscCall(IPPairProducts(slack, 0.0, NULL, &average));
   average = PetscMax(average / slack->weight, 0.0);
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &q));
-  PetscCall(VecPointwiseDivide(q, ip->at.lambda, ip->stiff->rho));
+  PetscCall(VecQuotient_AMGF(q, ip->at.lambda, ip->stiff->rho));
   PetscCall(VecAYPX(q, -1.0, slack->t));
   PetscCall(MeanProduct(tao, q, &mean));
   ip->mu = PetscMax(average, mismatch * IP_WARM_MU * (mean > 0.0 ? mean : 1.0));

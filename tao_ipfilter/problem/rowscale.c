@@ -79,11 +79,11 @@ PetscErrorCode IPRowScalePair(Tao tao, Vec s, Vec z, PetscBool back)
   PetscFunctionBegin;
   if (!ip->rows->inequality) PetscFunctionReturn(0);
   if (back) {
-    PetscCall(VecPointwiseDivide(s, s, ip->rows->inequality));
+    PetscCall(VecQuotient_AMGF(s, s, ip->rows->inequality));
     PetscCall(VecPointwiseMult(z, z, ip->rows->inequality));
   } else {
     PetscCall(VecPointwiseMult(s, s, ip->rows->inequality));
-    PetscCall(VecPointwiseDivide(z, z, ip->rows->inequality));
+    PetscCall(VecQuotient_AMGF(z, z, ip->rows->inequality));
   }
   PetscFunctionReturn(0);
 }
@@ -97,7 +97,7 @@ PetscErrorCode IPRowScaleNorm(Tao tao, IPSpace space, Vec r, PetscReal *norm)
   PetscFunctionBegin;
   if (scale) {
     PetscCall(IPGetWork(tao, space, &unscaled));
-    PetscCall(VecPointwiseDivide(unscaled, r, scale));
+    PetscCall(VecQuotient_AMGF(unscaled, r, scale));
   }
   PetscCall(VecNorm(scale ? unscaled : r, NORM_INFINITY, norm));
   PetscCall(IPRestoreWork(tao, space, &unscaled));

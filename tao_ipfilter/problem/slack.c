@@ -104,7 +104,7 @@ PetscErrorCode IPSlackSetCompliance(Tao tao)
   PetscCall(VecDestroy(&ip->sides->compliance));
   if (!ip->given->compliance || !ip->mi) PetscFunctionReturn(0);
   PetscCall(VecDuplicate(ip->at.c, &ip->sides->compliance));
-  PetscCall(VecPointwiseDivide(ip->sides->compliance, ip->given->compliance, ip->pair[IP_SLACK].w));
+  PetscCall(VecQuotient_AMGF(ip->sides->compliance, ip->given->compliance, ip->pair[IP_SLACK].w));
   for (PetscInt k = 0; k < 2 && ip->rows->inequality; k++)
     PetscCall(VecPointwiseMult(ip->sides->compliance, ip->sides->compliance, ip->rows->inequality));
   PetscFunctionReturn(0);

@@ -76,7 +76,7 @@ static PetscErrorCode DualMassNorm(Tao tao, PetscReal *norm)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &scaled));
-  if (ip->given->primal_mass) PetscCall(VecPointwiseDivide(scaled, ip->rx, ip->given->primal_mass));
+  if (ip->given->primal_mass) PetscCall(VecQuotient_AMGF(scaled, ip->rx, ip->given->primal_mass));
   else PetscCall(VecCopy(ip->rx, scaled));
   PetscCall(VecDot(ip->rx, scaled, &uu));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &scaled));

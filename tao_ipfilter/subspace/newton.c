@@ -171,7 +171,7 @@ static PetscErrorCode NewtonPenalty(Tao tao, Vec force, PetscReal *nu)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &lambda));
-  PetscCall(VecPointwiseDivide(lambda, force, ((TAO_IPFILTER *)tao->data)->pair[IP_SLACK].w));
+  PetscCall(VecQuotient_AMGF(lambda, force, ((TAO_IPFILTER *)tao->data)->pair[IP_SLACK].w));
   PetscCall(VecNorm(lambda, NORM_INFINITY, nu));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &lambda));
   *nu *= beyond;

@@ -60,7 +60,7 @@ static PetscErrorCode SubspaceGuess(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(IPGetWork(tao, IP_INEQUALITIES, &closer));
-  PetscCall(VecPointwiseDivide(closer, slack->z, ip->stiff->rho));
+  PetscCall(VecQuotient_AMGF(closer, slack->z, ip->stiff->rho));
   PetscCall(VecAXPY(closer, -1.0, slack->t));
   PetscCall(IPReducedGuess(IPSubspaceOf(tao)->reduced, closer));
   PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &closer));
@@ -193,8 +193,8 @@ PetscErrorCode IPSubspaceSetPairs(Tao tao, Vec force)
 
   PetscFunctionBegin;
   PetscCall(SubspaceForceRounding(tao, &rounding));
-  PetscCall(VecChop(force, rounding));
-  PetscCall(VecPointwiseDivide(slack->z, force, slack->w));
+  PetscCall(VecFilter(force, rounding));
+  PetscCall(VecQuotient_AMGF(slack->z, force, slack->w));
   PetscCall(VecCopy(slack->z, ip->at.lambda));
   PetscCall(VecCopy(ip->at.c, slack->t));
   PetscCall(VecGetLocalSize(slack->t, &n));

@@ -3,6 +3,7 @@ static char help[] = "Patch tests of contact: bodies pressed together by their f
 
 #include "../lib/contact_problem.h"
 #include <elasticity.h>
+#include <petsccompat.h>
 #include <petscksp.h>
 
 static const SceneContactPair mortar = {
@@ -247,7 +248,7 @@ static PetscErrorCode Solve(const Patch *patch, const SceneContactPair *pair, co
   PetscCall(MatMultAdd(lin->J, u, c, c));
   PetscCall(VecScale(c, -1.0));
   PetscCall(SolveEquality(K, lin->J, f, c, rows, u, pressure));
-  PetscCall(VecPointwiseDivide(pressure, pressure, lin->mass));
+  PetscCall(VecQuotient_AMGF(pressure, pressure, lin->mass));
   PetscCall(VecScale(pressure, 1.0 / patch->p));
   PetscCall(VecShift(pressure, -1.0));
   PetscCall(VecNorm(pressure, NORM_INFINITY, contact_pressure));

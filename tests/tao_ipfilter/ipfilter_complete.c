@@ -2,6 +2,7 @@ static char help[] = "Corners of TAOIPFILTER: nothing to solve, errors and NaN i
                      "constraints that are redundant or void.\n\n";
 
 #include "ipfilter_problem.h"
+#include <petsccompat.h>
 
 /* f = sum_i (k_i/2 x_i^2 - b_i x_i) + stiffness/2 sum_i (x_i - x_{i-1})^2 over n unknowns; constraints J x - g >= 0 */
 typedef struct {
@@ -220,7 +221,7 @@ static PetscErrorCode Span(void)
   PetscCall(TaoIPFilterGetSlack(tao, &s));
   PetscCall(TaoIPFilterGetMultiplier(tao, &z));
   PetscCall(VecDuplicate(x, &exact));
-  PetscCall(VecPointwiseDivide(exact, z, s));
+  PetscCall(VecQuotient_AMGF(exact, z, s));
   PetscCall(VecMin(exact, NULL, &least));
   PetscCall(VecMax(exact, NULL, &most));
   PetscCall(VecSet(exact, 0.0));

@@ -408,7 +408,7 @@ static PetscErrorCode CyclicMergeMeans(Mat merge, Vec oldmass, Vec mass, Vec *me
   PetscCall(VecDuplicate(mass, &merged));
   PetscCall(VecPointwiseMult(*mean, *mean, oldmass));
   PetscCall(MatMultTranspose(merge, *mean, merged));
-  PetscCall(VecPointwiseDivide(merged, merged, mass));
+  PetscCall(VecQuotient_AMGF(merged, merged, mass));
   PetscCall(VecDestroy(mean));
   *mean = merged;
   PetscFunctionReturn(0);

@@ -85,7 +85,7 @@ static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ou
   PetscCall(TaoGetDualVariables(tao, NULL, &multipliers));
   PetscCheck(multipliers, p->model->comm, PETSC_ERR_SUP,
     "the optimizer of -tao_type gives no multipliers, so contact pressures are unknown");
-  PetscCall(VecPointwiseDivide(sol->pressure, multipliers, lin->mass));
+  PetscCall(VecQuotient_AMGF(sol->pressure, multipliers, lin->mass));
   PetscCall(VecScale(sol->pressure, StepProblemShare(p)));
   PetscCall(FrictionKeep(p, tao, u, sol));
   if (ours) PetscCall(TaoIPFilterGetSlack(tao, &slack));
