@@ -116,14 +116,15 @@ static void NodeMoveClosest(const PetscReal facet[12], const ContactNearest *nea
 static void NodeMeasure(const PetscReal facet[12], const PetscReal normals[12], const ContactNearest *nearest,
   const PetscReal x[3], const PetscReal n[3], NodeGap *gap)
 {
-  ContactPatch patch, by;
-  PetscReal    r[3], m[3], phi[4], dphi[4][2], by_xi[2], by_normal[3], turn[3], length;
+  ContactPatch patch;
+  PetscReal    offset[3], normal[3], m[3], r[3], phi[4], dphi[4][2], by_xi[2], by_normal[3], turn[3], length;
 
   ContactPatchCreate(facet, normals, &patch);
-  ContactPatchEvaluate(&patch, nearest->xi, r, m);
+  ContactPatchEvaluate(&patch, nearest->xi, offset, normal);
+  for (PetscInt c = 0; c < 3; ++c) m[c] = normal[c];
   length = VectorScaleToUnit(m);
   for (PetscInt c = 0; c < 3; ++c) {
-    r[c] = x[c] - nearest->y[c] - r[c];
+    r[c] = x[c] - nearest->y[c] - offset[c];
     if (!(length > 0.0)) m[c] = -n[c];
   }
   gap->gap   = VectorDot(r, m);
@@ -133,8 +134,7 @@ static void NodeMeasure(const PetscReal facet[12], const PetscReal normals[12], 
     gap->vertex[c] = m[c];
     m[c]           = -m[c];
   }
-  ContactPatchDifferentiate(&patch, nearest->xi, m, by_normal, by_xi, &by);
-  ContactPatchMoment(&patch, &by, turn);
+  ContactPatchDifferentiate(&patch, nearest->xi, offset, normal, m, by_normal, by_xi, turn);
   ContactFacetTurn(facet, turn, gap->facet);
   ContactShape(nearest->xi, phi);
   ContactShapeSlopes(nearest->xi, dphi);

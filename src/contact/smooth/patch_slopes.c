@@ -5,49 +5,43 @@
    measured with the tangent plane. */
 #define STEEPEST_SQUARED_COSINE 0.25
 
-/* Returns the height of edge e at eta in [0, 1], multiplied by `blend` [length]. by: its derivatives with respect to
-   eta, to blend and to the two slopes */
-static PetscReal EdgeHeight(const ContactPatch *p, PetscInt e, PetscReal eta, PetscReal blend, PetscReal by[4])
+/* Returns the derivative of the height of edge e with respect to its position eta in [0, 1], multiplied by `blend`, and
+   computes the height itself [length] */
+static PetscReal EdgeSlope(const ContactPatch *p, PetscInt e, PetscReal eta, PetscReal blend, PetscReal *height)
 {
   const PetscReal a0 = p->slope[e][0], a1 = p->slope[e][1], bump = eta * (1.0 - eta),
                   tilt = a0 * (1.0 - eta) - a1 * eta;
 
-  by[0] = blend * ((1.0 - 2.0 * eta) * tilt - bump * (a0 + a1));
-  by[1] = bump * tilt;
-  by[2] = blend * bump * (1.0 - eta);
-  by[3] = -blend * bump * eta;
-  return blend * bump * tilt;
+  *height = bump * tilt;
+  return blend * ((1.0 - 2.0 * eta) * tilt - bump * (a0 + a1));
 }
 
-/* Converts derivatives with respect to offset and normal, as computed by ContactPatchEvaluate() at xi, into derivatives
-   with respect to xi and to the patch's coefficients. by: NULL if the latter are not needed */
-void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], const PetscReal by_offset[3],
-  const PetscReal by_normal[3], PetscReal by_xi[2], ContactPatch *by)
+/*
+   Converts derivatives with respect to offset and normal, as computed by ContactPatchEvaluate() at xi, into derivatives
+   by_xi with respect to xi, and into those with respect to a rotation `turn` [rad] of the patch about each axis
+*/
+void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], const PetscReal offset[3],
+  const PetscReal patch_normal[3], const PetscReal by_offset[3], const PetscReal by_normal[3], PetscReal by_xi[2],
+  PetscReal turn[3])
 {
   const PetscReal s = 0.5 * (1.0 + xi[0]), t = 0.5 * (1.0 + xi[1]), along[4] = {s, t, 1.0 - s, 1.0 - t},
                   blend[4] = {p->triangle ? (1.0 - t) * (1.0 - t) : 1.0 - t, s, t, 1.0 - s};
-  PetscReal phi[4], dphi[4][2];
+  PetscReal dphi[4][2], k[3];
 
-  ContactShape(xi, phi);
   ContactShapeSlopes(xi, dphi);
   by_xi[0] = by_xi[1] = 0.0;
   for (PetscInt e = 0; e < 4; ++e) {
     const PetscReal direction = VectorDot(p->direction[e], by_offset), normal = VectorDot(&p->normal[3 * e], by_normal),
                     forward = e < 2 ? 0.5 : -0.5, outward = e == 1 || e == 2 ? 0.5 : -0.5;
-    PetscReal       slopes[4];
-    const PetscReal height = EdgeHeight(p, e, along[e], blend[e], slopes);
+    PetscReal height;
 
-    by_xi[e % 2] += forward * slopes[0] * direction;
-    by_xi[1 - e % 2] += (p->triangle && !e ? 2.0 * (1.0 - t) : 1.0) * outward * slopes[1] * direction;
-    for (PetscInt k = 0; k < 2; ++k) {
-      by_xi[k] += dphi[e][k] * normal;
-      if (by) by->slope[e][k] = slopes[2 + k] * direction;
-    }
-    for (PetscInt c = 0; by && c < 3; ++c) {
-      by->direction[e][c]   = height * by_offset[c];
-      by->normal[3 * e + c] = phi[e] * by_normal[c];
-    }
+    by_xi[e % 2] += forward * EdgeSlope(p, e, along[e], blend[e], &height) * direction;
+    by_xi[1 - e % 2] += (p->triangle && !e ? 2.0 * (1.0 - t) : 1.0) * outward * height * direction;
+    for (PetscInt d = 0; d < 2; ++d) by_xi[d] += dphi[e][d] * normal;
   }
+  VectorCross(offset, by_offset, turn);
+  VectorCross(patch_normal, by_normal, k);
+  for (PetscInt c = 0; c < 3; ++c) turn[c] += k[c];
 }
 
 /* Returns the height of the patch above its facet's point xi along a unit direction [length], measured to the tangent
@@ -56,7 +50,7 @@ void ContactPatchDifferentiate(const ContactPatch *p, const PetscReal xi[2], con
 PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const PetscReal direction[3],
   PetscReal by_xi[2], PetscReal turn[3])
 {
-  PetscReal offset[3], normal[3], by_offset[3], by_normal[3], k[3], height, cosine;
+  PetscReal offset[3], normal[3], by_offset[3], by_normal[3], height, cosine;
 
   ContactPatchEvaluate(p, xi, offset, normal);
   cosine = VectorDot(normal, direction);
@@ -75,22 +69,6 @@ PetscReal ContactPatchHeight(const ContactPatch *p, const PetscReal xi[2], const
     }
   }
   if (!by_xi) return height;
-  ContactPatchDifferentiate(p, xi, by_offset, by_normal, by_xi, NULL);
-  VectorCross(offset, by_offset, turn);
-  VectorCross(normal, by_normal, k);
-  for (PetscInt c = 0; c < 3; ++c) turn[c] += k[c];
+  ContactPatchDifferentiate(p, xi, offset, normal, by_offset, by_normal, by_xi, turn);
   return height;
-}
-
-/* Computes `moment`, the derivative with respect to a rotation [rad] of the patch about each axis */
-void ContactPatchMoment(const ContactPatch *p, const ContactPatch *by, PetscReal moment[3])
-{
-  for (PetscInt c = 0; c < 3; ++c) moment[c] = 0.0;
-  for (PetscInt e = 0; e < 4; ++e) {
-    PetscReal m[3], k[3];
-
-    VectorCross(p->direction[e], by->direction[e], m);
-    VectorCross(&p->normal[3 * e], &by->normal[3 * e], k);
-    for (PetscInt c = 0; c < 3; ++c) moment[c] += m[c] + k[c];
-  }
 }

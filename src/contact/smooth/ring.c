@@ -39,7 +39,6 @@ PetscErrorCode ContactRingDestroy(ContactRing *ring)
   PetscCall(PetscFree(ring->s.node));
   PetscCall(PetscFree(ring->s.twin));
   PetscCall(PetscFree2(ring->normal, ring->at));
-  PetscCall(PetscFree(ring->global));
   PetscCall(PetscFree(ring->prescribed));
   PetscCall(PetscFree(ring->image));
   PetscCall(PetscFree(ring->reference));

@@ -51,15 +51,16 @@ static PetscErrorCode FindOwn(const ContactSurface *s, const ContactCandidates *
 /* Collective. Numbers the nodes of the ring from 0, and creates the scatter that gathers their displacements from u */
 static PetscErrorCode NumberNodes(Vec u, const ContactCandidates *facets, ContactRing *ring)
 {
-  IS rows;
+  PetscInt *global;
+  IS        rows;
 
   PetscFunctionBegin;
   ring->nnodes = 4 * ring->nfacets;
-  PetscCall(PetscMalloc1(4 * ring->nfacets, &ring->global));
-  PetscCall(PetscArraycpy(ring->global, facets->node, 4 * ring->nfacets));
-  PetscCall(PetscSortRemoveDupsInt(&ring->nnodes, ring->global));
+  PetscCall(PetscMalloc1(4 * ring->nfacets, &global));
+  PetscCall(PetscArraycpy(global, facets->node, 4 * ring->nfacets));
+  PetscCall(PetscSortRemoveDupsInt(&ring->nnodes, global));
   for (PetscInt i = 0; i < 4 * ring->nfacets; ++i)
-    PetscCall(PetscFindInt(facets->node[i], ring->nnodes, ring->global, &ring->s.node[i]));
+    PetscCall(PetscFindInt(facets->node[i], ring->nnodes, global, &ring->s.node[i]));
   ring->nreal = ring->nnodes;
   PetscCall(PetscMalloc1(3 * ring->nnodes, &ring->reference));
   PetscCall(PetscMalloc1(3 * ring->nnodes, &ring->s.x));
@@ -68,10 +69,11 @@ static PetscErrorCode NumberNodes(Vec u, const ContactCandidates *facets, Contac
   for (PetscInt i = 0; i < 4 * ring->nfacets; ++i)
     ring->prescribed[ring->s.node[i]] |= facets->border[i / 4] >> 3 * (i % 4) & 7;
   PetscCall(PetscArraycpy(ring->s.x, ring->reference, 3 * ring->nnodes));
-  PetscCall(ISCreateBlock(PETSC_COMM_SELF, 3, ring->nnodes, ring->global, PETSC_COPY_VALUES, &rows));
+  PetscCall(ISCreateBlock(PETSC_COMM_SELF, 3, ring->nnodes, global, PETSC_COPY_VALUES, &rows));
   PetscCall(VecCreateSeq(PETSC_COMM_SELF, 3 * ring->nnodes, &ring->u));
   PetscCall(VecScatterCreate(u, rows, ring->u, NULL, &ring->scatter));
   PetscCall(ISDestroy(&rows));
+  PetscCall(PetscFree(global));
   PetscFunctionReturn(0);
 }
 

@@ -22,13 +22,12 @@ PETSC_INTERN PetscReal ContactPatchDoubt(const ContactPatch *);
 PETSC_INTERN void      ContactPatchEvaluate(const ContactPatch *, const PetscReal xi[2], PetscReal offset[3],
        PetscReal normal[3]);
 
-/* patch_slopes.c: derivatives with respect to a patch. `by` is a struct of equal layout that holds the derivative with
-   respect to each coefficient of the patch. */
-PETSC_INTERN void ContactPatchDifferentiate(const ContactPatch *, const PetscReal xi[2], const PetscReal by_offset[3],
-  const PetscReal by_normal[3], PetscReal by_xi[2], ContactPatch *by);
+/* patch_slopes.c: derivatives with respect to the parameters and to rotations of a patch */
+PETSC_INTERN void      ContactPatchDifferentiate(const ContactPatch *, const PetscReal xi[2], const PetscReal offset[3],
+       const PetscReal normal[3], const PetscReal by_offset[3], const PetscReal by_normal[3], PetscReal by_xi[2],
+       PetscReal turn[3]);
 PETSC_INTERN PetscReal ContactPatchHeight(const ContactPatch *, const PetscReal xi[2], const PetscReal direction[3],
   PetscReal by_xi[2], PetscReal turn[3]);
-PETSC_INTERN void      ContactPatchMoment(const ContactPatch *, const ContactPatch *by, PetscReal moment[3]);
 
 /* ring.c: this rank's facets, two layers of facets around them, and their neighbours. Corner 4 f + a is vertex a of
    facet f. */
@@ -41,7 +40,6 @@ typedef struct {
   PetscInt   nnodes;
   MeshFacets s;           /* the facets and the deformed coordinates of the nodes */
   PetscInt   nreal;       /* number of nodes of the mesh; nodes with numbers from nreal on are mirror images of these */
-  PetscInt  *global;      /* [nreal] global numbers of the nodes */
   PetscInt  *prescribed;  /* [nnodes] bit c is set if the face is held along axis c */
   PetscInt   nnormals;    /* number of normals at the corners of the facets that this rank owns. Corners of a node share
                           one normal unless a sharp edge separates them. */
