@@ -149,7 +149,7 @@ help:
 	@echo 'make demo-published  the same for the two-block problem of the publication'
 	@echo 'make check           installs what is missing, builds, tests every feature; last line: N passed, N failed'
 	@echo '    TESTS="scene_* output_*"  runs only these tests'
-	@echo '    TIMEOUT=300               time limit of a run [s]'
+	@echo '    TIMEOUT=600               time limit of a run [s]'
 	@echo 'make check-plugin    builds and tests the preconditioner alone, two minutes'
 	@echo 'make check-all       the same with the long tests: finer meshes, published figures, more numbers of ranks'
 	@echo 'make stress          difficult contact problems, 2 hours; tables in build/stress/report.md'
