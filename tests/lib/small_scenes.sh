@@ -33,8 +33,8 @@ YAML
 }
 blocks linear 'material: linear, element: incompatible' 'gap: mortar' ''
 run linear linear.yaml -output linear -summary linear.json -report linear.html
-blocks node 'material: linear' 'gap: node' 'refine: 0'
-run node node.yaml -contact_penalty 100
+blocks node 'material: linear' 'gap: node, contact_stiffness: 100' 'refine: 0'
+run node node.yaml
 blocks friction 'material: neohookean' 'friction: 0.3' ''
 run friction friction.yaml -output friction
 blocks stick 'material: linear, order: 2' 'stick: true' ''
