@@ -225,8 +225,8 @@ static PetscErrorCode LeaveGrowingSteps(Tao tao, PetscBool lagrangian, PetscReal
 }
 
 /*
-   Tries to leave a point of inflection of the Lagrangian along the last direction of linear convergence. With curved
-   constraints the barrier function need not fall there.
+   Tries to leave a point of inflection of the Lagrangian along the last direction in which the iteration converged only
+   linearly. If constraints are curved, the barrier function need not decrease along this direction.
 */
 static PetscErrorCode LeaveLagrangianInflection(Tao tao, PetscBool *left)
 {

@@ -275,7 +275,8 @@ static PetscErrorCode Break(PC pc, PetscInt at)
   PetscFunctionReturn(0);
 }
 
-/* Copies without VecCopy(), where ranks wait for one another with -log_sync: one of them does not come here */
+/* Copies r to z without VecCopy(): with -log_sync each rank waits there for all others, and the rank that fails never
+   calls it */
 static PetscErrorCode ApplyBroken(PC pc, Vec r, Vec z)
 {
   const PetscScalar *from;

@@ -92,16 +92,25 @@ typedef struct {
   PetscReal          factor[3];
 } CouplingRow;
 
-/* Collective. Sums the assembly's couplings over facets and ranks, and distributes the rows of hanging vertices */
-static PetscErrorCode CouplingCreate(Contact contact, ContactAssembly *as, Coupling *coupling)
+/* Counts the unknowns of this rank */
+static PetscErrorCode AssemblyCountUnknowns(Contact contact, PetscInt *n)
 {
-  Vec      u;
-  PetscInt n;
+  Vec u;
 
   PetscFunctionBegin;
   PetscCall(DMGetGlobalVector(contact->dm, &u));
-  PetscCall(VecGetLocalSize(u, &n));
+  PetscCall(VecGetLocalSize(u, n));
   PetscCall(DMRestoreGlobalVector(contact->dm, &u));
+  PetscFunctionReturn(0);
+}
+
+/* Collective. Sums the assembly's couplings over facets and ranks, and distributes the rows of hanging vertices */
+static PetscErrorCode CouplingCreate(Contact contact, ContactAssembly *as, Coupling *coupling)
+{
+  PetscInt n;
+
+  PetscFunctionBegin;
+  PetscCall(AssemblyCountUnknowns(contact, &n));
   coupling->dim = as->dim;
   for (PetscInt c = 0; c < as->dim; ++c) {
     PetscCall(
@@ -217,10 +226,14 @@ static PetscErrorCode CouplingLongestRow(Mat coupling, PetscInt *longest)
   PetscFunctionReturn(0);
 }
 
-/* Collective. Assembles the entries into a matrix with n local columns, and distributes the rows of hanging vertices */
-static PetscErrorCode SlopesCreateMatrix(Contact contact, PetscInt n, ContactEntries *entries, Mat *mat)
+/* Collective. Assembles the entries into a matrix with a column per unknown, and distributes the rows of hanging
+   vertices */
+static PetscErrorCode SlopesCreateMatrix(Contact contact, ContactEntries *entries, Mat *mat)
 {
+  PetscInt n;
+
   PetscFunctionBegin;
+  PetscCall(AssemblyCountUnknowns(contact, &n));
   PetscCall(ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, n, entries, mat));
   PetscCall(ContactHangingRowsMatrix(contact, mat));
   PetscFunctionReturn(0);
@@ -248,8 +261,7 @@ static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Cont
   for (PetscInt i = 0; i < n; ++i) m[i] = PetscRealPart(cover[i]) > 0.0 ? m[i] / cover[i] : 0.0;
   PetscCall(VecRestoreArrayRead(as->cover, &cover));
   PetscCall(VecRestoreArray(mean, &m));
-  PetscCall(MatGetLocalSize(slopes, NULL, &n));
-  PetscCall(SlopesCreateMatrix(contact, n, entries, &by_cover));
+  PetscCall(SlopesCreateMatrix(contact, entries, &by_cover));
   PetscCall(MatDiagonalScale(by_cover, mean, NULL));
   PetscCall(MatAXPY(slopes, -1.0, by_cover, DIFFERENT_NONZERO_PATTERN));
   PetscCall(MatDestroy(&by_cover));
@@ -262,14 +274,8 @@ static PetscErrorCode SlopesHoldCover(Contact contact, ContactAssembly *as, Cont
    itself, or its part of the mortar side */
 static PetscErrorCode SlopesCreateRigid(Contact contact, ContactAssembly *as, ContactAssembly *part, Mat *rigid)
 {
-  PetscInt n;
-  Vec      u;
-
   PetscFunctionBegin;
-  PetscCall(DMGetGlobalVector(contact->dm, &u));
-  PetscCall(VecGetLocalSize(u, &n));
-  PetscCall(DMRestoreGlobalVector(contact->dm, &u));
-  PetscCall(SlopesCreateMatrix(contact, n, &part->rigid, rigid));
+  PetscCall(SlopesCreateMatrix(contact, &part->rigid, rigid));
   PetscCall(SlopesHoldCover(contact, as, &part->by_cover, *rigid));
   PetscFunctionReturn(0);
 }

@@ -122,7 +122,8 @@ PetscErrorCode EnergyObjectiveAndGradient(Tao tao, Vec iterate, PetscReal *f, Ve
   PetscFunctionReturn(0);
 }
 
-/* Keeps the displacement u of a tangent. Before the first one it is the last state that is kept. */
+/* Keeps u as the displacement of the newer of the last two tangents. The last state stands for those that have not been
+   computed yet. */
 static PetscErrorCode EnergyKeepTangent(StepProblem *p, Vec u)
 {
   PetscBool same;
