@@ -51,16 +51,23 @@ static PetscErrorCode AppCreateOutput(const AppOptions *app, Scene scene, Simula
   PetscFunctionReturn(0);
 }
 
-/* Prints the names of the files that the run has written */
-static PetscErrorCode AppViewFiles(const AppOptions *app)
+/* Prints the largest values, and the names of the files that the run has written */
+static PetscErrorCode AppViewReport(const AppOptions *app, const RunReport *report)
 {
+  const char *const names[]                     = {app->output, app->output, app->output, app->summary, app->report},
+                    *ends[]                     = {".xmf", ".csv", ".pvd", "", ""};
+  const PetscBool writes[]                      = {app->write, app->write, app->vtk, app->summarize, app->page};
+  RunReport       named                         = *report;
+  char            files[5 * PETSC_MAX_PATH_LEN] = "";
+
   PetscFunctionBeginUser;
-  if (app->write || app->summarize) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "  files:"));
-  if (app->write) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s.xmf %s.csv", app->output, app->output));
-  if (app->vtk) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s.pvd", app->output));
-  if (app->summarize) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s", app->summary));
-  if (app->page) PetscCall(PetscPrintf(PETSC_COMM_WORLD, " %s", app->report));
-  if (app->write || app->summarize) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "\n"));
+  for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(names); ++k) {
+    size_t n = strlen(files);
+
+    if (writes[k]) (void)snprintf(files + n, sizeof(files) - n, " %s%s", names[k], ends[k]);
+  }
+  named.files = files[0] ? files : NULL;
+  PetscCall(ReportView(&named, PETSC_VIEWER_STDOUT_WORLD));
   PetscFunctionReturn(0);
 }
 
@@ -69,8 +76,7 @@ static PetscErrorCode AppReport(const AppOptions *app, const RunReport *report)
   PetscFunctionBeginUser;
   if (app->tables) PetscCall(ReportViewTables(report, PETSC_VIEWER_STDOUT_WORLD));
   else if (report->accuracy && !app->quiet) PetscCall(ReportViewAccuracy(report, PETSC_VIEWER_STDOUT_WORLD));
-  if (!app->quiet) PetscCall(ReportView(report, PETSC_VIEWER_STDOUT_WORLD));
-  if (!app->quiet) PetscCall(AppViewFiles(app));
+  if (!app->quiet) PetscCall(AppViewReport(app, report));
   if (app->summarize) PetscCall(ReportWriteJSON(PETSC_COMM_WORLD, report, app->summary));
   if (!report->converged)
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, stderr, "contact: load step %" PetscInt_FMT " failed: %s\n",

@@ -9,6 +9,7 @@
 /* Results of a contact pair. Forces are summed over the rows of this pair only. */
 typedef struct {
   const char *name;
+  const char *mortar;            /* "<body>.<face>" of the mortar side */
   PetscReal   force[3];          /* on the nonmortar side [force] */
   PetscReal   moment[3];         /* [force length] */
   PetscReal   mortar_force[3];   /* on the mortar side [force] */
@@ -40,6 +41,8 @@ typedef struct {
   const char *name;
   PetscReal   reaction[3]; /* on the body [force] */
   PetscReal   moment[3];   /* [force length] */
+  PetscReal   torque;      /* part of the moment about the centre of the face's rotation, as it has moved, along the
+                              axis of the first rotation that the scene gives; NaN: none [force length] */
   PetscReal   size;        /* sum of the magnitudes of the components of the nodal forces [force] */
   PetscBool   driven;      /* false if the face is nothing but a symmetry plane */
 } FaceReport;
@@ -271,7 +274,8 @@ typedef enum {
   FIGURE_OF_PAIR,
   FIGURE_OF_FACE,
   FIGURE_OF_PLANE, /* symmetry plane */
-  FIGURE_OF_BOLT
+  FIGURE_OF_BOLT,
+  FIGURE_OWNERS /* their number */
 } FigureOwner;
 
 /* A figure that a reader of the results looks for first: the largest value of a quantity over the load steps that
@@ -382,6 +386,7 @@ typedef struct {
   const char    **bodies;
   PetscInt        nfigures;
   RunFigure      *figures;
+  const char     *files;      /* names of the files that the run has written, each after a blank; NULL: none */
   PetscInt       *assemblies; /* number of times that each body's tangent was assembled */
   const Accuracy *accuracy;   /* choices and results of -accuracy; NULL: not requested */
   PetscInt        neffects;

@@ -1,6 +1,7 @@
 /* Computes forces and moments of pairs, faces and bodies */
 #include "measureimpl.h"
 #include <vector3.h>
+#include <math.h>
 #include <string.h>
 #include "src/state/contact_state.h"
 
@@ -129,13 +130,15 @@ PetscErrorCode ForcesReserve(const Measured *at, StepReport *report)
   report->npairs  = scene->npairs;
   report->nbodies = scene->nbodies;
   for (PetscInt p = 0; p < scene->npairs; ++p) {
-    report->pairs[p].name = scene->pairs[p].name;
+    report->pairs[p].name   = scene->pairs[p].name;
+    report->pairs[p].mortar = scene->pairs[p].mortar;
     for (PetscInt d = 0; d < 3; ++d) report->pairs[p].pressure_place[d] = NAN;
     report->pairs[p].frictional = SceneContactPairHasFriction(&scene->pairs[p]);
   }
   for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
     FaceReport *face = &report->faces[ForcesFindFace(report, scene->displacements[d].face)];
 
+    face->torque = NAN;
     if (!scene->displacements[d].symmetry) face->driven = PETSC_TRUE;
   }
   for (PetscInt b = 0; b < scene->nbodies; ++b) report->bodies[b].name = scene->bodies[b].name;
@@ -285,6 +288,50 @@ PetscErrorCode ForcesMeasureFaces(Model model, Vec u, Vec reaction, Vec ties, Ve
   }
   PetscCall(PetscFree(sums));
   PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* Computes the place of the centre of a rotation of the scene at the end of a load step [length] */
+static PetscErrorCode TorqueGetCenter(Scene scene, const SceneDisplacement *turn, const StepReport *report,
+  PetscReal center[3])
+{
+  const size_t length = strcspn(turn->face, ".");
+
+  PetscFunctionBegin;
+  PetscCall(PetscArraycpy(center, turn->center, 3));
+  for (PetscInt d = 0; d < scene->ndisplacements; ++d) {
+    const SceneDisplacement *other = &scene->displacements[d];
+
+    if (strcmp(other->face, turn->face)) continue;
+    for (PetscInt i = 0; i < 3; ++i) center[i] += report->ramps[other->ramp].factor * other->value[i];
+  }
+  /* a rigid body may have translations that are free */
+  for (PetscInt b = 0; b < report->nrigid_bodies; ++b) {
+    const RigidReport *body = &report->rigid_bodies[b];
+
+    if (!strncmp(body->name, turn->face, length) && !body->name[length])
+      PetscCall(PetscArraycpy(center, body->position, 3));
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Computes the torques of faces and rigid bodies that the scene rotates. Needs their moments, and the places of rigid
+   bodies. */
+PetscErrorCode TorquesMeasure(Scene scene, StepReport *report)
+{
+  PetscFunctionBegin;
+  for (PetscInt d = 0; d < scene->ndisplacements && report->nfaces; ++d) {
+    const SceneDisplacement *turn  = &scene->displacements[d];
+    FaceReport              *face  = &report->faces[ForcesFindFace(report, turn->face)];
+    const PetscReal          angle = VectorNorm(turn->rotation);
+    PetscReal                center[3], moment[3];
+
+    if (angle == 0.0 || !PetscIsNanReal(face->torque)) continue;
+    PetscCall(TorqueGetCenter(scene, turn, report, center));
+    VectorCross(center, face->reaction, moment);
+    for (PetscInt i = 0; i < 3; ++i) moment[i] = face->moment[i] - moment[i];
+    face->torque = VectorDot(moment, turn->rotation) / angle;
+  }
   PetscFunctionReturn(0);
 }
 

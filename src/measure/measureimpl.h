@@ -76,6 +76,7 @@ PETSC_INTERN PetscErrorCode ForcesReserve(const Measured *, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasurePairs(const Measured *, Vec u, Vec weighted, Vec shear, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasureFaces(Model, Vec u, Vec reaction, Vec ties, Vec rigid, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesMeasureBodies(Model, Vec u, Vec load, Vec ties, PetscReal rounding, StepReport *);
+PETSC_INTERN PetscErrorCode TorquesMeasure(Scene, StepReport *);
 PETSC_INTERN PetscErrorCode ForcesFree(StepReport *);
 
 /*

@@ -1,8 +1,9 @@
-/* Prints the largest values of a run: a table of the bodies, one of the pairs, one of the faces, one of the bolts */
+/* Prints the largest values of a run: a table of the bodies, and one of the pairs, faces and bolts */
 #include "outputimpl.h"
 #include "src/report/reportimpl.h"
 
-#define CELL 96 /* longest text of a cell, with its end */
+#define CELL        96   /* longest text of a cell, with its end */
+#define FIGURE_SAME 1e-5 /* relative difference of forces that are printed as one */
 
 /* A table of texts. The first row is the heading, the first column has the names. */
 typedef struct {
@@ -28,12 +29,70 @@ static void FigureWriteVector(const PetscReal v[3], char text[CELL])
   (void)snprintf(text, CELL, "(%.5g, %.5g, %.5g)", clean[0], clean[1], clean[2]);
 }
 
-/* Writes the name of a body, pair or face; that of a rigid body as a whole, BODY.*, without the end */
-static void FigureWriteName(const char name[], char text[CELL])
+/* Returns the length of the name of a body, pair or face; that of a rigid body as a whole, BODY.*, without the end */
+static int FigureNameLength(const char name[])
 {
   const char *end = strstr(name, ".*");
 
-  (void)snprintf(text, CELL, "%.*s", end ? (int)(end - name) : CELL, name);
+  return (int)(end ? (size_t)(end - name) : strlen(name));
+}
+
+/* Returns the figure of a pair's force or of a face's reaction that comes next after number f; NULL: none. name: of the
+   pair or face; NULL: of any. */
+static const RunFigure *FigureNextForce(const RunReport *report, FigureOwner owner, const char name[], PetscInt *f)
+{
+  while (*f < report->nfigures) {
+    const RunFigure *figure = &report->figures[(*f)++];
+
+    if (figure->owner == owner && !PetscIsNanReal(figure->components[0]) && (!name || !strcmp(figure->name, name)))
+      return figure;
+  }
+  return NULL;
+}
+
+static const PairReport *FigureFindPair(const RunReport *report, const RunFigure *figure)
+{
+  for (PetscInt s = 0; s < report->nsteps; ++s) {
+    for (PetscInt p = 0; p < report->steps[s].npairs && report->steps[s].step == figure->step; ++p) {
+      if (!strcmp(report->steps[s].pairs[p].name, figure->name)) return &report->steps[s].pairs[p];
+    }
+  }
+  return NULL;
+}
+
+/* Returns whether a rigid body transmits nothing but the force of a pair, so that one row has both. Both are figures
+   with components. */
+static PetscBool FigureIsTool(const RunReport *report, const RunFigure *force, const RunFigure *reaction)
+{
+  const int         length     = FigureNameLength(reaction->name);
+  const PairReport *pair       = FigureFindPair(report, force);
+  PetscReal         difference = 0.0;
+
+  if (!reaction->name[length] || !pair || !pair->mortar || force->step != reaction->step) return PETSC_FALSE;
+  for (PetscInt d = 0; d < 3; ++d)
+    difference = PetscMax(difference, PetscAbsReal(force->components[d] - reaction->components[d]));
+  return (PetscBool)(difference <= FIGURE_SAME * force->value && pair->mortar[length] == '.' &&
+                     !strncmp(pair->mortar, reaction->name, (size_t)length));
+}
+
+/* Writes the name of a row: that of a body, pair, face or bolt, or "pair, tool" */
+static void FigureWriteName(const RunReport *report, const RunFigure *figure, char text[CELL])
+{
+  const char *pair   = figure->owner == FIGURE_OF_PAIR ? figure->name : NULL,
+             *face   = figure->owner == FIGURE_OF_FACE ? figure->name : NULL;
+  PetscInt         f = 0, g;
+  const RunFigure *force, *reaction;
+
+  (void)snprintf(text, CELL, "%.*s", FigureNameLength(figure->name), figure->name);
+  if (!pair && !face) return;
+  while ((force = FigureNextForce(report, FIGURE_OF_PAIR, pair, &f))) {
+    g = 0;
+    while ((reaction = FigureNextForce(report, FIGURE_OF_FACE, face, &g))) {
+      if (!FigureIsTool(report, force, reaction)) continue;
+      (void)snprintf(text, CELL, "%s, %.*s", force->name, FigureNameLength(reaction->name), reaction->name);
+      return;
+    }
+  }
 }
 
 /* Returns the number of the text in the heading or among the names, of which there are n - 1, or n if there is none */
@@ -48,15 +107,9 @@ static PetscInt FigureTableFind(const FigureTable *table, PetscBool row, const c
 /* Returns whether a figure is a contact area that is only one facet wide */
 static PetscBool FigureIsNarrow(const RunReport *report, const RunFigure *figure)
 {
-  if (strcmp(figure->quantity, "contact area") || !(figure->value > 0.0)) return PETSC_FALSE;
-  for (PetscInt s = 0; s < report->nsteps; ++s) {
-    const StepReport *step = &report->steps[s];
+  const PairReport *pair = strcmp(figure->quantity, "contact area") ? NULL : FigureFindPair(report, figure);
 
-    for (PetscInt p = 0; p < step->npairs; ++p) {
-      if (step->step == figure->step && !strcmp(step->pairs[p].name, figure->name)) return step->pairs[p].narrow;
-    }
-  }
-  return PETSC_FALSE;
+  return (PetscBool)(pair && figure->value > 0.0 && pair->narrow);
 }
 
 /* Writes a figure to its row and columns: its value, place or components, and load step if there are several */
@@ -69,7 +122,7 @@ static PetscErrorCode FigureTableAdd(FigureTable *table, const RunReport *report
 
   PetscFunctionBegin;
   (void)snprintf(heading, CELL, figure->unit[0] ? "%s [%s]" : "%s", figure->column, figure->unit);
-  FigureWriteName(figure->name, name);
+  FigureWriteName(report, figure, name);
   column = FigureTableFind(table, PETSC_TRUE, heading, *ncolumns);
   row    = FigureTableFind(table, PETSC_FALSE, name, *nrows);
   (void)snprintf(FigureTableCell(table, 0, column), CELL, "%s", heading);
@@ -122,24 +175,31 @@ static PetscErrorCode FigureTableView(const FigureTable *table, PetscInt nrows, 
   PetscFunctionReturn(0);
 }
 
-/* Prints the figures of an owner as a table; nothing if there are none. heading: what the owners are. */
-static PetscErrorCode FiguresViewTable(const RunReport *report, FigureOwner owner, const char heading[],
-  PetscBool steps, PetscViewer viewer)
+/* Prints the figures of some owners as a table; nothing if there are none. names: what the owners are; NULL: those of
+   another table. */
+static PetscErrorCode FiguresViewTable(const RunReport *report, const char *const names[], PetscBool steps,
+  PetscViewer viewer)
 {
   FigureTable table = {.nrows = 1, .ncolumns = 1};
   PetscInt    nrows = 1, ncolumns = 1;
+  char        heading[CELL] = "";
 
   PetscFunctionBegin;
   for (PetscInt f = 0; f < report->nfigures; ++f) {
-    if (report->figures[f].owner != owner) continue;
+    const char *name = names[report->figures[f].owner];
+
+    if (!name) continue;
     ++table.nrows;
     table.ncolumns += 4;
+    if (strstr(heading, name)) continue;
+    if (heading[0]) PetscCall(PetscStrlcat(heading, ", ", CELL));
+    PetscCall(PetscStrlcat(heading, name, CELL));
   }
   if (table.nrows == 1) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(table.nrows * table.ncolumns, &table.cells));
   (void)snprintf(FigureTableCell(&table, 0, 0), CELL, "%s", heading);
   for (PetscInt f = 0; f < report->nfigures; ++f) {
-    if (report->figures[f].owner == owner)
+    if (names[report->figures[f].owner])
       PetscCall(FigureTableAdd(&table, report, &report->figures[f], steps, &nrows, &ncolumns));
   }
   PetscCall(FigureTableView(&table, nrows, ncolumns, viewer));
@@ -171,27 +231,29 @@ static PetscErrorCode FiguresViewPlanes(const RunReport *report, PetscViewer vie
   PetscFunctionReturn(0);
 }
 
-/* Prints the largest values of the load steps that converged. */
+/* Prints the largest values of the load steps that converged, and begins the last line with the error */
 PetscErrorCode ReportViewFigures(const RunReport *report, PetscViewer viewer)
 {
+  const char *const bodies[FIGURE_OWNERS] = {[FIGURE_OF_BODY] = "body"},
+                    *forces[FIGURE_OWNERS] =
+                      {[FIGURE_OF_PAIR] = "pair", [FIGURE_OF_FACE] = "face", [FIGURE_OF_BOLT] = "bolt"};
   PetscInt  n = 0;
   PetscBool steps;
 
   PetscFunctionBegin;
   for (PetscInt s = 0; s < report->nsteps; ++s) n += report->steps[s].converged;
   steps = (PetscBool)(n > 1);
-  PetscCall(FiguresViewTable(report, FIGURE_OF_BODY, "body", steps, viewer));
-  PetscCall(FiguresViewTable(report, FIGURE_OF_PAIR, "pair", steps, viewer));
-  PetscCall(FiguresViewTable(report, FIGURE_OF_FACE, "face", steps, viewer));
-  PetscCall(FiguresViewTable(report, FIGURE_OF_BOLT, "bolt", steps, viewer));
+  PetscCall(FiguresViewTable(report, bodies, steps, viewer));
+  PetscCall(FiguresViewTable(report, forces, steps, viewer));
   PetscCall(FiguresViewPlanes(report, viewer));
+  PetscCall(PetscViewerASCIIPrintf(viewer, "  "));
   for (PetscInt f = 0; f < report->nfigures; ++f) {
     const RunFigure *figure = &report->figures[f];
 
     if (figure->owner != FIGURE_OF_STRESSED_MODEL) continue;
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %.3g %s", figure->quantity, (double)figure->value, figure->unit));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "%s: %.3g %s", figure->quantity, (double)figure->value, figure->unit));
     if (steps) PetscCall(PetscViewerASCIIPrintf(viewer, " in load step %" PetscInt_FMT, figure->step));
-    PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
+    PetscCall(PetscViewerASCIIPrintf(viewer, "; "));
   }
   PetscFunctionReturn(0);
 }

@@ -253,9 +253,10 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
       "  largest values since the restart at the end of load step %" PetscInt_FMT "\n", report->steps[0].step - 1));
   PetscCall(ReportViewFigures(report, viewer));
   PetscCall(PetscViewerASCIIPrintf(viewer,
-    "  %.3g s, %.0f MB, %" PetscInt_FMT " unknowns, %" PetscInt_FMT " load step%s, %" PetscInt_FMT " rank%s\n",
+    "%.3g s, %.0f MB, %" PetscInt_FMT " unknowns, %" PetscInt_FMT " load step%s, %" PetscInt_FMT " rank%s%s%s\n",
     (double)report->time.total, report->peak_memory_bytes / 1e6, report->dofs, report->nsteps,
-    report->nsteps == 1 ? "" : "s", report->ranks, report->ranks == 1 ? "" : "s"));
+    report->nsteps == 1 ? "" : "s", report->ranks, report->ranks == 1 ? "" : "s", report->files ? "; files:" : "",
+    report->files ? report->files : ""));
   PetscCall(ViewContactFree(report, viewer));
   PetscFunctionReturn(0);
 }

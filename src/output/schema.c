@@ -69,6 +69,7 @@ static const ReportField face_fields[] = {
   FIELD(FaceReport, name, FIELD_TEXT, "", .columns = {COLUMN(TABLE_FACES, "face", "", -24)}),
   FIELD(FaceReport, reaction, FIELD_VECTOR, "force", .columns = {COLUMN(TABLE_FACES, "reaction", "", -41)}),
   FIELD(FaceReport, moment, FIELD_VECTOR, "force length"),
+  FIELD(FaceReport, torque, FIELD_REAL, "force length"),
   END,
 };
 const ReportRecord SchemaFaces = {sizeof(FaceReport), PETSC_TRUE, face_fields};

@@ -8,8 +8,9 @@ typedef struct {
   const char *quantity;
   const char *column; /* heading of a printed table's column; NULL: none */
   FigureOwner owner;
-  const char *unit;    /* "L", "F", "L^2", "F/L^2", "%" or "" */
+  const char *unit;    /* "L", "F", "F L", "L^2", "F/L^2", "%" or "" */
   PetscBool   forces;  /* the value is the length of a force with three components */
+  PetscBool   size;    /* the magnitude counts */
   PetscBool   least;   /* the smallest value is reported instead of the largest one */
   PetscBool   nonzero; /* the figure is omitted if the value is 0, up to rounding, in all load steps */
   size_t      value;
@@ -31,8 +32,9 @@ static const FigureKind kinds[] = {
   {"contact pressure", "pressure", FIGURE_OF_PAIR, "F/L^2", .value = offsetof(PairReport, pressure),
     .place = offsetof(PairReport, pressure_place)},
   {"contact area", "area", FIGURE_OF_PAIR, "L^2", .value = offsetof(PairReport, area)},
-  {"reaction", "reaction", FIGURE_OF_FACE, "F", .forces = PETSC_TRUE, .nonzero = PETSC_TRUE,
+  {"reaction", "force", FIGURE_OF_FACE, "F", .forces = PETSC_TRUE, .nonzero = PETSC_TRUE,
     .value = offsetof(FaceReport, reaction)},
+  {"torque", "torque", FIGURE_OF_FACE, "F L", .size = PETSC_TRUE, .value = offsetof(FaceReport, torque)},
   {"bolt force", "force", FIGURE_OF_BOLT, "F", .value = offsetof(BoltReport, force)},
   {"stress error, estimate", NULL, FIGURE_OF_STRESSED_MODEL, "%", .value = offsetof(StepReport, error_estimate)},
 };
@@ -46,6 +48,8 @@ static void FigureSetUnit(const char kind[], const char units[], char unit[], si
   if (kind[0] == '%') (void)snprintf(unit, length, "%%");
   else if (kind[0] == 'L') (void)snprintf(unit, length, "%s%s", size, size[0] ? power : "");
   else if (kind[0] == 'F' && !kind[1]) (void)snprintf(unit, length, "%s", force);
+  else if (kind[1] == ' ')
+    (void)snprintf(unit, length, "%s%s%s", force, force[0] && size[0] ? " " : "", force[0] ? size : "");
   else if (kind[0] == 'F' && (stress[0] || !force[0] || !size[0])) (void)snprintf(unit, length, "%s", stress);
   else if (kind[0] == 'F') (void)snprintf(unit, length, "%s/%s^2", force, size);
 }
@@ -70,6 +74,7 @@ static PetscErrorCode FigureTake(const FigureKind *kind, const char *owner, Pets
   PetscReal value          = kind->forces ? VectorNorm(numbers) : numbers[0];
 
   PetscFunctionBegin;
+  if (kind->size) value = PetscAbsReal(value);
   if (kind->unit[0] == '%') value *= 100.0;
   if (PetscIsNanReal(value)) PetscFunctionReturn(0);
   if (!PetscIsNanReal(figure->value) &&

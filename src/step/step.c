@@ -49,6 +49,7 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
   PetscCall(PetscLogEventEnd(SIM_Forces, NULL, NULL, NULL, NULL));
   PetscCall(ResultsMeasure(sim, report));
   PetscCall(RigidPlacesMeasure(sim, report));
+  PetscCall(TorquesMeasure(sim->model->scene, report));
   PetscCall(ProbesMeasure(sim->model, sim->state, sim->results, report));
   *state = (StepState){
     .report            = report,

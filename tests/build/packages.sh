@@ -6,9 +6,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$AMGF_DIR" || exit 1
 version=$(sed -n 's/^#define PETSCAMGF_VERSION_[A-Z]* *\([0-9]*\)$/\1/p' include/petscamgf.h | paste -sd.)
-for file in python/pyproject.toml packaging/petsc/AMGF.py packaging/spack/package.py packaging/conda/meta.yaml \
-  packaging/README.md; do
-  grep -qE "(version|amgf-).*\b${version//./\\.}\b" "share/$file" || echo "$file: not version $version"
+for file in pyproject.toml share/packaging/{petsc/AMGF.py,spack/package.py,conda/meta.yaml,README.md}; do
+  grep -qE "(version|amgf-).*\b${version//./\\.}\b" "$file" || echo "$file: not version $version"
 done
 
 make --no-print-directory install DESTDIR="$work" PREFIX=/usr > "$work/log" 2>&1 || cat "$work/log"
@@ -36,9 +35,17 @@ print("recipes: Python")
 P
 
 # Where Python has no pip, from the sources: which of both depends on the machine
-cp -r share/python "$work/python"
-"$PYTHON" -m pip install -q --no-deps --no-build-isolation --no-warn-script-location --root-user-action=ignore \
-  --target "$work/site" "$work/python" > "$work/log" 2>&1 || { mkdir "$work/site" && cp -r share/python/contact "$work/site"; }
+mkdir -p "$work/source/share"
+cp pyproject.toml "$work/source"
+cp -r share/python "$work/source/share"
+if "$PYTHON" -c 'import setuptools, pip, wheel' 2> "$work/log"; then
+  (cd "$work/source" && "$PYTHON" -m pip install -q --no-deps --no-build-isolation --no-warn-script-location \
+    --root-user-action=ignore --target "$work/site" .) > "$work/log" 2>&1 || { echo "pip install ."; cat "$work/log"; }
+  mesh=$work/site/bin/contact-mesh
+else
+  mv "$work/source/share/python" "$work/site"
+  mesh="-m contact.meshes"
+fi
 cd "$work" || exit 1
 PATH=$AMGF_DIR/bin:$PATH PYTHONPATH=$work/site "$PYTHON" -B - << 'P'
 import contact, contact.places
@@ -46,5 +53,6 @@ print("package:", contact.__file__.startswith(__import__("os").getcwd()))
 print("program:", contact.places.program().endswith("bin/contact"))
 print("script:", contact.places.script("plot/draw.py").endswith("share/plot/draw.py"))
 P
-PYTHONPATH=$work/site "$PYTHON" -B -m contact.meshes "$AMGF_DIR/share/gmsh/two_blocks.msh" -check | sed 's/:.*//;q' | xargs basename
+# shellcheck disable=SC2086
+PYTHONPATH=$work/site "$PYTHON" -B $mesh "$AMGF_DIR/share/gmsh/two_blocks.msh" -check | sed 's/:.*//;q' | xargs basename
 env -u CONTACT PATH=/usr/bin PYTHONPATH=$work/site "$PYTHON" -B -c 'import contact.places as p; p.program()' 2>&1 | tail -n 1

@@ -1,11 +1,11 @@
 # The largest values of a run: maximum and place against closed forms of a cantilever, Hertz's cylinder, and a thick
 # tube; the same numbers in the summary, on the terminal, in the history and on any number of ranks; a rigid tool; a
-# tube that yields; bodies of one layer of cells; cells that turn and yield; a contact that is one facet wide; load
-# steps that fail are left out; a yield stress that is none.
+# tube that yields; bodies of one layer of cells; cells that turn and yield; a contact that is one facet wide; torques
+# of a face and a roll; load steps that fail are left out; a yield stress that is none.
 contact=$AMGF_DIR/bin/contact
 check="$AMGF_DIR/tests/run/figures.py"
 "$PYTHON" "$check" write
-for scene in cantilever tube tool bolt layer hinge roll; do
+for scene in cantilever tube tool bolt layer hinge roll crank brake; do
   "$contact" $scene.yaml -output $scene -summary $scene.json > $scene.txt || echo "$scene: exit code $?"
   mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json || echo "$scene, 3: exit code $?"
 done
