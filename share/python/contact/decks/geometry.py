@@ -14,6 +14,7 @@ class Geometry:
         self.points, self.elements = np.zeros((0, 3)), []
         self.node_numbers, self.element_numbers = [], []
         self.nsets, self.elsets, self.surfaces, self.nodes_at, self.elements_at = {}, {}, {}, {}, {}
+        self.spellings = {}
         alone = [(name, name, None) for name in deck.parts if name] if not deck.instances else deck.instances
         for label, name, move in [("", "", None), *alone]:
             part = abaqus.named(deck.parts, name)
@@ -44,6 +45,7 @@ class Geometry:
             for name, numbers in part.nsets.items():
                 nodes = [at[number] for number in numbers if number in at]
                 self.nsets.setdefault(start + name.upper(), []).extend(nodes)
+                self.spellings[start + name.upper()] = name
             for name, numbers in part.elsets.items():
                 cells = [place[number] for number in numbers if number in place]
                 self.elsets.setdefault(start + name.upper(), []).extend(cells)
@@ -68,6 +70,10 @@ class Geometry:
         if name.upper() in self.nodes_at:
             return [self.nodes_at[name.upper()]]
         raise MeshError(f"{where}: there is no node and no set of nodes \"{name}\"")
+
+    def name_of(self, nodes):
+        """The name of the set that has exactly these nodes; None: there is none"""
+        return next((self.spellings[key] for key, those in self.nsets.items() if set(those) == nodes), None)
 
     def side_nodes(self, cell, side):
         kind, nodes = self.elements[cell]
@@ -178,20 +184,23 @@ class Bodies:
         return body in self.faces[label.upper()][1]
 
     def divide_nodes(self, name, nodes):
-        """([(body, face)], [(body, node)]): facets whose nodes are all in the set, and the nodes of no such facet"""
+        """([(body, face)], [(body, node)]): facets whose nodes are all in the set, and the nodes of no such facet. A
+        face has the name of the set of its nodes if there is one"""
         inside = set(nodes)
-        sides, covered = [], {}
+        sides, covered, faces = {}, {}, []
         for cell, side in self.boundary:
             mine = self.geometry.side_nodes(cell, side)
             if inside.issuperset(mine):
-                sides.append((cell, side))
+                sides.setdefault(self.number[cell], []).append((cell, side))
                 covered.setdefault(self.number[cell], set()).update(mine)
+        for body, these in sorted(sides.items()):
+            faces += self.add_face(self.geometry.name_of(covered[body]) or name, these)
         points = [(body, node)
                   for body, mine in enumerate(self.body_nodes)
                   for node in sorted(inside & mine)
                   if node not in covered.get(body, ())]
         held = set().union(*self.body_nodes)
-        return (self.add_face(name, sides) if sides else []), points, sorted(inside - held)
+        return faces, points, sorted(inside - held)
 
     def normal(self, cell, side):
         """Outward normal of a side, as long as its area"""
