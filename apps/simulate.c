@@ -52,7 +52,7 @@ static PetscErrorCode AppCreateOutput(const AppOptions *app, Scene scene, Simula
 }
 
 /* Prints the largest values, and the names of the files that the run has written */
-static PetscErrorCode AppViewReport(const AppOptions *app, const RunReport *report)
+static PetscErrorCode AppViewReport(const AppOptions *app, Scene scene, const RunReport *report)
 {
   const char *const names[]                     = {app->output, app->output, app->output, app->summary, app->report},
                     *ends[]                     = {".xmf", ".csv", ".pvd", "", ""};
@@ -61,6 +61,8 @@ static PetscErrorCode AppViewReport(const AppOptions *app, const RunReport *repo
   char            files[5 * PETSC_MAX_PATH_LEN] = "";
 
   PetscFunctionBeginUser;
+  for (PetscInt b = 0; b < scene->nbodies && !app->vtk; ++b)
+    if (SceneBodyIsSurface(&scene->bodies[b])) ends[0] = ".xmf (without the rigid surfaces: -output NAME.pvd has them)";
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(names); ++k) {
     size_t n = strlen(files);
 
@@ -71,12 +73,12 @@ static PetscErrorCode AppViewReport(const AppOptions *app, const RunReport *repo
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode AppReport(const AppOptions *app, const RunReport *report)
+static PetscErrorCode AppReport(const AppOptions *app, Scene scene, const RunReport *report)
 {
   PetscFunctionBeginUser;
   if (app->tables) PetscCall(ReportViewTables(report, PETSC_VIEWER_STDOUT_WORLD));
   else if (report->accuracy && !app->quiet) PetscCall(ReportViewAccuracy(report, PETSC_VIEWER_STDOUT_WORLD));
-  if (!app->quiet) PetscCall(AppViewReport(app, report));
+  if (!app->quiet) PetscCall(AppViewReport(app, scene, report));
   if (app->summarize) PetscCall(ReportWriteJSON(PETSC_COMM_WORLD, report, app->summary));
   if (!report->converged)
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, stderr, "contact: load step %" PetscInt_FMT " failed: %s\n",
@@ -189,7 +191,7 @@ static PetscErrorCode AppSimulate(const AppOptions *app, Scene scene, Accuracy *
   if (report.exit_code == RUN_INTERRUPTED) PetscCall(AppWriteCheckpoint(app, scene, sim, writer));
   PetscCall(CheckpointWriterDestroy(&writer));
   *end = (RunEnd)report.exit_code;
-  if (!*again) PetscCall(AppReport(app, &report));
+  if (!*again) PetscCall(AppReport(app, scene, &report));
   PetscCall(OutputDestroy(&output));
   PetscCall(SimulationDestroy(&sim));
   PetscFunctionReturn(0);

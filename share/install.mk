@@ -39,6 +39,7 @@ installed = $(call put,755,$(programs) $(if $(programs),bin/contact-mesh bin/con
   $(if $(only_plugin),,$(installed_contact)) \
   $(call put,644,$(wildcard share/examples/*.*) share/examples/makefile,share/amgf/examples) \
   $(call put,644,$(wildcard share/doc/*.md),share/doc/amgf) \
+  $(call put,644,$(wildcard share/doc/pictures/*.png),share/doc/amgf/pictures) \
   $(foreach section,1 3,$(call put,644,$(sort $(wildcard build/doc/man/man$(section)/*)),share/man/man$(section)))
 
 .PHONY: install install-files uninstall

@@ -2,7 +2,7 @@
 # Makes the pictures of the README: solves scenes, writes their fields, draws them. No display is needed.
 # usage: share/plot/pictures.sh [FOLDER], from the top folder, after make
 set -e
-folder=${1:-share/pictures}
+folder=${1:-share/doc/pictures}
 python=/usr/bin/python3
 [ -x $python ] || python=python3
 work=$(mktemp -d)

@@ -392,8 +392,9 @@ def answers(run, symmetric):
     tools = [figure for figure in run["figures"] if figure["quantity"] == "reaction"]
     tools = [figure for figure in tools if figure["name"].endswith(".*")] or tools
     force = max(tools, key=lambda figure: figure["value"], default=None)
-    normal, areas, torques = listed(run, "normal force"), listed(run, "contact area"), listed(run, "torque")
-    torques = f". Torque of what turns: {torques}" * bool(torques)
+    normal, areas = listed(run, "normal force"), listed(run, "contact area")
+    torques, bolts = listed(run, "torque"), listed(run, "bolt force")
+    more = f". Torque of what turns: {torques}" * bool(torques) + f". Bolts: {bolts}" * bool(bolts)
     part = " (of the part that is modelled: there are symmetry planes)" * symmetric
     large = error["value"] if error else 0
     advice = " The stresses have no meaning." if large > 100 else " Refine the mesh." if large > 30 else ""
@@ -406,7 +407,7 @@ def answers(run, symmetric):
          f"{html.escape(stress['name'])}, at ({text(stress['place'])}), undeformed{when(run, stress)}"),
         ("yield", "Does the material yield?", yields(run)),
         ("force", "Which force does the tool or the support need?",
-         f"{amount(force)} at {html.escape(force['name'].removesuffix('.*'))}{when(run, force)}{part}{torques}"
+         f"{amount(force)} at {html.escape(force['name'].removesuffix('.*'))}{when(run, force)}{part}{more}"
          if force else "There is none." + f" Normal force of the contact: {normal}{part}" * bool(normal)),
         ("area", "How large is the contact area?", areas + part + narrow(run) if areas else "There is no contact."),
         ("accuracy", "How accurate is it?", mean or "Not estimated."),

@@ -20,6 +20,11 @@ for name in bin/contact lib/libpetscamgf.so lib/libcontact.a lib/pkgconfig/petsc
   share/doc/amgf/guide.md share/man/man1/contact.1 share/man/man3/PCAMGF.3 share/man/man3/TAOIPFILTER.3; do
   [ -e "$prefix/$name" ] || echo "not installed: $name"
 done
+cd "$prefix/share/doc/amgf" || exit 1
+grep -oh '([^()]*pictures/[a-z_]*\.png' ./*.md | cut -c2- | sort -u | while read -r picture; do
+  [ -e "$picture" ] || echo "not installed: $picture"
+done
+cd "$work" || exit 1
 echo "manual pages in section 3 that are not the plugin's:" \
   "$(cd "$prefix/share/man/man3" && find . -name '*.3' ! -name 'PC*' ! -name 'P[eE]*' ! -name 'T[aA]*' | wc -l)"
 

@@ -1,6 +1,8 @@
 # Rigid tools are drawn by their own surfaces: for each shape the points of the drawn surface lie on the exact one, also
-# after the tool has moved and turned; the cube that stands for the tool in the mesh is not drawn.
+# after the tool has moved and turned; the cube that stands for the tool in the mesh is not drawn. A run whose files
+# have no tools says which files have them.
 "$PYTHON" -B "$AMGF_DIR/tests/output/pictures_tools.py" write
+"$AMGF_DIR/bin/contact" tools.yaml -output plain | grep -o 'plain\.xmf (.*)'
 "$AMGF_DIR/bin/contact" tools.yaml -quiet -output tools.pvd || echo "exit code $?"
 cat > roller.yaml <<'YAML'
 bodies:

@@ -39,7 +39,7 @@ strain = max((figure["value"] for figure in figures("eq. plastic strain")), defa
 expect("yield", "Yes" if strain else "Not known" if safety is None else "No:" if safety > 1 else "It would")
 tools = [figure for figure in figures("reaction") if figure["name"].endswith(".*")] or figures("reaction")
 expect("force", f"{max(figure['value'] for figure in tools):.5g}" if tools else "none")
-expect("force", *(f"{figure['value']:.5g} {figure['unit']}" for figure in figures("torque")))
+expect("force", *(f"{figure['value']:.5g} {figure['unit']}" for figure in figures("torque") + figures("bolt force")))
 expect("area", *(f"{figure['value']:.5g}" for figure in figures("contact area")))
 error = figures("stress error, estimate")[0]["value"]
 expect("accuracy", f"{error:.{0 if error >= 10 else 1}f} %")
