@@ -29,7 +29,8 @@ def open_screen():
         # Random, since the lowest free number may be that of a server that is about to end, and takes the socket with
         # it
         number = random.randrange(100, 30000)
-        arguments = ["Xvfb", f":{number}", "-displayfd", "1", "-screen", "0", "1600x1200x24", "-nolisten", "tcp"]
+        arguments = ["Xvfb", f":{number}", "-displayfd", "1", "-screen", "0", "1600x1200x24", "-nolisten", "tcp",
+                     "-noreset"]
         server = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         if server.stdout.readline().strip():  # it is ready
             atexit.register(close_screen, server)

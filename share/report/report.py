@@ -461,13 +461,12 @@ def history(base):
         f"normal force of each contact pair [{force}]": [name for name in heading if name.endswith(".normal_force")],
         f"largest reactions [{force}]": [name for name in reactions if peak(columns[name]) > 0][:4],
     }
-    if peak(columns.get("plastic_work", [])):
-        groups[next(iter(groups))].append("plastic_work")
+    groups[next(iter(groups))] += [name for name in ("plastic_work", "contact_work") if peak(columns.get(name, []))]
     groups = {title: names for title, names in groups.items() if names}
     figure, axes = plt.subplots(len(groups), squeeze=False, sharex=True, figsize=(8, 2.6 * len(groups) + 0.6))
     for axis, (title, names) in zip(axes.ravel(), groups.items()):
         for name in names:
-            axis.plot(columns["time"], columns[name], ".-", label=name)
+            axis.plot(columns["time"], columns[name], ".-", label=name.replace(".*", ""))
         axis.set_title(title, fontsize="medium")
         axis.legend(fontsize="small")
         axis.grid(alpha=0.3)

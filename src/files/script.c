@@ -31,6 +31,21 @@ PetscBool ScriptFind(const char name[], char script[], size_t length, char sente
   return PETSC_FALSE;
 }
 
+/* Removes codes of colours, ESC [ ... m, and all but the last line that is not blank */
+static void ScriptTakeLine(char text[])
+{
+  size_t n = 0;
+
+  for (const char *c = text; *c; ++c) {
+    if (*c != '\033') text[n++] = *c;
+    else
+      while (*c != 'm' && c[1]) ++c;
+  }
+  while (n && strchr(" \r\n", text[n - 1])) --n;
+  text[n] = '\0';
+  if (strrchr(text, '\n')) memmove(text, strrchr(text, '\n') + 1, strlen(strrchr(text, '\n')));
+}
+
 /*
    Runs the script and returns 0 if it ended without error. `sentence` gets the last line that the script prints on the
    error stream, as far as there is room.
@@ -58,8 +73,7 @@ int ScriptRun(const char *const words[], char sentence[], size_t length)
   }
   close(ends[0]);
   sentence[got] = '\0';
-  while (got && sentence[got - 1] == '\n') sentence[--got] = '\0';
-  if (strrchr(sentence, '\n')) memmove(sentence, strrchr(sentence, '\n') + 1, strlen(strrchr(sentence, '\n')));
+  ScriptTakeLine(sentence);
   if (error) (void)snprintf(sentence, length, "%s: %s", words[0], strerror(error));
   else if (waitpid(child, &status, 0) < 0) status = -1;
   return error ? error : status;

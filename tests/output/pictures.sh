@@ -26,6 +26,22 @@ done
 # One side of a pair is coloured, that with the largest pressure; the mark has the largest value and its place; colours
 # are not changed by light; a section omits what is in front of it; load steps have one range of colours and one view
 PYTHONPATH=$AMGF_DIR/share/plot:$AMGF_DIR/tests/lib "$PYTHON" -B "$AMGF_DIR/tests/output/pictures_parts.py"
+# The screen stays when the last picture has closed its window
+PYTHONPATH=$AMGF_DIR/share/plot "$PYTHON" -B - <<'PY'
+import ctypes
+import screen
+
+screen.open_screen()
+x11 = ctypes.CDLL("libX11.so.6")
+x11.XOpenDisplay.restype, x11.XCloseDisplay.argtypes = ctypes.c_void_p, [ctypes.c_void_p]
+lost = 0
+for _ in range(50):
+    window = x11.XOpenDisplay(None)
+    lost += not window
+    if window:
+        x11.XCloseDisplay(window)
+print("windows without a screen:", lost)
+PY
 # A Python without modules finds the one of the build; where that has none, one sentence says what is missing
 "$PYTHON" -S -B "$AMGF_DIR/share/plot/draw.py" boxes other.png --field body && ls other.png
 mkdir -p bare/bin bare/share && cp -r "$AMGF_DIR/share/plot" "$AMGF_DIR/share/python" bare/share

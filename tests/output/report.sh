@@ -33,5 +33,8 @@ util.find_spec = lambda name, *more: None if name == "vtkmodules" else find(name
 PY
 PYTHONPATH=less "$contact" boxes.yaml -quiet -report less.html 2>&1 | sed "s|at [^ ]*python3[0-9.]*|at PYTHON|"
 ls less.h5 2> /dev/null
+# As VTK ends where there is no screen: in colours
+mkdir dies && echo 'import os; os.write(2, b"\033[0m\033[31mno screen\n\033[0m\n"); os._exit(1)' > dies/sitecustomize.py
+PYTHONPATH=dies "$contact" boxes.yaml -quiet -report dies.html 2>&1
 rm -r installed/share
 LD_LIBRARY_PATH=$AMGF_DIR/lib installed/bin/contact boxes.yaml -quiet -report bare.html 2>&1; echo "exit code $?"
