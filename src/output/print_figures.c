@@ -2,8 +2,10 @@
 #include "outputimpl.h"
 #include "src/report/reportimpl.h"
 
-#define CELL        96   /* longest text of a cell, with its end */
-#define FIGURE_SAME 1e-5 /* relative difference of forces that are printed as one */
+#define CELL           96   /* longest text of a cell, with its end */
+#define FIGURE_SAME    1e-5 /* relative difference of forces that are printed as one */
+#define FIGURE_ROWS    8    /* largest number of rows of a table, and of symmetry reactions */
+#define FIGURE_COLUMNS 32   /* more than any table has */
 
 /* A table of texts. The first row is the heading, the first column has the names. */
 typedef struct {
@@ -64,14 +66,15 @@ static const PairReport *FigureFindPair(const RunReport *report, const RunFigure
    with components. */
 static PetscBool FigureIsTool(const RunReport *report, const RunFigure *force, const RunFigure *reaction)
 {
-  const int         length     = FigureNameLength(reaction->name);
-  const PairReport *pair       = FigureFindPair(report, force);
-  PetscReal         difference = 0.0;
+  const int         length = FigureNameLength(reaction->name);
+  const PairReport *pair;
 
-  if (!reaction->name[length] || !pair || !pair->mortar || force->step != reaction->step) return PETSC_FALSE;
-  for (PetscInt d = 0; d < 3; ++d)
-    difference = PetscMax(difference, PetscAbsReal(force->components[d] - reaction->components[d]));
-  return (PetscBool)(difference <= FIGURE_SAME * force->value && pair->mortar[length] == '.' &&
+  if (!reaction->name[length] || force->step != reaction->step) return PETSC_FALSE;
+  for (PetscInt d = 0; d < 3; ++d) {
+    if (PetscAbsReal(force->components[d] - reaction->components[d]) > FIGURE_SAME * force->value) return PETSC_FALSE;
+  }
+  pair = FigureFindPair(report, force);
+  return (PetscBool)(pair && pair->mortar && pair->mortar[length] == '.' &&
                      !strncmp(pair->mortar, reaction->name, (size_t)length));
 }
 
@@ -156,10 +159,60 @@ static PetscBool FigureTableIsLeft(const FigureTable *table, PetscInt column)
   return (PetscBool)(!column || !strcmp(heading, place_heading) || !strcmp(heading, components_heading));
 }
 
-/* Prints a table whose columns are as wide as their texts */
-static PetscErrorCode FigureTableView(const FigureTable *table, PetscInt nrows, PetscInt ncolumns, PetscViewer viewer)
+/* Returns the row with the largest value of a column, or the smallest safety factor; 0: none */
+static PetscInt FigureTableFindLargest(const FigureTable *table, PetscInt nrows, PetscInt column)
 {
+  const PetscBool safety  = (PetscBool)!strcmp(FigureTableCell(table, 0, column), safety_column);
+  PetscInt        best    = 0;
+  double          largest = 0.0;
+
+  for (PetscInt row = 1; row < nrows; ++row) {
+    const char  *text  = FigureTableCell(table, row, column);
+    const double value = safety ? -strtod(text, NULL) : strtod(text, NULL);
+
+    if (!text[0] || (best && value <= largest)) continue;
+    best    = row;
+    largest = value;
+  }
+  return best;
+}
+
+/* Moves the rows that are printed to the beginning, if there are too many: those with the largest values, and the first
+   of the others. All keep their order. Returns the number of rows that remain. */
+static PetscErrorCode FigureTableShorten(FigureTable *table, PetscInt ncolumns, PetscInt *nrows)
+{
+  PetscBool *shown;
+  PetscInt   n = 0, at = 0;
+
   PetscFunctionBegin;
+  if (*nrows <= FIGURE_ROWS + 1) PetscFunctionReturn(0);
+  PetscCall(PetscCalloc1(*nrows, &shown));
+  for (PetscInt column = 0; column < ncolumns; ++column) {
+    if (FigureTableIsLeft(table, column) || !strcmp(FigureTableCell(table, 0, column), "step")) continue;
+    shown[FigureTableFindLargest(table, *nrows, column)] = PETSC_TRUE;
+  }
+  shown[0] = PETSC_TRUE;
+  for (PetscInt row = 0; row < *nrows; ++row) n += shown[row];
+  for (PetscInt row = 1; row < *nrows && n <= FIGURE_ROWS; ++row) {
+    n += !shown[row];
+    shown[row] = PETSC_TRUE;
+  }
+  for (PetscInt row = 0; row < *nrows; ++row) {
+    if (shown[row])
+      PetscCall(PetscArraymove(FigureTableCell(table, at++, 0), FigureTableCell(table, row, 0), ncolumns * CELL));
+  }
+  *nrows = n;
+  PetscCall(PetscFree(shown));
+  PetscFunctionReturn(0);
+}
+
+/* Prints a table whose columns are as wide as their texts */
+static PetscErrorCode FigureTableView(FigureTable *table, PetscInt nrows, PetscInt ncolumns, PetscViewer viewer)
+{
+  const PetscInt all = nrows;
+
+  PetscFunctionBegin;
+  PetscCall(FigureTableShorten(table, ncolumns, &nrows));
   for (PetscInt row = 0; row < nrows; ++row) {
     for (PetscInt column = 0; column < ncolumns; ++column) {
       const char     *text  = FigureTableCell(table, row, column);
@@ -172,6 +225,10 @@ static PetscErrorCode FigureTableView(const FigureTable *table, PetscInt nrows, 
     }
     PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   }
+  if (nrows < all)
+    PetscCall(PetscViewerASCIIPrintf(viewer,
+      "  and %" PetscInt_FMT " others, none with a larger value: -summary FILE.json and -report FILE.html have all\n",
+      all - nrows));
   PetscFunctionReturn(0);
 }
 
@@ -180,7 +237,7 @@ static PetscErrorCode FigureTableView(const FigureTable *table, PetscInt nrows, 
 static PetscErrorCode FiguresViewTable(const RunReport *report, const char *const names[], PetscBool steps,
   PetscViewer viewer)
 {
-  FigureTable table = {.nrows = 1, .ncolumns = 1};
+  FigureTable table = {.nrows = 1, .ncolumns = FIGURE_COLUMNS};
   PetscInt    nrows = 1, ncolumns = 1;
   char        heading[CELL] = "";
 
@@ -190,7 +247,6 @@ static PetscErrorCode FiguresViewTable(const RunReport *report, const char *cons
 
     if (!name) continue;
     ++table.nrows;
-    table.ncolumns += 4;
     if (strstr(heading, name)) continue;
     if (heading[0]) PetscCall(PetscStrlcat(heading, ", ", CELL));
     PetscCall(PetscStrlcat(heading, name, CELL));
@@ -210,7 +266,8 @@ static PetscErrorCode FiguresViewTable(const RunReport *report, const char *cons
 /* Prints the reactions of the symmetry planes in one line. The name of a body stands before those of its planes. */
 static PetscErrorCode FiguresViewPlanes(const RunReport *report, PetscViewer viewer)
 {
-  const RunFigure *before = NULL;
+  const RunFigure *before  = NULL;
+  PetscInt         nplanes = 0;
 
   PetscFunctionBegin;
   for (PetscInt f = 0; f < report->nfigures; ++f) {
@@ -218,7 +275,7 @@ static PetscErrorCode FiguresViewPlanes(const RunReport *report, PetscViewer vie
     const size_t     n      = strcspn(figure->name, ".") + 1; /* the body's name and the point */
     char             value[32];
 
-    if (figure->owner != FIGURE_OF_PLANE) continue;
+    if (figure->owner != FIGURE_OF_PLANE || ++nplanes > FIGURE_ROWS) continue;
     if (!before) PetscCall(PetscViewerASCIIPrintf(viewer, "  symmetry reactions"));
     if (!before || strncmp(before->name, figure->name, n))
       PetscCall(PetscViewerASCIIPrintf(viewer, "%s %.*s:", before ? ";" : "", (int)n - 1, figure->name));
@@ -227,6 +284,8 @@ static PetscErrorCode FiguresViewPlanes(const RunReport *report, PetscViewer vie
     PetscCall(PetscViewerASCIIPrintf(viewer, " %s %s", figure->name + n, value));
     before = figure;
   }
+  if (nplanes > FIGURE_ROWS)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "; and %" PetscInt_FMT " others;", nplanes - FIGURE_ROWS));
   if (before) PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s\n", before->unit[0] ? " " : "", before->unit));
   PetscFunctionReturn(0);
 }

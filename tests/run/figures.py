@@ -104,6 +104,17 @@ BRAKE = (ROLL.replace("problem: roll", "problem: brake")
          .replace("value: [0, 0, -0.01]}", "value: [0, 0, -0.01], rotation: [0, 2, 0], center: [2, 0, 4]}"))
 
 
+# Twenty blocks, each pressed by its plane; the last but one is pressed most
+MANY = "problem: many\nbodies:\n" + "".join(
+    f"  - b{k}: {{lower: [{2 * k}, 0, 0], upper: [{2 * k + 1}, 1, 1], cells: [1, 1, 1], young: 1000, poisson: 0, "
+    f"yield: 30}}\n"
+    f"  - t{k}: {{shape: rigid_plane, point: [{2 * k}, 0, 1], normal: [0, 0, -1]}}\n" for k in range(20))
+MANY += "displacements:\n" + "".join(
+    f"  - foot{k}: {{face: b{k}.zmin, value: [0, 0, 0]}}\n"
+    f"  - press{k}: {{body: t{k}, value: [0, 0, -0.0{2 if k == 18 else 1}]}}\n" for k in range(20))
+MANY += "contact:\n" + "".join(f"  - c{k}: {{mortar: t{k}.surface, nonmortar: b{k}.zmax}}\n" for k in range(20))
+
+
 def figure(run, quantity, name=""):
     found = [one for one in run["figures"] if (one["quantity"], one["name"]) == (quantity, name)]
     assert len(found) == 1, (quantity, name, found)
@@ -338,7 +349,20 @@ def ranks(name, run):
     say(name + ": the same on three ranks", same, (run["figures"], others))
 
 
+def many():
+    """Of many bodies and pairs the terminal has those with the largest values"""
+    with open("many.txt", encoding="utf-8") as file:
+        lines = file.readlines()
+    lines = lines[next(k for k, line in enumerate(lines) if line.startswith("Problem ")):]
+    bodies, forces = table(lines, "body"), table(lines, "force")
+    say("many: rows", (len(bodies), len(forces), len(lines)) == (8, 16, 22), lines)
+    say("many: largest values", bodies["b18"]["safety"] == ("1.5", ) and forces["t18"]["force"][0] == "20", lines)
+    others = [line.split()[1] for line in lines if line.startswith("  and ")]
+    say("many: the number of the others", others == ["32", "32"], lines)
+
+
 def check():
+    many()
     for name, test in (("cantilever", cantilever), ("tube", tube), ("tool", tool), ("bolt", bolt), ("layer", layer),
                        ("hinge", hinge), ("roll", roll), ("crank", crank), ("brake", brake)):
         run = load(name)
@@ -361,7 +385,7 @@ def check():
 
 if sys.argv[1] == "write":
     for name, text in (("cantilever", CANTILEVER), ("tube", TUBE), ("tool", TOOL), ("bolt", BOLT), ("layer", LAYER),
-                       ("hinge", HINGE), ("roll", ROLL), ("crank", CRANK), ("brake", BRAKE)):
+                       ("hinge", HINGE), ("roll", ROLL), ("crank", CRANK), ("brake", BRAKE), ("many", MANY)):
         with open(name + ".yaml", "w", encoding="utf-8") as file:
             file.write(text.lstrip())
 else:

@@ -1,7 +1,7 @@
 # The largest values of a run: maximum and place against closed forms of a cantilever, Hertz's cylinder, and a thick
 # tube; the same numbers in the summary, on the terminal, in the history and on any number of ranks; a rigid tool; a
 # tube that yields; bodies of one layer of cells; cells that turn and yield; a contact that is one facet wide; torques
-# of a face and a roll; load steps that fail are left out; a yield stress that is none.
+# of a face and a roll; the largest of many bodies; load steps that fail are left out; a yield stress that is none.
 contact=$AMGF_DIR/bin/contact
 check="$AMGF_DIR/tests/run/figures.py"
 "$PYTHON" "$check" write
@@ -9,6 +9,7 @@ for scene in cantilever tube tool bolt layer hinge roll crank brake; do
   "$contact" $scene.yaml -output $scene -summary $scene.json > $scene.txt || echo "$scene: exit code $?"
   mpiexec --oversubscribe -n 3 "$contact" $scene.yaml -quiet -summary ${scene}_3.json || echo "$scene, 3: exit code $?"
 done
+"$contact" many.yaml > many.txt || echo "many: exit code $?"
 "$contact" "$AMGF_DIR/share/scenes/hertz_cylinder.yaml" -quiet -summary hertz.json || echo "hertz: exit code $?"
 "$contact" "$AMGF_DIR/share/scenes/thick_tube.yaml" -quiet -summary yields.json || echo "yields: exit code $?"
 "$contact" tube.yaml -quiet -error_estimate 0 -summary plain.json || echo "plain: exit code $?"
