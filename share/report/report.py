@@ -147,6 +147,8 @@ function turn(canvas, model) {
 BIGGEST = 2_500_000  # bytes of the view that can be turned
 SHOWN = 12  # largest number of load steps in the pictures
 SMALL = 0.2  # largest size of a contact area that is magnified, relative to the model
+LISTED = 8  # largest number of values in an answer
+OPEN = 60  # largest number of largest values whose table is open
 ROWS = 20  # largest number of rows of the table of load steps
 
 
@@ -350,9 +352,12 @@ def when(run, figure):
 
 
 def listed(run, quantity):
-    """The values of all owners of a quantity, in words"""
-    return "; ".join(f"{html.escape(figure['name'].removesuffix('.*'))}: {amount(figure)}{when(run, figure)}"
-                     for figure in run["figures"] if figure["quantity"] == quantity)
+    """The values of the owners of a quantity, in words; of many those with the largest ones"""
+    found = [figure for figure in run["figures"] if figure["quantity"] == quantity]
+    shown = found if len(found) <= LISTED else sorted(found, key=lambda figure: -figure["value"])[:LISTED]
+    words = [f"{html.escape(figure['name'].removesuffix('.*'))}: {amount(figure)}{when(run, figure)}"
+             for figure in shown]
+    return "; ".join(words) + f"; and {len(found) - len(shown)} others" * (len(found) > len(shown))
 
 
 def narrow(run):
@@ -417,7 +422,9 @@ def answers(run, symmetric):
 
 
 def results(run):
-    """The largest values of the run; each row has an id, QUANTITY.NAME"""
+    """The largest values of the run; each row has an id, QUANTITY.NAME. A long table is closed"""
+    long = len(run["figures"]) > OPEN
+    yield f"<details><summary>{len(run['figures'])} largest values</summary>\n" * long
     yield "<table><thead><tr>" + "".join(f"<th>{head}</th>"
                                          for head in ("largest value of", "", "", "", "undeformed place, or components",
                                                       "load step")) + "</tr></thead>\n"
@@ -428,7 +435,7 @@ def results(run):
         cells += [f"({text(vector)})" for vector in vectors] or [""]
         row = "".join(f"<td>{cell if i == 2 else html.escape(str(cell))}</td>" for i, cell in enumerate(cells))
         yield f'<tr id="{html.escape(name)}">{row}<td>{figure["step"]}</td></tr>\n'
-    yield "</table>\n"
+    yield "</table>\n" + "</details>\n" * long
     if any(figure["quantity"].startswith("stress error") for figure in run["figures"]):
         yield ("<p>The stress error is the estimated error of the stresses in the mean over the model (energy norm), "
                "caused by the mesh. Its square is the relative error of the energy. Above 30&nbsp;% refine the mesh; "

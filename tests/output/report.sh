@@ -38,3 +38,13 @@ mkdir dies && echo 'import os; os.write(2, b"\033[0m\033[31mno screen\n\033[0m\n
 PYTHONPATH=dies "$contact" boxes.yaml -quiet -report dies.html 2>&1
 rm -r installed/share
 LD_LIBRARY_PATH=$AMGF_DIR/lib installed/bin/contact boxes.yaml -quiet -report bare.html 2>&1; echo "exit code $?"
+# Of many pairs an answer has the largest; the table of the largest values is closed
+PYTHONPATH=$AMGF_DIR/share/report:$AMGF_DIR/share/plot:$AMGF_DIR/share/python "$PYTHON" -B - <<'PY'
+import report
+
+many = [{"quantity": "contact area", "name": f"pair{k}", "value": k, "unit": "mm^2", "step": 1, "place": [None],
+         "components": [None]} for k in range(70)]
+run = {"figures": many, "steps": [{}]}
+print(report.listed(run, "contact area"))
+print("closed table:", "<details>" in "".join(report.results(run)))
+PY
