@@ -50,13 +50,16 @@ PETSC_EXTERN PetscErrorCode ElasticityForce(Elasticity, Vec u, Vec force);
 /* Computes excess = mean force - mean of the forces at both ends, for a step between two displacements [force]. The
    mean force conserves energy and momentum. *valid: false if an element is inverted. */
 PETSC_EXTERN PetscErrorCode ElasticityExcess(Elasticity, Vec from, Vec to, Vec excess, PetscBool *valid);
-/* Adds a dead load to a global vector: the force of a pressure on the undeformed face, -pressure times normal and area
-   [force] */
-PETSC_EXTERN PetscErrorCode ElasticityAddPressure(Elasticity, const char face[], PetscReal pressure, Vec force);
-/* Adds a follower load at u: -pressure times the deformed normal and area. Adds the symmetric part of the load's
-   derivative to `slope`, a matrix of ElasticityCreateTangent(), unless it is NULL. */
-PETSC_EXTERN PetscErrorCode ElasticityAddFollower(Elasticity, const char face[], PetscReal pressure, Vec u, Vec force,
-  Mat slope);
+/* A pressure as a function of the undeformed position [force/length^2] */
+typedef PetscErrorCode (*ElasticityPressure)(void *ctx, const PetscReal x[3], PetscReal *pressure);
+/* Adds a dead load to a global vector: the force of a pressure on the undeformed face, -factor times the pressure times
+   normal and area [force]. If the pressure is NULL it is 1. */
+PETSC_EXTERN PetscErrorCode ElasticityAddPressure(Elasticity, const char face[], PetscReal factor, ElasticityPressure,
+  void *ctx, Vec force);
+/* Adds a follower load at u: the same on the deformed area along the deformed normal. Adds the symmetric part of the
+   load's derivative to `slope`, a matrix of ElasticityCreateTangent(), unless it is NULL. */
+PETSC_EXTERN PetscErrorCode ElasticityAddFollower(Elasticity, const char face[], PetscReal factor, ElasticityPressure,
+  void *ctx, Vec u, Vec force, Mat slope);
 /* Adds the area vector of each node of a face to a global vector [length^2] */
 PETSC_EXTERN PetscErrorCode ElasticityAddFacetAreas(Elasticity, const char face[], Vec areas);
 /* Adds a dead load to a global vector: a force per undeformed volume in a body, or in every body if `body` is

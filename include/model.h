@@ -232,7 +232,8 @@ typedef struct {
   const char *place;
   char       *face;
   PetscBool   follows; /* acts on the deformed normal and area */
-  PetscReal   value;   /* at factor 1; positive values push on the body [force/length^2] */
+  char       *value;   /* an expression in the undeformed coordinates x, y, z [force/length^2], at factor 1; positive
+                          values push on the body */
   PetscInt    ramp;
 } ScenePressure;
 

@@ -10,6 +10,8 @@ import resource
 import subprocess
 import sys
 
+import numpy as np
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 TOP = os.path.dirname(os.path.dirname(HERE))
 sys.path.insert(0, os.path.join(TOP, "share", "bench"))
@@ -152,6 +154,88 @@ refinements:
 load: {{factors: [0.1, 0.3, 0.65, 1]}}
 """
 
+# Two rings under a pressure 100 + 20 cos 2 theta, without friction
+RINGS = """problem: two rings
+bodies:
+  - inner: {shape: tube_arc, axis: z, radii: [1, 1.5], angles: [0, 90], extent: [0, 0.1], cells: [6, 24, 1], order: 2,
+            young: 2e5, poisson: 0.3}
+  - outer: {shape: tube_arc, axis: z, radii: [1.5, 2], angles: [0, 90], extent: [0, 0.1], cells: [6, 32, 1], order: 2,
+            young: 2e5, poisson: 0.3}
+symmetry: [inner.amin, inner.amax, inner.lmin, inner.lmax, outer.amin, outer.amax, outer.lmin, outer.lmax]
+pressures:
+  - mean: {face: outer.outer, value: "100 + 20*(x^2 - y^2)/(x^2 + y^2)"}
+contact:
+  - joint: {mortar: inner.outer, nonmortar: outer.inner}
+"""
+TORUS = """problem: ball on a torus
+bodies:
+  - ball: {shape: ball, center: [0, 0, 1], octant: [1, 1, -1], radius: 1, patches: [6, 6, 6], layers: 6, young: 2e5,
+           poisson: 0.3}
+  - ring: {shape: rigid_torus, center: [0, 0, -3], direction: [0, 1, 0], radius: 2.5, section_radius: 0.5}
+displacements:
+  - hold: {body: ring, value: [0, 0, 0]}
+  - press: {face: ball.z0, value: [free, free, -1e-3]}
+symmetry: [ball.x0, ball.y0]
+contact:
+  - touch: {mortar: ring.surface, nonmortar: ball.surface}
+refinements:
+  - wide: {near: touch, levels: 2, distance: 0.2}
+  - close: {near: touch, levels: 5, distance: 0.05}
+"""
+EQUAL = """problem: SSNP121
+bodies:
+  - lower: {lower: [0, 0, 0], upper: [1, 1, 1], cells: [3, 3, 2], young: 2e6, poisson: 0}
+  - upper: {lower: [0, 0, 1], upper: [1, 1, 2], cells: [4, 5, 3], young: 2e6, poisson: 0}
+displacements:
+  - fix: {face: lower.zmin, value: [0, 0, 0]}
+  - press: {face: upper.zmax, value: [0, 0, -0.1]}
+contact:
+  - joint: {mortar: lower.zmax, nonmortar: upper.zmin}
+"""
+
+
+def rings():
+    """Largest and smallest pressure between the rings: Lame's solution and that of Michell for cos 2 theta. Rows: of
+    each ring no shear on both circles, no pressure inside, and the pressure outside; equal normal stress and radial
+    displacement between them. Unknowns: the factors of r^2, r^4, r^-2 and 1 of the stress function of each ring"""
+    a, c, b, kappa = 1.0, 1.5, 2.0, 3 - 4 * 0.3
+    normal = lambda r: [-2, 0, -6 * r**-4, -4 * r**-2]
+    shear = lambda r: [2, 6 * r**2, -6 * r**-4, -2 * r**-2]
+    move = lambda r: [-2 * r, (kappa - 3) * r**3, 2 * r**-3, (kappa + 1) / r]
+    none = [0.0] * 4
+    between = [x + [-y for y in x] for x in (normal(c), move(c))]
+    rows = [normal(a) + none, shear(a) + none, shear(c) + none, none + shear(c), none + shear(b), none + normal(b)]
+    factors = np.linalg.solve(np.array(rows + between), [0, 0, 0, 0, 0, -20, 0, 0])
+    mean = 100 * (1 - a**2 / c**2) / (1 - a**2 / b**2)
+    wave = -np.dot(normal(c), factors[:4])
+    return mean + abs(wave), mean - abs(wave)
+
+
+def hertz_ellipse(run):
+    """Hertz's peak pressure for the force of the ball on the torus, whose relative curvatures are 4/3 and 3"""
+    k, e = lambda m: elliptic(m)[0], lambda m: elliptic(m)[1]
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        m = (low + high) / 2
+        ratio = (e(m) / (1 - m) - k(m)) / (k(m) - e(m))
+        low, high = (m, high) if ratio < 9 / 4 else (low, m)
+    force, modulus = 4 * pair("normal_force")(run), 2e5 / (1 - 0.3**2)
+    # half-axes a and b, with A = 2/3 the half of the smaller curvature, and m = 1 - (b/a)^2:
+    # A = (p0 / E) (b / (m a^2)) (K - E) and P = 2/3 p0 pi a b, hence a^3 = 3 P / (2 pi A E) (K - E) / m
+    a = (3 * force / (2 * math.pi * (2 / 3) * modulus) * (k(m) - e(m)) / m)**(1 / 3)
+    return 1.5 * force / (math.pi * a * a * math.sqrt(1 - m))
+
+
+def elliptic(m):
+    """Complete elliptic integrals of the first and second kind of the parameter m, by the arithmetic-geometric mean"""
+    a, b, c, total, power = 1.0, math.sqrt(1 - m), math.sqrt(m), m / 2, 0.5
+    while c > 1e-15:
+        a, b, c = (a + b) / 2, math.sqrt(a * b), (a - b) / 2
+        power *= 2
+        total += power * c * c
+    k = math.pi / 2 / a
+    return k, k * (1 - total)
+
 
 def belt_ratio(run):
     ends = {face["name"]: math.hypot(*face["reaction"][:2]) for face in run["steps"][-1]["faces"]}
@@ -205,6 +289,13 @@ CASES = [
          Value("largest plastic strain", (2.5, 3.3), figure("eq. plastic strain"), 6)),
     Case("kogut_etsion", "Elastic-plastic ball on a rigid plane", "Kogut and Etsion 2002 (fits)", BALL, ball(2, 0),
          ball(6, 1), ball(20, 3)),
+    Case("rings", "Two rings under a pressure p + q cos 2 theta", "Michell 1899", RINGS,
+         Value("largest pressure between them", rings()[0], figure("contact pressure"), 1)),
+    Case("torus", "Ball on a rigid torus", "Hertz, elliptic contact", TORUS,
+         Value("peak pressure over Hertz's", 1,
+               lambda run: figure("contact pressure")(run) / hertz_ellipse(run), 1)),
+    Case("cubes", "Two cubes, Poisson's ratio 0, meshes that do not match", "Code_Aster SSNP121", EQUAL,
+         Value("largest pressure [Pa]", 1e5, figure("contact pressure"), 0.1)),
 ]
 
 

@@ -52,6 +52,19 @@ static PetscErrorCode DeadLoadsAddPoints(Scene scene, DM dm, DeadLoads *loads)
   PetscFunctionReturn(0);
 }
 
+/* Evaluates the formula of a pressure at the position x. ctx: the ScenePressure */
+PetscErrorCode PressureAt(void *ctx, const PetscReal x[3], PetscReal *value)
+{
+  const ScenePressure *here = (const ScenePressure *)ctx;
+
+  PetscFunctionBegin;
+  PetscCall(SceneEvaluatePlace(here->value, x, value));
+  SceneCheck(!PetscIsInfOrNanReal(*value), PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, here,
+    "Pressure \"%s\": its value \"%s\" is not finite at (%g, %g, %g)", here->name, here->value, (double)x[0],
+    (double)x[1], (double)x[2]);
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode DeadLoadsCreate(Scene scene, DM dm, Elasticity elasticity, DeadLoads *loads)
 {
   Vec force;
@@ -62,11 +75,11 @@ PetscErrorCode DeadLoadsCreate(Scene scene, DM dm, Elasticity elasticity, DeadLo
   if (!scene->npressures && !scene->nforces && !scene->ntractions) PetscFunctionReturn(0);
   PetscCall(PetscCalloc1(scene->nramps, &loads->force));
   for (PetscInt i = 0; i < scene->npressures; ++i) {
-    const ScenePressure *pressure = &scene->pressures[i];
+    ScenePressure *pressure = &scene->pressures[i];
 
     if (pressure->follows) continue;
     PetscCall(DeadLoadsGetRamp(dm, loads, pressure->ramp, &force));
-    PetscCall(ElasticityAddPressure(elasticity, pressure->face, pressure->value, force));
+    PetscCall(ElasticityAddPressure(elasticity, pressure->face, 1.0, PressureAt, pressure, force));
   }
   for (PetscInt i = 0; i < scene->ntractions; ++i) {
     const SceneTraction *traction = &scene->tractions[i];

@@ -36,6 +36,7 @@ typedef struct {
   Vec  *force; /* [nramps] load of each ramp [force] */
 } DeadLoads;
 
+PETSC_INTERN PetscErrorCode PressureAt(void *pressure, const PetscReal x[3], PetscReal *value);
 PETSC_INTERN PetscErrorCode DeadLoadsCreate(Scene, DM, Elasticity, DeadLoads *);
 PETSC_INTERN PetscErrorCode DeadLoadsGet(const DeadLoads *, PetscReal time, Vec *force);
 PETSC_INTERN PetscErrorCode DeadLoadsDestroy(DeadLoads *);

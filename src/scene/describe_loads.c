@@ -123,7 +123,7 @@ PetscErrorCode SceneDescribeLoads(Scene scene, PetscViewer viewer)
   for (PetscInt p = 0; p < scene->npressures; ++p) {
     const ScenePressure *here = &scene->pressures[p];
 
-    PetscCall(PetscViewerASCIIPrintf(viewer, "  pressure %s: %s, %.6g%s", here->name, here->face, (double)here->value,
+    PetscCall(PetscViewerASCIIPrintf(viewer, "  pressure %s: %s, %s%s", here->name, here->face, here->value,
       here->follows ? " on the deformed face" : ""));
     PetscCall(DescribeRamp(scene, here->ramp, viewer));
   }

@@ -34,7 +34,7 @@ static PetscErrorCode Definiteness(Elasticity e, IS rows, PetscReal load, Mat K,
   PetscFunctionBeginUser;
   PetscCall(VecDuplicate(u, &force));
   PetscCall(VecZeroEntries(force));
-  PetscCall(ElasticityAddPressure(e, "column.zmax", load / (width * width), force));
+  PetscCall(ElasticityAddPressure(e, "column.zmax", load / (width * width), NULL, NULL, force));
   PetscCall(ProblemNewton(e, rows, force, K, u));
   PetscCall(ElasticityTangent(e, u, K));
   PetscCall(CountNegative(K, negative));

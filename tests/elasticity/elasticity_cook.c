@@ -61,7 +61,7 @@ static PetscErrorCode ShearLoad(Elasticity e, PetscReal traction, Vec load)
   PetscCall(VecGetLocalSize(load, &n));
   PetscCall(VecDuplicate(load, &x));
   PetscCall(VecZeroEntries(x));
-  PetscCall(ElasticityAddPressure(e, "panel.xmax", -traction, x));
+  PetscCall(ElasticityAddPressure(e, "panel.xmax", -traction, NULL, NULL, x));
   PetscCall(VecZeroEntries(load));
   PetscCall(VecCreateMPI(PETSC_COMM_WORLD, n / 3, PETSC_DETERMINE, &component));
   PetscCall(VecStrideGather(x, 0, component, INSERT_VALUES));

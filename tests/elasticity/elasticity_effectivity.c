@@ -216,7 +216,7 @@ static PetscErrorCode Run(const Context *context, PetscInt level)
     PetscCall(ProblemInterpolate(dm, CubeDisplacement, &body.u));
     PetscCall(CubeLoad(dm, &context->material, body.load, &potential));
   } else if (context->problem == PROBLEM_SPHERE)
-    PetscCall(ElasticityAddPressure(body.e, "body.inner", pressure, body.load));
+    PetscCall(ElasticityAddPressure(body.e, "body.inner", pressure, NULL, NULL, body.load));
   else PetscCall(ElasticityAddBodyForce(body.e, 0, weight, body.load));
   PetscCall(ProblemNewton(body.e, rows, body.load, body.K, body.u));
   PetscCall(ElasticityRecoverStress(body.e, body.u, NULL, NULL, &estimate, NULL));

@@ -32,7 +32,8 @@ static PetscErrorCode GetLoad(Elasticity e, PetscInt n, Vec u, Vec load, Mat slo
   PetscFunctionBeginUser;
   PetscCall(VecZeroEntries(load));
   if (slope) PetscCall(MatZeroEntries(slope));
-  for (PetscInt f = 0; f < n; ++f) PetscCall(ElasticityAddFollower(e, all[f], n == 6 ? 0.7 : 0.3 + f, u, load, slope));
+  for (PetscInt f = 0; f < n; ++f)
+    PetscCall(ElasticityAddFollower(e, all[f], n == 6 ? 0.7 : 0.3 + f, NULL, NULL, u, load, slope));
   if (!slope) PetscFunctionReturn(0);
   PetscCall(MatAssemblyBegin(slope, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(slope, MAT_FINAL_ASSEMBLY));

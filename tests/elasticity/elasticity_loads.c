@@ -32,7 +32,8 @@ static PetscErrorCode CheckPressure(DM dm, const Material materials[], ElementTy
   for (PetscInt f = 0; f < 12; ++f) {
     const Material *m = &materials[f / 6];
 
-    PetscCall(ElasticityAddPressure(e, faces[f], -3 * strain * m->young / (3 * (1 - 2 * m->poisson)), force));
+    PetscCall(
+      ElasticityAddPressure(e, faces[f], -3 * strain * m->young / (3 * (1 - 2 * m->poisson)), NULL, NULL, force));
   }
   PetscCall(VecNorm(force, NORM_INFINITY, &left));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n", ElementTypes[element]));
@@ -101,7 +102,7 @@ int main(int argc, char **argv)
   PetscCall(ElasticityCreate(dm, 2, materials, NULL, &e));
   PetscCall(DMCreateGlobalVector(dm, &force));
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
-  noface = ElasticityAddPressure(e, "slab.top", 1, force);
+  noface = ElasticityAddPressure(e, "slab.top", 1, NULL, NULL, force);
   nobody = ElasticityAddBodyForce(e, 2, (PetscReal[3]){0, 0, 1}, force);
   PetscCall(PetscPopErrorHandler());
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "a face and a body that are not there: %s\n",

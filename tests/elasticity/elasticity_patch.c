@@ -192,7 +192,8 @@ static PetscErrorCode LoadVolume(Elasticity e, DM dm, PetscReal *volume)
   PetscCall(VecDuplicate(places, &load));
   PetscCall(DMLocalToGlobal(dm, coordinates, INSERT_VALUES, places));
   PetscCall(VecZeroEntries(load));
-  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(faces); ++i) PetscCall(ElasticityAddPressure(e, faces[i], -1, load));
+  for (size_t i = 0; i < PETSC_STATIC_ARRAY_LENGTH(faces); ++i)
+    PetscCall(ElasticityAddPressure(e, faces[i], -1, NULL, NULL, load));
   PetscCall(VecDot(load, places, &sum));
   *volume = PetscRealPart(sum) / 3;
   PetscCall(VecDestroy(&load));

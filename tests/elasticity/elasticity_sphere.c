@@ -143,7 +143,7 @@ static PetscErrorCode Solve(PetscInt level, ElementType element, PetscReal poiss
   PetscCall(MeshCreate(PETSC_COMM_WORLD, 1, &shell, level, &dm));
   PetscCall(SymmetryRows(dm, &rows));
   PetscCall(ProblemBodyCreate(dm, &material, element, rows, &body));
-  PetscCall(ElasticityAddPressure(body.e, "shell.inner", pressure, body.load));
+  PetscCall(ElasticityAddPressure(body.e, "shell.inner", pressure, NULL, NULL, body.load));
   PetscCall(ProblemNewton(body.e, rows, body.load, body.K, body.u));
   PetscCall(Errors(dm, body.e, &lame, body.u, errors));
   PetscCall(ProblemBodyDestroy(&body));

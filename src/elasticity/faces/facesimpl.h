@@ -26,7 +26,7 @@ typedef struct {
   PetscReal X[FACET_MAX_NODES][3];
 } Facet;
 
-PETSC_INTERN void FacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3]);
+PETSC_INTERN void FacetNormals(PetscInt n, PetscReal X[][3], const PetscReal P[], PetscReal F[][3]);
 PETSC_INTERN void FacetShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal Ns[], PetscReal Nt[]);
 /*
    Gets parameters s, t and weight (the returned value) of quadrature point q of a facet with n nodes, with 2 or 3 Gauss
@@ -34,5 +34,7 @@ PETSC_INTERN void FacetShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[]
 */
 PETSC_INTERN PetscReal      FacetQuadrature(PetscInt n, PetscInt gausspoints, PetscInt q, PetscReal *s, PetscReal *t);
 PETSC_INTERN PetscErrorCode FacetGet(Elasticity, PetscInt point, const PetscScalar x[], Facet *);
+PETSC_INTERN PetscErrorCode FacetPressures(const Facet *, PetscReal factor, ElasticityPressure, void *ctx,
+  PetscReal P[]);
 
 #endif

@@ -70,10 +70,11 @@ void FacetShape(PetscInt n, PetscReal s, PetscReal t, PetscReal N[], PetscReal N
 }
 
 /*
-   Computes F[a][d] = int N_a n dA with n dA = dX/ds x dX/dt. With 4 or 9 nodes the integrand has degree 2 or 5 in s and
-   in t, for which 2 x 2 or 3 x 3 Gauss points are exact. On triangles with 3 or 6 nodes the degree is 1 or 4.
+   Computes F[a][d] = int N_a P n dA with n dA = dX/ds x dX/dt. P: values at the nodes, interpolated between them; NULL:
+   1. With 4 or 9 nodes the integrand for P = 1 has degree 2 or 5 in s and in t, for which 2 x 2 or 3 x 3 Gauss points
+   are exact. On triangles with 3 or 6 nodes the degree is 1 or 4.
 */
-void FacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3])
+void FacetNormals(PetscInt n, PetscReal X[][3], const PetscReal P[], PetscReal F[][3])
 {
   const PetscInt npoints = n <= 4 ? 2 : 3;
 
@@ -82,9 +83,11 @@ void FacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3])
     PetscReal N[FACET_MAX_NODES], Ns[FACET_MAX_NODES], Nt[FACET_MAX_NODES], xs[3] = {0, 0, 0}, xt[3] = {0, 0, 0},
                                                                             normal[3], s, t;
     const PetscReal weight = FacetQuadrature(n, npoints, q, &s, &t);
+    PetscReal       p      = P ? 0 : 1;
 
     FacetShape(n, s, t, N, Ns, Nt);
     for (PetscInt a = 0; a < n; ++a) {
+      if (P) p += N[a] * P[a];
       for (int d = 0; d < 3; ++d) {
         xs[d] += Ns[a] * X[a][d];
         xt[d] += Nt[a] * X[a][d];
@@ -92,7 +95,7 @@ void FacetNormals(PetscInt n, PetscReal X[][3], PetscReal F[][3])
     }
     VectorCross(xs, xt, normal);
     for (PetscInt a = 0; a < n; ++a) {
-      for (int d = 0; d < 3; ++d) F[a][d] += weight * N[a] * normal[d];
+      for (int d = 0; d < 3; ++d) F[a][d] += weight * p * N[a] * normal[d];
     }
   }
 }
@@ -109,6 +112,18 @@ PetscErrorCode FacetGet(Elasticity e, PetscInt point, const PetscScalar x[], Fac
   for (PetscInt a = 0; a < facet->n; ++a) {
     PetscCall(PetscSectionGetOffset(section, nodes[a], &facet->offset[a]));
     for (PetscInt d = 0; d < 3; ++d) facet->X[a][d] = PetscRealPart(x[facet->offset[a] + d]);
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Computes factor times a pressure at the nodes of a facet. at: the pressure at a position; NULL: 1 */
+PetscErrorCode FacetPressures(const Facet *facet, PetscReal factor, ElasticityPressure at, void *ctx, PetscReal P[])
+{
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < facet->n; ++a) {
+    P[a] = 1;
+    if (at) PetscCall(at(ctx, facet->X[a], &P[a]));
+    P[a] *= factor;
   }
   PetscFunctionReturn(0);
 }

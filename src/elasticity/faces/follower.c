@@ -1,19 +1,13 @@
 /* Follower pressures, which act on the deformed area along the deformed normal: their load and its derivative */
 #include "facesimpl.h"
 #include <mesh.h>
-
-/* Computes the nodal forces of -pressure n on the deformed facet. x: deformed coordinates. */
-static void FollowerLoad(const Facet *facet, PetscReal pressure, PetscReal x[][3], PetscReal F[][3])
-{
-  FacetNormals(facet->n, x, F);
-  for (PetscInt i = 0; i < 3 * facet->n; ++i) F[i / 3][i % 3] *= -pressure;
-}
+#include <rankerror.h>
 
 /*
    Computes the symmetric part S of the load's derivative by central differences. These are exact, since the load is
-   quadratic in the coordinates.
+   quadratic in the coordinates. P: minus the pressure at the nodes; x: deformed coordinates
 */
-static void FollowerSlope(const Facet *facet, PetscReal pressure, PetscReal x[][3], PetscScalar S[])
+static void FollowerSlope(const Facet *facet, const PetscReal P[], PetscReal x[][3], PetscScalar S[])
 {
   const PetscInt width = 3 * facet->n;
   PetscReal      step  = 0, plus[FACET_MAX_NODES][3], minus[FACET_MAX_NODES][3];
@@ -24,9 +18,9 @@ static void FollowerSlope(const Facet *facet, PetscReal pressure, PetscReal x[][
     const PetscReal place = x[j / 3][j % 3];
 
     x[j / 3][j % 3] = place + step;
-    FollowerLoad(facet, pressure, x, plus);
+    FacetNormals(facet->n, x, P, plus);
     x[j / 3][j % 3] = place - step;
-    FollowerLoad(facet, pressure, x, minus);
+    FacetNormals(facet->n, x, P, minus);
     x[j / 3][j % 3] = place;
     for (PetscInt i = 0; i < width; ++i) {
       const PetscReal half = (plus[i / 3][i % 3] - minus[i / 3][i % 3]) / (4 * step);
@@ -56,6 +50,38 @@ static PetscErrorCode FollowerAddSlope(Elasticity e, const Facet *facet, const P
   PetscFunctionReturn(0);
 }
 
+/* A pressure, factor times `at`, and the state on whose deformed faces it acts */
+typedef struct {
+  PetscReal          factor;
+  ElasticityPressure at; /* NULL: 1 */
+  void              *ctx;
+  const PetscScalar *x, *u;  /* coordinates and displacements of the nodes, local [length] */
+  const PetscInt    *global; /* global numbers of the nodes */
+} Follower;
+
+/* Adds the load on n facets of this rank to a local vector, and its derivative to slope unless that is NULL */
+static PetscErrorCode FollowerAddFacets(Elasticity e, const Follower *follower, PetscInt n, const PetscInt facets[],
+  PetscScalar l[], Mat slope)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < n; ++i) {
+    Facet       facet;
+    PetscReal   now[FACET_MAX_NODES][3], F[FACET_MAX_NODES][3], P[FACET_MAX_NODES];
+    PetscScalar S[9 * FACET_MAX_NODES * FACET_MAX_NODES];
+
+    PetscCall(FacetGet(e, facets[i], follower->x, &facet));
+    PetscCall(FacetPressures(&facet, follower->factor, follower->at, follower->ctx, P));
+    for (PetscInt k = 0; k < 3 * facet.n; ++k)
+      now[k / 3][k % 3] = facet.X[k / 3][k % 3] + PetscRealPart(follower->u[facet.offset[k / 3] + k % 3]);
+    FacetNormals(facet.n, now, P, F);
+    for (PetscInt k = 0; k < 3 * facet.n; ++k) l[facet.offset[k / 3] + k % 3] += F[k / 3][k % 3];
+    if (!slope) continue;
+    FollowerSlope(&facet, P, now, S);
+    PetscCall(FollowerAddSlope(e, &facet, follower->global, S, slope));
+  }
+  PetscFunctionReturn(0);
+}
+
 /*@
   ElasticityAddFollower - Adds the load of a pressure that follows the deformed normal and area of a face, and its
   derivative
@@ -65,7 +91,9 @@ static PetscErrorCode FollowerAddSlope(Elasticity e, const Facet *facet, const P
   Input Parameters:
 + e        - the context
 . face     - name of the face, "<body>.<face>"
-. pressure - positive pushes on the body [force/length^2]
+. factor   - factor of the pressure
+. at       - the pressure at an undeformed position, positive pushes on the body [force/length^2]; `NULL`: 1
+. ctx      - its context
 - u        - displacement, global [length]
 
   Output Parameters:
@@ -84,46 +112,34 @@ static PetscErrorCode FollowerAddSlope(Elasticity e, const Facet *facet, const P
 
 .seealso: `ElasticityAddPressure()`, `ElasticityTangent()`
 @*/
-PetscErrorCode ElasticityAddFollower(Elasticity e, const char face[], PetscReal pressure, Vec u, Vec force, Mat slope)
+PetscErrorCode ElasticityAddFollower(Elasticity e, const char face[], PetscReal factor, ElasticityPressure at,
+  void *ctx, Vec u, Vec force, Mat slope)
 {
   ISLocalToGlobalMapping map;
   IS                     facets;
   Vec                    ulocal, local;
-  const PetscInt        *f, *global;
-  const PetscScalar     *x, *ul;
+  const PetscInt        *f;
   PetscScalar           *l;
   PetscInt               n;
+  Follower               follower = {.factor = -factor, .at = at, .ctx = ctx};
 
   PetscFunctionBegin;
   PetscCall(DMGetLocalToGlobalMapping(e->dm, &map));
-  PetscCall(ISLocalToGlobalMappingGetBlockIndices(map, &global));
+  PetscCall(ISLocalToGlobalMappingGetBlockIndices(map, &follower.global));
   PetscCall(MeshGetFacets(e->dm, face, &facets));
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISGetIndices(facets, &f));
-  PetscCall(ElasticityGetLocals(e, u, &ulocal, &ul, &x));
+  PetscCall(ElasticityGetLocals(e, u, &ulocal, &follower.u, &follower.x));
   PetscCall(DMGetLocalVector(e->dm, &local));
   PetscCall(VecZeroEntries(local));
   PetscCall(VecGetArray(local, &l));
-  for (PetscInt i = 0; i < n; ++i) {
-    Facet       facet;
-    PetscReal   now[FACET_MAX_NODES][3], F[FACET_MAX_NODES][3];
-    PetscScalar S[9 * FACET_MAX_NODES * FACET_MAX_NODES];
-
-    PetscCall(FacetGet(e, f[i], x, &facet));
-    for (PetscInt k = 0; k < 3 * facet.n; ++k)
-      now[k / 3][k % 3] = facet.X[k / 3][k % 3] + PetscRealPart(ul[facet.offset[k / 3] + k % 3]);
-    FollowerLoad(&facet, pressure, now, F);
-    for (PetscInt k = 0; k < 3 * facet.n; ++k) l[facet.offset[k / 3] + k % 3] += F[k / 3][k % 3];
-    if (!slope) continue;
-    FollowerSlope(&facet, pressure, now, S);
-    PetscCall(FollowerAddSlope(e, &facet, global, S, slope));
-  }
+  RankCall(PetscObjectComm((PetscObject)e->dm), PETSC_TRUE, FollowerAddFacets(e, &follower, n, f, l, slope));
   PetscCall(VecRestoreArray(local, &l));
   PetscCall(DMLocalToGlobal(e->dm, local, ADD_VALUES, force));
   PetscCall(DMRestoreLocalVector(e->dm, &local));
-  PetscCall(ElasticityRestoreLocals(e, &ulocal, &ul, &x));
+  PetscCall(ElasticityRestoreLocals(e, &ulocal, &follower.u, &follower.x));
   PetscCall(ISRestoreIndices(facets, &f));
   PetscCall(ISDestroy(&facets));
-  PetscCall(ISLocalToGlobalMappingRestoreBlockIndices(map, &global));
+  PetscCall(ISLocalToGlobalMappingRestoreBlockIndices(map, &follower.global));
   PetscFunctionReturn(0);
 }

@@ -1,6 +1,7 @@
 /* Dead loads and lumped mass: integrals of the shape functions over the undeformed geometry */
 #include "facesimpl.h"
 #include <mesh.h>
+#include <rankerror.h>
 
 /* Computes volume[a] = int N_a over a cell */
 static void CellVolumes(const CellBasis *basis, PetscReal X[3][CELL_MAX_NODES], PetscReal volume[CELL_MAX_NODES])
@@ -144,16 +145,42 @@ static void ElasticityPieceNormals(const Facet *facet, PetscReal F[][3])
     PetscReal      X[4][3], f[4][3];
 
     for (PetscInt i = 0; i < 3 * n; ++i) X[i / 3][i % 3] = facet->X[node[i / 3]][i % 3];
-    FacetNormals(n, X, f);
+    FacetNormals(n, X, NULL, f);
     for (PetscInt i = 0; i < 3 * n; ++i) F[node[i / 3]][i % 3] += f[i / 3][i % 3];
   }
 }
 
-/*
-   Adds factor times int N_a n dA over a face. If `cut`, facets of order 2 are divided by their nodes into facets of
-   order 1.
-*/
-static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], PetscReal factor, PetscBool cut, Vec total)
+/* What is integrated over a face: factor times `at` times the normal. If `cut`, facets of order 2 are divided by their
+   nodes into facets of order 1, and `at` is not used. */
+typedef struct {
+  PetscReal          factor;
+  PetscBool          cut;
+  ElasticityPressure at; /* NULL: 1 */
+  void              *ctx;
+} FaceNormals;
+
+/* Adds the integrals over n facets of this rank to a local vector. x: coordinates of the nodes */
+static PetscErrorCode NormalsAddFacets(Elasticity e, const FaceNormals *normals, PetscInt n, const PetscInt facets[],
+  const PetscScalar x[], PetscScalar l[])
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < n; ++i) {
+    Facet     facet;
+    PetscReal F[FACET_MAX_NODES][3], P[FACET_MAX_NODES];
+
+    PetscCall(FacetGet(e, facets[i], x, &facet));
+    PetscCall(FacetPressures(&facet, normals->factor, normals->at, normals->ctx, P));
+    if (normals->cut && facet.n > 4) ElasticityPieceNormals(&facet, F);
+    else FacetNormals(facet.n, facet.X, P, F);
+    for (PetscInt a = 0; a < facet.n; ++a) {
+      for (PetscInt d = 0; d < 3; ++d) l[facet.offset[a] + d] += F[a][d];
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
+/* Adds integrals over a face to a global vector */
+static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], const FaceNormals *normals, Vec total)
 {
   IS                 facets;
   Vec                coordinates, local;
@@ -171,17 +198,7 @@ static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], Pets
   PetscCall(VecGetArray(local, &l));
   PetscCall(ISGetLocalSize(facets, &n));
   PetscCall(ISGetIndices(facets, &f));
-  for (PetscInt i = 0; i < n; ++i) {
-    Facet     facet;
-    PetscReal F[FACET_MAX_NODES][3];
-
-    PetscCall(FacetGet(e, f[i], x, &facet));
-    if (cut && facet.n > 4) ElasticityPieceNormals(&facet, F);
-    else FacetNormals(facet.n, facet.X, F);
-    for (PetscInt a = 0; a < facet.n; ++a) {
-      for (PetscInt d = 0; d < 3; ++d) l[facet.offset[a] + d] += factor * F[a][d];
-    }
-  }
+  RankCall(PetscObjectComm((PetscObject)e->dm), PETSC_TRUE, NormalsAddFacets(e, normals, n, f, x, l));
   PetscCall(ISRestoreIndices(facets, &f));
   PetscCall(ISDestroy(&facets));
   PetscCall(VecRestoreArray(local, &l));
@@ -192,14 +209,16 @@ static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], Pets
 }
 
 /*@
-  ElasticityAddPressure - Adds the load of a dead pressure on a face, -pressure times the reference normal
+  ElasticityAddPressure - Adds the load of a dead pressure on a face, -factor times pressure times the reference normal
 
   Collective
 
   Input Parameters:
-+ e        - the context
-. face     - name of the face, "<body>.<face>"
-- pressure - positive pushes on the body [force/length^2]
++ e      - the context
+. face   - name of the face, "<body>.<face>"
+. factor - factor of the pressure
+. at     - the pressure at an undeformed position, positive pushes on the body [force/length^2]; `NULL`: 1
+- ctx    - its context
 
   Output Parameter:
 . force - global vector; the load is added to it, on all rows, the prescribed ones too [force]
@@ -207,15 +226,19 @@ static PetscErrorCode ElasticityAddNormals(Elasticity e, const char face[], Pets
   Level: intermediate
 
   Notes:
-  The load is integrated exactly over the facets of the reference geometry, bilinear or biquadratic. A name that is not
-  a face of the mesh is an error.
+  The pressure is interpolated between the nodes of the face. The load of a uniform one is exact for the facets of the
+  reference geometry, bilinear or biquadratic. A name that is not a face of the mesh is an error, and so is an error of
+  `at` on any rank.
 
 .seealso: `ElasticityAddBodyForce()`, `ElasticityForce()`, `MeshGetFacets()`
 @*/
-PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal pressure, Vec force)
+PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal factor, ElasticityPressure at,
+  void *ctx, Vec force)
 {
+  const FaceNormals normals = {.factor = -factor, .at = at, .ctx = ctx};
+
   PetscFunctionBegin;
-  PetscCall(ElasticityAddNormals(e, face, -pressure, PETSC_FALSE, force));
+  PetscCall(ElasticityAddNormals(e, face, &normals, force));
   PetscFunctionReturn(0);
 }
 
@@ -227,7 +250,9 @@ PetscErrorCode ElasticityAddPressure(Elasticity e, const char face[], PetscReal 
 */
 PetscErrorCode ElasticityAddFacetAreas(Elasticity e, const char face[], Vec areas)
 {
+  const FaceNormals normals = {.factor = 1, .cut = PETSC_TRUE};
+
   PetscFunctionBegin;
-  PetscCall(ElasticityAddNormals(e, face, 1, PETSC_TRUE, areas));
+  PetscCall(ElasticityAddNormals(e, face, &normals, areas));
   PetscFunctionReturn(0);
 }

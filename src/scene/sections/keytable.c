@@ -135,8 +135,9 @@ static const SceneKey symmetry_rows[] = {
   REALS("normal", NULL, 3, SceneDisplacement, normal, SHOWN, ANY, "", "", "`x`, `y`, `z` or a vector"), {NULL}};
 
 static const SceneKey pressure_rows[] = {TEXT("face", NULL, ScenePressure, face, REQUIRED, "", "a face"),
-  REALS("value", NULL, 1, ScenePressure, value, REQUIRED, ANY, "F/L²", "",
-    "pressure at load factor 1 along the normal of the undeformed face; positive: towards the body"),
+  ONE("value", NULL, EXPRESSION, ScenePressure, value, REQUIRED, NULL, NULL, "F/L²", "",
+    "pressure at load factor 1 along the normal of the undeformed face; positive: towards the body; a number, or an "
+    "expression of the undeformed coordinates `x`, `y`, `z`"),
   ANSWER("follows", NULL, ScenePressure, follows, "`false`",
     "whether the pressure acts on the deformed area along the deformed normal; only for bodies with a law of "
     "finite strain"),

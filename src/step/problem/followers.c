@@ -38,12 +38,13 @@ static PetscErrorCode FollowersGet(const StepProblem *p, Vec u, Vec *load, Mat s
   }
   if (slope) PetscCall(MatZeroEntries(slope));
   for (PetscInt i = 0; i < p->model->scene->npressures; ++i) {
-    const ScenePressure *pressure = &p->model->scene->pressures[i];
-    PetscReal            factor;
+    ScenePressure *pressure = &p->model->scene->pressures[i];
+    PetscReal      factor;
 
     if (!pressure->follows) continue;
     PetscCall(SceneGetFactor(p->model->scene, pressure->ramp, p->time, &factor));
-    PetscCall(ElasticityAddFollower(p->model->elasticity, pressure->face, factor * pressure->value, u, *load, slope));
+    PetscCall(
+      ElasticityAddFollower(p->model->elasticity, pressure->face, factor, PressureAt, pressure, u, *load, slope));
   }
   if (!slope) PetscFunctionReturn(0);
   PetscCall(MatAssemblyBegin(slope, MAT_FINAL_ASSEMBLY));
