@@ -96,7 +96,7 @@ static PetscErrorCode ContactUpdateContinue(const StepProblem *p, Vec u, PetscBo
 /*
    Sets state->solved->linearization, and creates *u_linearized, the displacement of this linearization. It is an
    extrapolation of the path if the gap may be linearized again; otherwise the last state. The last state is always used
-   in the first load step and after a cut. From the last state, faces that slide need up to 1.4 times as many updates.
+   in the first load step and after a cut.
 */
 PetscErrorCode ContactUpdateBegin(StepProblem *p, Vec u, const StepReport *report, Vec *u_linearized)
 {
