@@ -210,7 +210,7 @@ static PetscErrorCode SolverCreate(Tao tao)
   Bounds on variables only change the diagonal of A. Variables with equal bounds keep that value; their entries of the
   gradient that `TaoGetGradient()` returns are zero. Rows of the inequality constraints may have two bounds,
   `TaoSetInequalityBounds()`: such a row has one slack with two multipliers. A row with equal bounds is an equality
-  constraint; infinite bounds are ignored.
+  constraint. Bounds of magnitude 1e19 or more, of variables and of rows, count as infinite and are ignored.
 
   The KKT error of `-tao_ipfilter_kkt relative` has two measures, which both must be within the tolerance. With
   `-tao_ipfilter_scaling problem` neither depends on the units of lengths, forces, rows or the objective.

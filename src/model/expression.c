@@ -97,8 +97,10 @@ static PetscReal ExpressionPower(Expression *e)
 
   if (++e->depth > EXPRESSION_DEPTH) ExpressionFail(e);
   if (e->wrong) return 0;
-  if (ExpressionTake(e, '-')) value = -ExpressionPower(e);
-  else {
+  if (ExpressionTake(e, '-')) {
+    if (*e->at == '-') ExpressionFail(e); /* two signs are a slip */
+    value = -ExpressionPower(e);
+  } else {
     value = ExpressionValue(e);
     if (ExpressionTake(e, '^')) value = PetscPowReal(value, ExpressionPower(e));
   }

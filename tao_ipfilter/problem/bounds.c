@@ -10,7 +10,7 @@
 */
 static inline PetscBool Bounds(PetscScalar bound, const PetscScalar *other)
 {
-  return (PetscBool)(PetscAbsScalar(bound) < PETSC_INFINITY && !(other && IPIsFixed(bound, *other)));
+  return (PetscBool)(IPBoundIsFinite(PetscRealPart(bound)) && !(other && IPIsFixed(bound, *other)));
 }
 
 /*
@@ -134,7 +134,7 @@ PetscErrorCode IPBoundsPush(Tao tao)
   for (PetscInt i = 0; i < n; i++) {
     const PetscReal l    = b[0] ? PetscRealPart(b[0][i]) : PETSC_NINFINITY,
                     u    = b[1] ? PetscRealPart(b[1][i]) : PETSC_INFINITY;
-    const PetscBool hasl = (PetscBool)(l > PETSC_NINFINITY), hasu = (PetscBool)(u < PETSC_INFINITY);
+    const PetscBool hasl = IPBoundIsFinite(l), hasu = IPBoundIsFinite(u);
     const PetscReal distance = hasl && hasu ? u - l : PETSC_INFINITY;
 
     if ((!hasl && !hasu) || IPIsFixed(l, u)) continue;

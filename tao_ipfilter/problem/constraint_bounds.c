@@ -28,14 +28,6 @@ PetscErrorCode IPSidesDestroy(IPSides *sides)
   PetscFunctionReturn(0);
 }
 
-/* Bounds of at least this magnitude count as infinite, like IPOPT's nlp_lower_bound_inf and nlp_upper_bound_inf */
-#define IP_NO_BOUND 1e19
-
-static inline PetscBool Finite(PetscReal bound)
-{
-  return (PetscBool)(PetscAbsReal(bound) < IP_NO_BOUND);
-}
-
 /*
    Returns whether c is measured from the lower bound l. If l is finite but a million times as large as u, the upper
    bound is used instead, since c_I - l would lose digits.
@@ -44,7 +36,7 @@ static inline PetscBool FromLower(PetscReal l, PetscReal u)
 {
   const PetscReal far = 1e6;
 
-  return (PetscBool)(Finite(l) && !(Finite(u) && PetscAbsReal(l) > far * PetscAbsReal(u)));
+  return (PetscBool)(IPBoundIsFinite(l) && !(IPBoundIsFinite(u) && PetscAbsReal(l) > far * PetscAbsReal(u)));
 }
 
 /*
@@ -54,10 +46,11 @@ static inline PetscBool FromLower(PetscReal l, PetscReal u)
 static void ClassifyRow(PetscReal l, PetscReal u, PetscScalar *sign, PetscScalar *base, PetscScalar *range,
   PetscBool *equal)
 {
-  *equal = (PetscBool)(Finite(l) && Finite(u) && u - l <= IP_TINY_STEP * PetscMax(PetscAbsReal(l), PetscAbsReal(u)));
-  *sign  = *equal ? 0.0 : (FromLower(l, u) ? 1.0 : (Finite(u) ? -1.0 : 0.0));
-  *base  = FromLower(l, u) ? l : (Finite(u) ? u : 0.0);
-  *range = Finite(l) && Finite(u) && !*equal ? u - l : PETSC_INFINITY;
+  *equal = (PetscBool)(IPBoundIsFinite(l) && IPBoundIsFinite(u) &&
+                       u - l <= IP_TINY_STEP * PetscMax(PetscAbsReal(l), PetscAbsReal(u)));
+  *sign  = *equal ? 0.0 : (FromLower(l, u) ? 1.0 : (IPBoundIsFinite(u) ? -1.0 : 0.0));
+  *base  = FromLower(l, u) ? l : (IPBoundIsFinite(u) ? u : 0.0);
+  *range = IPBoundIsFinite(l) && IPBoundIsFinite(u) && !*equal ? u - l : PETSC_INFINITY;
 }
 
 /* Raises an error on all ranks, with row and values, if a lower bound exceeds its upper bound */
@@ -108,7 +101,7 @@ static PetscErrorCode ClassifyRows(Tao tao, IPSides *sides, PetscInt counts[3])
     ClassifyRow(PetscRealPart(l[i]), PetscRealPart(u[i]), &sign[i], &base[i], &range[i], &equal);
     if (equal) sides->equal[sides->nequal++] = i;
     counts[0] += PetscRealPart(sign[i]) != 1.0;
-    counts[1] += Finite(PetscRealPart(range[i]));
+    counts[1] += IPBoundIsFinite(PetscRealPart(range[i]));
   }
   PetscCall(VecRestoreArrayWrite(sides->range, &range));
   PetscCall(VecRestoreArrayWrite(sides->base, &base));
@@ -158,7 +151,7 @@ PetscErrorCode IPSidesSetUpPairs(Tao tao)
   PetscCall(VecGetArrayRead(ip->sides->range, &range));
   PetscCall(VecGetArrayRead(ceiling->w, &w));
   for (PetscInt i = 0; i < n; i++) {
-    if (!Finite(PetscRealPart(range[i]))) continue;
+    if (!IPBoundIsFinite(PetscRealPart(range[i]))) continue;
     sum[0] += 1.0;
     sum[1] += PetscRealPart(w[i]);
   }
@@ -191,7 +184,7 @@ PetscErrorCode IPSidesUpdateWidth(Tao tao)
   PetscCall(VecGetArrayRead(sides->range, &range));
   PetscCall(VecGetArray(sides->width, &width));
   for (PetscInt i = 0; i < n; i++)
-    width[i] = Finite(PetscRealPart(range[i])) ? width[i] + 2.0 * ip->relax->by : PETSC_INFINITY;
+    width[i] = IPBoundIsFinite(PetscRealPart(range[i])) ? width[i] + 2.0 * ip->relax->by : PETSC_INFINITY;
   PetscCall(VecRestoreArray(sides->width, &width));
   PetscCall(VecRestoreArrayRead(sides->range, &range));
   PetscFunctionReturn(0);
@@ -330,7 +323,7 @@ PetscErrorCode IPSidesTakePairs(Tao tao)
   for (PetscInt i = 0; i < n; i++) {
     if (sign) z[i] *= sign[i];
     if (sign && PetscRealPart(sign[i]) == 0.0) s[i] = sides->constant;
-    if (upper) upper[i] = Finite(PetscRealPart(t[i])) ? PetscMax(-PetscRealPart(z[i]), 0.0) : 0.0;
+    if (upper) upper[i] = IPBoundIsFinite(PetscRealPart(t[i])) ? PetscMax(-PetscRealPart(z[i]), 0.0) : 0.0;
     if (upper && PetscRealPart(upper[i]) > 0.0) z[i] = 0.0;
     sum[0] += PetscRealPart(
       w[i] *
@@ -341,7 +334,7 @@ PetscErrorCode IPSidesTakePairs(Tao tao)
   mu = sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
   for (PetscInt i = 0; i < n; i++) {
     if (PetscRealPart(z[i]) == 0.0 && PetscRealPart(s[i]) > 0.0) z[i] = mu / s[i];
-    if (upper && PetscRealPart(upper[i]) == 0.0 && Finite(PetscRealPart(t[i]))) upper[i] = mu / t[i];
+    if (upper && PetscRealPart(upper[i]) == 0.0 && IPBoundIsFinite(PetscRealPart(t[i]))) upper[i] = mu / t[i];
   }
   if (ceiling->n) PetscCall(VecRestoreArray(ceiling->z, &upper));
   if (ceiling->n) PetscCall(VecRestoreArray(ceiling->t, &t));
@@ -376,7 +369,7 @@ PetscErrorCode IPSidesReturnPairs(Tao tao)
   for (PetscInt i = 0; i < n; i++) {
     const PetscReal side = sign ? PetscRealPart(sign[i]) : 1.0;
 
-    if (side != 1.0 || (range && Finite(PetscRealPart(range[i])))) z[i] = DI[i] / w[i];
+    if (side != 1.0 || (range && IPBoundIsFinite(PetscRealPart(range[i])))) z[i] = DI[i] / w[i];
     if (side == 0.0) s[i] = 0.0;
   }
   PetscCall(VecRestoreArray(ip->at.z[IP_SLACK], &z));

@@ -57,7 +57,15 @@ PETSC_INTERN PetscErrorCode IPFixedSetUp(Tao, PetscBool *changed);
 PETSC_INTERN PetscErrorCode IPFixedZero(Tao, Vec);
 PETSC_INTERN PetscErrorCode IPFixedMatrix(Tao, Mat);
 
-/* bounds.c */
+/* bounds.c; bounds of at least IP_NO_BOUND count as infinite, like IPOPT's nlp_lower_bound_inf and
+   nlp_upper_bound_inf */
+#define IP_NO_BOUND 1e19
+
+static inline PetscBool IPBoundIsFinite(PetscReal bound)
+{
+  return (PetscBool)(PetscAbsReal(bound) < IP_NO_BOUND);
+}
+
 PETSC_INTERN PetscErrorCode IPBoundsSetUp(Tao);
 PETSC_INTERN PetscErrorCode IPBoundsPush(Tao);
 PETSC_INTERN PetscErrorCode IPBoundsDistance(Tao, Vec, PetscBool trial);

@@ -52,6 +52,9 @@ static PetscErrorCode ReachViolated(Tao tao, PetscReal *violated, PetscReal *nea
   PetscInt           n;
 
   PetscFunctionBegin;
+  *violated = *nearest = 0.0;
+  if (ip->first->equality_jacobian > 0.0) *violated = ip->first->equality / ip->first->equality_jacobian;
+  if (!(ip->first->jacobian > 0.0)) PetscFunctionReturn(0);
   PetscCall(VecGetLocalSize(ip->at.c, &n));
   PetscCall(VecGetArrayRead(ip->at.c, &c));
   for (PetscInt i = 0; i < n; i++) {
@@ -60,10 +63,8 @@ static PetscErrorCode ReachViolated(Tao tao, PetscReal *violated, PetscReal *nea
   }
   PetscCall(VecRestoreArrayRead(ip->at.c, &c));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, distance, 2, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
-  if (ip->first->equality_jacobian > 0.0)
-    distance[0] = PetscMax(distance[0], ip->first->equality / ip->first->equality_jacobian);
-  *violated = distance[0];
-  *nearest  = distance[1] > PETSC_NINFINITY ? -distance[1] : 0.0;
+  *violated = PetscMax(*violated, distance[0]);
+  if (distance[1] > PETSC_NINFINITY) *nearest = -distance[1];
   PetscFunctionReturn(0);
 }
 
@@ -103,14 +104,13 @@ PetscErrorCode IPMeasureReach(Tao tao)
 
   PetscFunctionBegin;
   PetscCall(VecDestroy(&ip->stiff->reach));
-  if (!ip->mi || !(first->jacobian > 0.0)) PetscFunctionReturn(0);
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &distance));
   PetscCall(ReachUnknowns(tao, distance));
   PetscCall(VecNorm(distance, NORM_INFINITY, &largest));
   PetscCall(ReachViolated(tao, &violated, &nearest));
   first->reach = PetscMax(largest, violated);
   if (first->reach == 0.0) first->reach = nearest;
-  if (first->reach > 0.0 && first->reach < PETSC_INFINITY) PetscCall(ReachRows(tao, distance));
+  if (first->jacobian > 0.0 && first->reach > 0.0 && first->reach < PETSC_INFINITY) PetscCall(ReachRows(tao, distance));
   PetscCall(IPRestoreWork(tao, IP_UNKNOWNS, &distance));
   if (!ip->stiff->reach) PetscFunctionReturn(0);
   PetscCall(VecNorm(ip->at.c, NORM_INFINITY, &largest));

@@ -226,6 +226,27 @@ static PetscErrorCode TestInfeasible(void)
   PetscFunctionReturn(0);
 }
 
+/* Bounds that are out of reach cost no steps: those of 1e19 or more are none, the first mu does not grow with others */
+static PetscErrorCode TestFarBounds(void)
+{
+  const char *bounds[] = {"", "-1e30:1e30 -1e19:1e20 -1e30:1e30", "-1e12:1e12 -1e15:1e15 -1e12:1e12"};
+  PetscInt    its[3];
+
+  PetscFunctionBeginUser;
+  for (PetscInt k = 0; k < 3; k++) {
+    const NLP       p = {"", "x3", "", "x3-(x1-1)^2-x2^2; x1+x2-3", bounds[k], "0 0 0", 2.0, NLP_SOLVED, NULL};
+    FormulasProblem problem;
+
+    PetscCall(FormulasCreate(PETSC_COMM_WORLD, &p, &problem));
+    PetscCall(TaoSolve(problem.tao));
+    PetscCall(TaoGetSolutionStatus(problem.tao, &its[k], NULL, NULL, NULL, NULL, NULL));
+    PetscCall(FormulasDestroy(&problem));
+  }
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "variables with bounds out of reach: %s\n",
+    its[1] == its[0] && its[2] <= its[0] + 2 ? "no more steps than without" : "MORE STEPS"));
+  PetscFunctionReturn(0);
+}
+
 /* A cold start begins with the barrier parameter of the option, with rows or without */
 static PetscErrorCode TestFirstBarrier(void)
 {
@@ -259,6 +280,7 @@ int main(int argc, char **argv)
   PetscCall(TestRelaxedUnits());
   PetscCall(TestInfeasible());
   PetscCall(TestUnscaled());
+  PetscCall(TestFarBounds());
   PetscCall(TestFirstBarrier());
   PetscCall(PetscFinalize());
   return 0;
