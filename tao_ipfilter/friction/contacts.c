@@ -9,7 +9,7 @@ PetscErrorCode ContactsDestroy(Contacts *c)
 {
   PetscFunctionBegin;
   PetscCall(PetscFree5(c->law, c->normal, c->closed, c->held, c->released));
-  PetscCall(PetscFree4(c->coefficient, c->limit, c->f_start, c->u_start));
+  PetscCall(PetscFree5(c->coefficient, c->limit, c->rigid, c->f_start, c->u_start));
   PetscCall(PetscFree7(c->compliance, c->f, c->u, c->shift, c->place, c->D, c->s));
   PetscCall(PetscFree(c->own));
   PetscCall(PetscMemzero(c, sizeof(*c)));
@@ -23,7 +23,7 @@ PetscErrorCode ContactsCreate(MPI_Comm comm, PetscInt n, Contacts *c)
   c->comm = comm;
   c->n    = n;
   PetscCall(PetscCalloc5(n, &c->law, n, &c->normal, n, &c->closed, n, &c->held, n, &c->released));
-  PetscCall(PetscCalloc4(n, &c->coefficient, n, &c->limit, 3 * n, &c->f_start, 3 * n, &c->u_start));
+  PetscCall(PetscCalloc5(n, &c->coefficient, n, &c->limit, 2 * n, &c->rigid, 3 * n, &c->f_start, 3 * n, &c->u_start));
   PetscCall(PetscCalloc7(2 * n, &c->compliance, 3 * n, &c->f, 3 * n, &c->u, 2 * n, &c->shift, 2 * n, &c->place, 9 * n,
     &c->D, 3 * n, &c->s));
   PetscCall(PetscCalloc1(n, &c->own));
@@ -56,6 +56,12 @@ PetscReal ContactsBound(const Contacts *c, PetscInt i, PetscReal normal_force)
   return IPTermBound(c->limit[i], c->coefficient[i], normal_force);
 }
 
+/* Removes the components of a contact's motion along the direction in which it cannot slip */
+void ContactsRemoveRigid(const Contacts *c, PetscInt i, PetscReal u[3])
+{
+  IPTermRemoveRigid(&c->rigid[2 * i], u + 1);
+}
+
 /* Sets the linearized law of tangential components without slip: v = 0, by springs */
 void ContactsSetNoSlip(const Contacts *c, PetscInt i)
 {
@@ -73,15 +79,33 @@ void ContactsSetForce(const Contacts *c, PetscInt i, PetscReal normal_force)
   c->f[3 * i] = normal_force;
 }
 
+/* Projects D and s of a contact such that they leave out the direction in which it cannot slip */
+static void ContactsProjectLaw(const Contacts *c, PetscInt i)
+{
+  const PetscReal *rigid = &c->rigid[2 * i];
+  PetscReal       *D     = &c->D[9 * i];
+
+  if (rigid[0] == 0.0 && rigid[1] == 0.0) return;
+  ContactsRemoveRigid(c, i, &c->s[3 * i]);
+  for (PetscInt r = 0; r < 3; r++) ContactsRemoveRigid(c, i, D + 3 * r);
+  for (PetscInt k = 0; k < 3; k++) {
+    PetscReal column[3] = {D[k], D[3 + k], D[6 + k]};
+
+    ContactsRemoveRigid(c, i, column);
+    for (PetscInt r = 0; r < 3; r++) D[3 * r + k] = column[r];
+  }
+}
+
 /*
-   Puts D and s of a contact in series with the compliance of the contact itself, so that they relate changes of forces
-   to those of the bodies' motions. With du = R dx + own df_n e_n, the law is
+   Finishes D and s of a contact: projects them, and puts them in series with the compliance of the contact itself, so
+   that they relate changes of forces to those of the bodies' motions. With du = R dx + own df_n e_n, the law is
    df = (I + own D e_n e_n^T)^-1 (s - D R dx).
 */
 void ContactsFinishLaw(const Contacts *c, PetscInt i)
 {
   PetscReal *D = &c->D[9 * i], *s = &c->s[3 * i], normal[3], force = s[0];
 
+  ContactsProjectLaw(c, i);
   for (PetscInt k = 0; k < 3; k++) normal[k] = D[k];
   for (PetscInt r = 0; r < 3 && c->own[i] > 0.0; r++) {
     const PetscReal part = c->own[i] * D[3 * r] / (1.0 + c->own[i] * normal[0]);
@@ -150,6 +174,7 @@ PetscErrorCode ContactsStep(Contacts *c, const ContactBodies *bodies, PetscReal 
   PetscCall(bodies->solve(bodies->data, c->s, fraction, target, du, solved));
   if (!*solved) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < c->n; i++) {
+    ContactsRemoveRigid(c, i, &du[3 * i]);
     ConeMultiply(&c->D[9 * i], &du[3 * i], &df[3 * i]);
     for (PetscInt r = 3 * i; r < 3 * i + 3; r++) df[r] = c->s[r] - df[r];
     du[3 * i] += c->own[i] * df[3 * i];

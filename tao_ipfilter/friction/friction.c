@@ -68,18 +68,21 @@ static PetscErrorCode LawsSetTerms(IPLaws laws)
 {
   TAO_IPFILTER      *ip    = (TAO_IPFILTER *)laws->tao->data;
   const IPTerms     *terms = ip->terms;
-  const PetscScalar *limit = NULL, *coefficient = NULL, *scale = NULL;
+  const PetscScalar *limit = NULL, *coefficient = NULL, *scale = NULL, *rigid;
 
   PetscFunctionBegin;
   if (terms->limit) PetscCall(VecGetArrayRead(terms->limit, &limit));
   if (terms->coefficient) PetscCall(VecGetArrayRead(terms->coefficient, &coefficient));
   if (ip->rows->inequality) PetscCall(VecGetArrayRead(ip->rows->inequality, &scale));
+  PetscCall(VecGetArrayRead(terms->rigid, &rigid));
+  PetscCall(PetscArraycpy(laws->contacts.rigid, rigid, 2 * laws->nterms));
   for (PetscInt i = 0; i < laws->nterms; i++) {
     const PetscReal factor = scale && coefficient ? PetscRealPart(scale[i]) : 1.0;
 
     ContactsSetLaw(&laws->contacts, i, limit ? PetscRealPart(limit[i]) : PETSC_INFINITY,
       coefficient ? factor * PetscRealPart(coefficient[i]) : -1.0);
   }
+  PetscCall(VecRestoreArrayRead(terms->rigid, &rigid));
   if (ip->rows->inequality) PetscCall(VecRestoreArrayRead(ip->rows->inequality, &scale));
   if (terms->coefficient) PetscCall(VecRestoreArrayRead(terms->coefficient, &coefficient));
   if (terms->limit) PetscCall(VecRestoreArrayRead(terms->limit, &limit));
@@ -146,6 +149,8 @@ static PetscErrorCode LawsBegin(IPLaws laws, Vec g, Vec c, Vec values, Vec force
     PETSC_FALSE));
   PetscCall(LawsCopy(laws, IPSubspaceOf(laws->tao)->start_force, terms, contacts->f_start, PETSC_FALSE));
   for (PetscInt i = 0; i < contacts->n; i++) {
+    ContactsRemoveRigid(contacts, i, &contacts->u[3 * i]);
+    ContactsRemoveRigid(contacts, i, &contacts->f[3 * i]);
     if (!contacts->normal[i]) contacts->f[3 * i] = 0.0;
     if (contacts->law[i] == CONTACT_SMOOTH) contacts->f[3 * i + 1] = contacts->f[3 * i + 2] = 0.0;
     contacts->u[3 * i] += contacts->own[i] * contacts->f[3 * i];

@@ -36,6 +36,7 @@ typedef struct {
   PetscBool  *closed;              /* states in Newton's method */
   PetscBool  *held, *released;     /* whether a contact that sticks is held at its place; whether it was before */
   PetscReal  *coefficient, *limit; /* of the law; unused ones are zero */
+  PetscReal  *rigid;               /* two per contact: unit direction along which it cannot slip; zeros: none */
   PetscReal
     *compliance;    /* two per contact: estimates for the normal and for the tangential components [length/force] */
   PetscReal *own;   /* compliance of the normal component itself, which is part of compliance[2 i]; 0: rigid */
@@ -89,6 +90,7 @@ PETSC_INTERN PetscErrorCode ContactsCreate(MPI_Comm, PetscInt n, Contacts *);
 PETSC_INTERN PetscErrorCode ContactsDestroy(Contacts *);
 PETSC_INTERN void           ContactsSetLaw(Contacts *, PetscInt i, PetscReal limit, PetscReal coefficient);
 PETSC_INTERN PetscReal      ContactsBound(const Contacts *, PetscInt i, PetscReal normal_force);
+PETSC_INTERN void           ContactsRemoveRigid(const Contacts *, PetscInt i, PetscReal u[3]);
 PETSC_INTERN void           ContactsFinishLaw(const Contacts *, PetscInt i);
 PETSC_INTERN void           ContactsSetForce(const Contacts *, PetscInt i, PetscReal normal_force);
 PETSC_INTERN void           ContactsSetNoSlip(const Contacts *, PetscInt i);

@@ -180,6 +180,7 @@ static PetscErrorCode StickSolve(ContactStick *s, PetscBool *solved)
   if (!*solved) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < c->n; i++) {
     c->closed[i] = (PetscBool)(s->df[3 * i] > c->s[3 * i] - c->f[3 * i]);
+    ContactsRemoveRigid(c, i, &s->du[3 * i]);
     for (PetscInt r = 3 * i; r < 3 * i + 3; r++) {
       c->u[r] += s->du[r];
       c->f[r] += s->df[r];

@@ -198,9 +198,9 @@ static PetscBool DirectionIsCondensed(const TAO_IPFILTER *ip)
 static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, PetscBool *usable)
 {
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
-  const PetscReal last   = IP_FORCING_LAST * ip->tol * IPErrorBoundForceUnit(ip);
+  const PetscReal factor = IP_FORCING_LAST * ip->tol;
+  PetscReal       norm, last = factor * IPErrorBoundForceUnit(ip);
   PetscBool       finish = PETSC_FALSE;
-  PetscReal       norm;
   Vec             rhs;
 
   PetscFunctionBegin;
@@ -208,7 +208,11 @@ static PetscErrorCode DirectionSolve(Tao tao, Vec rc, Vec ce, PetscBool matrix, 
   PetscCall(IPCondenseRHS(tao, rc, rhs));
   PetscCall(VecNorm(rhs, NORM_2, &norm));
   PetscCall(DirectionSolveUnknowns(tao, rhs, ce, matrix, ForcingTarget(ip, last, norm), usable));
-  if (*usable) PetscCall(IPBackSubstitute(tao, rc));
+  if (*usable) {
+    PetscCall(IPBackSubstitute(tao, rc));
+    PetscCall(IPErrorBoundForceUnitAfter(tao, ip->dir.x, &last));
+    last *= factor;
+  }
   if (*usable && DirectionIsCondensed(ip) && ip->opt->forcing == IP_FORCING_ADAPTIVE && ip->lin->norm > last)
     PetscCall(DirectionWouldFinish(tao, &finish));
   if (finish) {

@@ -311,6 +311,26 @@ PetscReal IPErrorBoundForceUnit(const TAO_IPFILTER *ip)
 }
 
 /*
+   Predicts IPErrorBoundForceUnit() for the end of the step dx, with the objective of the quadratic model. The present
+   objective would be too small if the start is x = 0.
+*/
+PetscErrorCode IPErrorBoundForceUnitAfter(Tao tao, Vec dx, PetscReal *unit)
+{
+  TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
+  PetscScalar   slope;
+  PetscReal     energy;
+
+  PetscFunctionBegin;
+  *unit = IPErrorBoundForceUnit(ip);
+  if (!(ip->kkt->work_dual > 0.0) || !(ip->scale->energy < PETSC_INFINITY)) PetscFunctionReturn(0);
+  PetscCall(VecDot(tao->gradient, dx, &slope));
+  energy = PetscAbsReal(ip->at.f + 0.5 * PetscRealPart(slope));
+  if (energy > ip->scale->energy)
+    *unit = PetscMin(ip->scale->dual, ip->kkt->dual_norm / ip->kkt->work_dual * energy / ip->scale->energy);
+  PetscFunctionReturn(0);
+}
+
+/*
    Returns the smallest mu that is needed: each product t z is then within a tenth of the tolerance, and their sum
    within half of it
 */

@@ -10,7 +10,6 @@
 /* stiffness.c */
 PETSC_INTERN PetscErrorCode IPCompliances(Tao, Mat, Vec);
 PETSC_INTERN PetscErrorCode IPComputeStiffness(Tao);
-PETSC_INTERN PetscErrorCode IPTermsResistance(Tao);
 PETSC_INTERN PetscErrorCode IPStiffnessUpdate(Tao);
 PETSC_INTERN PetscErrorCode IPStiffnessTerms(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPStiffnessMeanEnergy(Tao, PetscReal *mean);
@@ -34,6 +33,7 @@ PETSC_INTERN PetscErrorCode IPTermsDestroy(IPTerms *);
 PETSC_INTERN PetscErrorCode IPTermsSetUp(Tao);
 PETSC_INTERN PetscErrorCode IPTermsSetNone(Tao);
 PETSC_INTERN PetscErrorCode IPTermsValue(Tao, Vec x, Vec);
+PETSC_INTERN void           IPTermRemoveRigid(const PetscScalar rigid[2], PetscScalar v[2]);
 PETSC_INTERN PetscErrorCode IPTermsSum(Tao, Vec x, Vec force, PetscReal *);
 PETSC_INTERN PetscErrorCode IPTermsSubtractForces(Tao, Vec);
 PETSC_INTERN PetscReal      IPTermBound(PetscReal limit, PetscReal coefficient, PetscReal force);
@@ -46,6 +46,9 @@ PETSC_INTERN PetscErrorCode TaoIPFilterSetNormTerms_IPFilter(Tao, Mat, Vec, Vec,
 PETSC_INTERN PetscErrorCode TaoIPFilterSetNormTermForces_IPFilter(Tao, Vec);
 PETSC_INTERN PetscErrorCode TaoIPFilterGetNormTermForces_IPFilter(Tao, Vec *);
 
+/* resistance.c */
+PETSC_INTERN PetscErrorCode IPTermsResistance(Tao);
+
 /* error_bound.c */
 PETSC_INTERN PetscErrorCode IPErrorBoundTerms(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPErrorBoundEnergy(Tao, PetscReal *, PetscReal *);
@@ -56,6 +59,7 @@ PETSC_INTERN PetscBool      IPErrorBoundWithin(const TAO_IPFILTER *, PetscReal g
 PETSC_INTERN PetscBool      IPErrorBoundRefined(const TAO_IPFILTER *);
 PETSC_INTERN PetscBool      IPErrorBoundWithinPresent(const TAO_IPFILTER *, PetscReal tol);
 PETSC_INTERN PetscReal      IPErrorBoundForceUnit(const TAO_IPFILTER *);
+PETSC_INTERN PetscErrorCode IPErrorBoundForceUnitAfter(Tao, Vec, PetscReal *);
 PETSC_INTERN PetscReal      IPErrorBoundLeastMu(const TAO_IPFILTER *);
 
 /* kkt.c */

@@ -2,7 +2,6 @@
 #include "residualsimpl.h"
 #include "tao_ipfilter/solver/matrices.h"
 #include "tao_ipfilter/solver/stiffness.h"
-#include "tao_ipfilter/solver/terms.h"
 
 /*
    Computes the magnitude of the terms of the gradient at x. Rounding errors limit the stationarity residual to a few
@@ -143,38 +142,5 @@ PetscErrorCode IPComputeStiffness(Tao tao)
   s->flat   = (PetscBool) !(PetscRealPart(sum) > 0.0);
   s->hscale = s->flat ? 1.0 : PetscRealPart(sum) / n;
   if (ip->mi) PetscCall(ConstraintStiffness(tao));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Computes terms->rho, the stiffness that resists each term, along the softer one of its two directions; 0 if its
-   compliance is zero or a rounding error
-*/
-PetscErrorCode IPTermsResistance(Tao tao)
-{
-  IPTerms           *terms    = ((TAO_IPFILTER *)tao->data)->terms;
-  const PetscReal    rounding = 1e-14; /* compliance of rounding errors, relative to the largest one */
-  const PetscScalar *c;
-  PetscScalar       *rho;
-  PetscReal          largest;
-  PetscInt           n;
-  Vec                compliance;
-
-  PetscFunctionBegin;
-  if (!terms->n) PetscFunctionReturn(0);
-  PetscCall(VecDuplicate(terms->t, &compliance));
-  PetscCall(IPCompliances(tao, terms->T, compliance));
-  PetscCall(VecNorm(compliance, NORM_INFINITY, &largest));
-  PetscCall(VecGetLocalSize(terms->rho, &n));
-  PetscCall(VecGetArrayRead(compliance, &c));
-  PetscCall(VecGetArrayWrite(terms->rho, &rho));
-  for (PetscInt i = 0; i < n; i++) {
-    const PetscReal larger = PetscMax(PetscRealPart(c[2 * i]), PetscRealPart(c[2 * i + 1]));
-
-    rho[i] = larger > rounding * largest ? 1.0 / larger : 0.0;
-  }
-  PetscCall(VecRestoreArrayWrite(terms->rho, &rho));
-  PetscCall(VecRestoreArrayRead(compliance, &c));
-  PetscCall(VecDestroy(&compliance));
   PetscFunctionReturn(0);
 }

@@ -26,6 +26,7 @@ PetscErrorCode IPTermsDestroy(IPTerms *terms)
   PetscCall(VecDestroy(&terms->best));
   PetscCall(VecDestroy(&terms->last));
   PetscCall(VecDestroy(&terms->rho));
+  PetscCall(VecDestroy(&terms->rigid));
   PetscCall(PetscMemzero(terms, sizeof(*terms)));
   PetscFunctionReturn(0);
 }
@@ -106,13 +107,30 @@ static PetscErrorCode TermsCheckWeights(Tao tao, Vec weights, const char kind[])
   PetscFunctionReturn(0);
 }
 
-/* Computes v = T x + t */
+/* Removes the component of v along `rigid`, which is a unit vector or zero */
+void IPTermRemoveRigid(const PetscScalar rigid[2], PetscScalar v[2])
+{
+  const PetscScalar along = rigid[0] * v[0] + rigid[1] * v[1];
+
+  for (PetscInt a = 0; a < 2; a++) v[a] -= along * rigid[a];
+}
+
+/* Computes v = T x + t without the components in directions in which terms cannot move */
 PetscErrorCode IPTermsValue(Tao tao, Vec x, Vec v)
 {
-  const IPTerms *terms = ((TAO_IPFILTER *)tao->data)->terms;
+  IPTerms           *terms = ((TAO_IPFILTER *)tao->data)->terms;
+  const PetscScalar *rigid;
+  PetscScalar       *a;
+  PetscInt           n;
 
   PetscFunctionBegin;
   PetscCall(MatMultAdd(terms->given, x, terms->t, v));
+  PetscCall(VecGetLocalSize(terms->rho, &n));
+  PetscCall(VecGetArrayRead(terms->rigid, &rigid));
+  PetscCall(VecGetArray(v, &a));
+  for (PetscInt i = 0; i < n; i++) IPTermRemoveRigid(rigid + 2 * i, a + 2 * i);
+  PetscCall(VecRestoreArray(v, &a));
+  PetscCall(VecRestoreArrayRead(terms->rigid, &rigid));
   PetscFunctionReturn(0);
 }
 
@@ -141,6 +159,7 @@ PetscErrorCode IPTermsSetUp(Tao tao)
     PetscCall(VecDuplicate(terms->t, &terms->force));
     PetscCall(VecDuplicate(terms->t, &terms->best));
     PetscCall(VecDuplicate(terms->t, &terms->last));
+    PetscCall(VecDuplicate(terms->t, &terms->rigid));
     PetscCall(VecGetLocalSize(terms->t, &n));
     PetscCall(VecCreate(PetscObjectComm((PetscObject)tao), &terms->rho));
     PetscCall(VecSetSizes(terms->rho, n / 2, PETSC_DETERMINE));
@@ -148,6 +167,7 @@ PetscErrorCode IPTermsSetUp(Tao tao)
   }
   if (terms->warm) PetscCall(VecCopy(terms->warm, terms->force));
   else PetscCall(VecSet(terms->force, 0.0));
+  PetscCall(VecZeroEntries(terms->rigid));
   PetscFunctionReturn(0);
 }
 

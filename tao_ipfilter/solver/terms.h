@@ -15,9 +15,11 @@ struct _n_IPTerms {
   Vec      t;                  /* the offsets t_i, two entries per term */
   Vec      limit, coefficient; /* one entry per term; limit NULL: no limits; coefficient NULL: only the limits act */
   Vec      force, best, last,
-    warm;  /* tangential forces tau, two entries per term: at the present point, at the best one, at the last one,
+    warm;    /* tangential forces tau, two entries per term: at the present point, at the best one, at the last one,
                and the initial ones; warm NULL: zero */
-  Vec rho; /* stiffness against which each term moves (stiffness.c) */
+  Vec rho;   /* stiffness against which each term moves (resistance.c) */
+  Vec rigid; /* two entries per term: unit vector along which the term cannot move, so that its component of v counts
+               as zero; zeros: the term moves in both directions */
 };
 
 #endif
