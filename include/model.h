@@ -539,7 +539,9 @@ static inline PetscBool SceneContactPairIsRigid(Scene scene, const SceneContactP
 }
 PETSC_EXTERN void      SceneFindStiffest(Scene, const SceneBody **soft, const SceneBody **hard);
 PETSC_EXTERN PetscReal SceneRatioBeyondRounding(Scene, const SceneBody **soft, const SceneBody **hard);
-/* Evaluates an expression in x, y and z at a point */
-PETSC_EXTERN PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value);
+/* Evaluates the expression of an entry at a position x, y, z. It is an error if the value is not finite. what: what the
+   entry is, "Pressure" for example */
+PETSC_EXTERN PetscErrorCode SceneEvaluatePlace(const void *entry, const char what[], const char expression[],
+  const PetscReal x[3], PetscReal *value);
 
 #endif

@@ -31,7 +31,7 @@ PetscBool ScriptFind(const char name[], char script[], size_t length, char sente
   return PETSC_FALSE;
 }
 
-/* Removes codes of colours, ESC [ ... m, and all but the last line that is not blank */
+/* Keeps only the last line that is not blank, without ANSI colour codes (ESC [ ... m) */
 static void ScriptTakeLine(char text[])
 {
   size_t n = 0;

@@ -58,10 +58,7 @@ PetscErrorCode PressureAt(void *ctx, const PetscReal x[3], PetscReal *value)
   const ScenePressure *here = (const ScenePressure *)ctx;
 
   PetscFunctionBegin;
-  PetscCall(SceneEvaluatePlace(here->value, x, value));
-  SceneCheck(!PetscIsInfOrNanReal(*value), PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, here,
-    "Pressure \"%s\": its value \"%s\" is not finite at (%g, %g, %g)", here->name, here->value, (double)x[0],
-    (double)x[1], (double)x[2]);
+  PetscCall(SceneEvaluatePlace(here, "Pressure", here->value, x, value));
   PetscFunctionReturn(0);
 }
 

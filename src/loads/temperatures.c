@@ -8,10 +8,7 @@ static PetscErrorCode TemperatureAt(void *ctx, const PetscReal x[3], PetscReal *
   const SceneTemperature *here = (const SceneTemperature *)ctx;
 
   PetscFunctionBegin;
-  PetscCall(SceneEvaluatePlace(here->value, x, value));
-  SceneCheck(!PetscIsInfOrNanReal(*value), PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, here,
-    "Temperature \"%s\": its value \"%s\" is not finite at (%g, %g, %g)", here->name, here->value, (double)x[0],
-    (double)x[1], (double)x[2]);
+  PetscCall(SceneEvaluatePlace(here, "Temperature", here->value, x, value));
   PetscFunctionReturn(0);
 }
 

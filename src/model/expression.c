@@ -142,13 +142,17 @@ PetscReal ExpressionEvaluate(Expression *e)
   return value;
 }
 
-/* Evaluates an expression in x, y and z at the position x [length]. *value may be infinite or not a number. */
-PetscErrorCode SceneEvaluatePlace(const char expression[], const PetscReal x[3], PetscReal *value)
+PetscErrorCode SceneEvaluatePlace(const void *entry, const char what[], const char expression[], const PetscReal x[3],
+  PetscReal *value)
 {
-  Expression e = {.at = expression, .names = "xyz", .values = {x[0], x[1], x[2]}};
+  const SceneEntry *here = (const SceneEntry *)entry;
+  Expression        e    = {.at = expression, .names = "xyz", .values = {x[0], x[1], x[2]}};
 
   PetscFunctionBegin;
   *value = ExpressionEvaluate(&e);
   PetscCheck(!e.wrong, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG, "The expression \"%s\" cannot be evaluated", expression);
+  SceneCheck(!PetscIsInfOrNanReal(*value), PETSC_COMM_SELF, PETSC_ERR_USER_INPUT, here,
+    "%s \"%s\": its value \"%s\" is not finite at (%g, %g, %g)", what, here->name, expression, (double)x[0],
+    (double)x[1], (double)x[2]);
   PetscFunctionReturn(0);
 }

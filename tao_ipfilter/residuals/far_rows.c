@@ -1,7 +1,8 @@
 /*
    Finds constraints that are out of reach: no expected change of the unknowns makes them zero. Examples are rows with
    values of 1e8 or 1e10 that users write in place of a missing constraint. Norms of c_I omit them, because any other
-   violation would be negligible relative to such values.
+   violation would be negligible relative to such values. The expected change of the unknowns also limits the first mu
+   (iteration/start.c).
 */
 #include "residualsimpl.h"
 #include "tao_ipfilter/solver/matrices.h"

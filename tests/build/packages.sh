@@ -1,4 +1,4 @@
-# What share/packaging and pyproject.toml have in common with the sources: the version; every file that make install
+# What share/packaging and share/python/pyproject.toml have in common with the sources: the version; every file that make install
 # puts somewhere is in one Debian package; AMGF.py is Python; pip's copy of the Python package finds the program in PATH
 set -u
 unset MAKEFLAGS
@@ -6,7 +6,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$AMGF_DIR" || exit 1
 version=$(sed -n 's/^#define PETSCAMGF_VERSION_[A-Z]* *\([0-9]*\)$/\1/p' include/petscamgf.h | paste -sd.)
-for file in pyproject.toml share/packaging/{petsc/AMGF.py,spack/package.py,conda/meta.yaml,README.md}; do
+for file in share/python/pyproject.toml share/packaging/{petsc/AMGF.py,spack/package.py,conda/meta.yaml,README.md}; do
   grep -qE "(version|amgf-).*\b${version//./\\.}\b" "$file" || echo "$file: not version $version"
 done
 
@@ -35,15 +35,13 @@ print("recipes: Python")
 P
 
 # Where Python has no pip, from the sources: which of both depends on the machine
-mkdir -p "$work/source/share"
-cp pyproject.toml "$work/source"
-cp -r share/python "$work/source/share"
+cp -r share/python "$work/source"
 if "$PYTHON" -c 'import setuptools, pip, wheel' 2> "$work/log"; then
   (cd "$work/source" && "$PYTHON" -m pip install -q --no-deps --no-build-isolation --no-warn-script-location \
-    --root-user-action=ignore --target "$work/site" .) > "$work/log" 2>&1 || { echo "pip install ."; cat "$work/log"; }
+    --root-user-action=ignore --target "$work/site" .) > "$work/log" 2>&1 || { echo "pip install"; cat "$work/log"; }
   mesh=$work/site/bin/contact-mesh
 else
-  mv "$work/source/share/python" "$work/site"
+  mv "$work/source" "$work/site"
   mesh="-m contact.meshes"
 fi
 cd "$work" || exit 1

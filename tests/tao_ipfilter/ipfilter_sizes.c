@@ -226,7 +226,7 @@ static PetscErrorCode TestInfeasible(void)
   PetscFunctionReturn(0);
 }
 
-/* Bounds that are out of reach cost no steps: those of 1e19 or more are none, the first mu does not grow with others */
+/* Distant bounds cost no steps. Bounds of 1e19 or more count as infinite. Nearer ones do not enlarge the first mu. */
 static PetscErrorCode TestFarBounds(void)
 {
   const char *bounds[] = {"", "-1e30:1e30 -1e19:1e20 -1e30:1e30", "-1e12:1e12 -1e15:1e15 -1e12:1e12"};

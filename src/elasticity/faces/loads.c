@@ -150,8 +150,8 @@ static void ElasticityPieceNormals(const Facet *facet, PetscReal F[][3])
   }
 }
 
-/* What is integrated over a face: factor times `at` times the normal. If `cut`, facets of order 2 are divided by their
-   nodes into facets of order 1, and `at` is not used. */
+/* An integral over a face. The integrand is factor times pressure times normal. If `cut`, both are 1: facets of
+   order 2 are then divided at their nodes into facets of order 1. */
 typedef struct {
   PetscReal          factor;
   PetscBool          cut;
