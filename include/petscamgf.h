@@ -119,6 +119,7 @@ PETSC_EXTERN PetscErrorCode TaoIPFilterSetSubspace(Tao, PetscContainer);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSolveActive(PetscContainer, Vec, Vec, PetscInt, PetscReal, Vec, Vec, PetscInt *,
   PetscBool *);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetRounding(Tao, PetscReal);
+PETSC_EXTERN PetscErrorCode TaoIPFilterSetDefinite(Tao, PetscBool);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetModes(Tao, Mat);
 PETSC_EXTERN PetscErrorCode TaoIPFilterSetInterrupt(Tao, PetscErrorCode (*)(void *, PetscBool *), void *);
 

@@ -52,30 +52,46 @@ static inline PetscErrorCode AMGFMumpsFactors(MatType type, MatFactorType factor
 #endif
 
 /*
-   Computes L U of A by MUMPS, or by PETSc without it, again with more work space while MUMPS's estimate is too small.
+   Computes L U of A by MUMPS, again with more work space while MUMPS's estimate is too small. PETSc factors a small
+   matrix of one rank, since MUMPS takes a millisecond for any matrix, unless it finds a zero pivot; and any matrix
+   without MUMPS.
    *F: NULL, or factors for the same nonzero pattern, whose analysis is used again; NULL on return after an error.
    *relaxation: work space beyond the estimate [per cent], AMGF_MUMPS_RELAXATION at first
 */
 static inline PetscErrorCode AMGFMumpsFactorLU(Mat A, PetscInt *relaxation, Mat *F, MatFactorError *error)
 {
-  MatFactorInfo info;
-  MatType       type;
-  PetscBool     mumps;
+  const PetscInt small = 500; /* size up to which PETSc is faster; 700: equal */
+  MatFactorInfo  info;
+  MatType        type;
+  PetscMPIInt    size;
+  PetscInt       n;
+  PetscBool      has, mumps, again;
 
   PetscFunctionBegin;
   PetscCall(MatGetType(A, &type));
-  PetscCall(AMGFMumpsFactors(type, MAT_FACTOR_LU, &mumps));
+  PetscCall(MatGetSize(A, &n, NULL));
+  PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)A), &size));
+  PetscCall(AMGFMumpsFactors(type, MAT_FACTOR_LU, &has));
   PetscCall(MatFactorInfoInitialize(&info));
+  mumps = (PetscBool)(has && (size > 1 || n > small));
   do {
     if (!*F) {
+      IS rows = NULL, columns = NULL;
+
       PetscCall(MatGetFactor(A, mumps ? MATSOLVERMUMPS : MATSOLVERPETSC, MAT_FACTOR_LU, F));
       if (mumps) PetscCall(AMGFMumpsSetIcntl(*F, 14, *relaxation));
-      PetscCall(MatLUFactorSymbolic(*F, A, NULL, NULL, &info));
+      else PetscCall(MatGetOrdering(A, MATORDERINGND, &rows, &columns));
+      PetscCall(MatLUFactorSymbolic(*F, A, rows, columns, &info));
+      PetscCall(ISDestroy(&rows));
+      PetscCall(ISDestroy(&columns));
     }
     PetscCall(MatLUFactorNumeric(*F, A, &info));
     PetscCall(MatFactorGetError(*F, error));
     if (*error != MAT_FACTOR_NOERROR) PetscCall(MatDestroy(F)); /* MUMPS cannot use them again */
-  } while (*error == MAT_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, relaxation));
+    again = (PetscBool)(mumps ? *error == MAT_FACTOR_OUTMEMORY && AMGFMumpsMoreSpace(AMGF_MUMPS_RELAXATION, relaxation)
+                              : has && *error != MAT_FACTOR_NOERROR);
+    mumps = has;
+  } while (again);
   PetscFunctionReturn(0);
 }
 

@@ -93,6 +93,13 @@ static PetscErrorCode TaoIPFilterSetRounding_IPFilter(Tao tao, PetscReal x)
   PetscFunctionReturn(0);
 }
 
+static PetscErrorCode TaoIPFilterSetDefinite_IPFilter(Tao tao, PetscBool definite)
+{
+  PetscFunctionBegin;
+  ((TAO_IPFILTER *)tao->data)->given->definite = definite;
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode TaoIPFilterGetSlack_IPFilter(Tao tao, Vec *s, Vec *z)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -167,6 +174,7 @@ static const AMGFFunction functions[] = {
   AMGF_FUNCTION(TaoIPFilterSetPrimalMass, IPFilter),
   AMGF_FUNCTION(TaoIPFilterSetWarmStart, IPFilter),
   AMGF_FUNCTION(TaoIPFilterSetRounding, IPFilter),
+  AMGF_FUNCTION(TaoIPFilterSetDefinite, IPFilter),
   AMGF_FUNCTION(TaoIPFilterGetSlack, IPFilter),
   AMGF_FUNCTION(TaoIPFilterGetKSPIterations, IPFilter),
   AMGF_FUNCTION(TaoIPFilterGetKKTError, IPFilter),
@@ -305,6 +313,32 @@ PetscErrorCode TaoIPFilterSetRounding(Tao tao, PetscReal x)
   PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
   PetscValidLogicalCollectiveReal(tao, x, 2);
   PetscTryMethod(tao, "TaoIPFilterSetRounding_C", (Tao, PetscReal), (tao, x));
+  PetscFunctionReturn(0);
+}
+
+/*@
+  TaoIPFilterSetDefinite - Tells the optimizer that the Hessian is positive definite at each point
+
+  Logically Collective
+
+  Input Parameters:
++ tao      - the `TAOIPFILTER`
+- definite - whether it is; default `PETSC_FALSE`, which means that it is not known
+
+  Level: advanced
+
+  Note:
+  Without constraints the problem then has a solution. With norm terms (friction), and without forces at the start, the
+  optimizer tries this solution first. In dynamics inertia makes the Hessian of linear bodies positive definite.
+
+.seealso: `TAOIPFILTER`, `TaoIPFilterSetNormTerms()`
+@*/
+PetscErrorCode TaoIPFilterSetDefinite(Tao tao, PetscBool definite)
+{
+  PetscFunctionBegin;
+  PetscValidHeaderSpecific(tao, TAO_CLASSID, 1);
+  PetscValidLogicalCollectiveBool(tao, definite, 2);
+  PetscTryMethod(tao, "TaoIPFilterSetDefinite_C", (Tao, PetscBool), (tao, definite));
   PetscFunctionReturn(0);
 }
 

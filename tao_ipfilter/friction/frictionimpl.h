@@ -73,6 +73,7 @@ typedef struct {
                                                          computed before the first call */
   PetscErrorCode (*advance)(void *, PetscReal fraction); /* adds fraction dx to x */
   PetscErrorCode (*keep)(void *, PetscBool back);        /* copies x to a second place, or from there */
+  PetscBool definite;                                    /* K is known to be positive definite */
   PetscErrorCode (*interrupted)(void *, PetscBool *);    /* whether the user wants to end the solve */
 } ContactBodies;
 
@@ -151,7 +152,7 @@ typedef struct {
   ContactPhase  phase;
   ContactStick  stick;
   PetscBool     sticks;          /* whether there are contacts that stick while they are closed */
-  PetscBool     cold;            /* there is no state from which Newton's method could start */
+  PetscBool     cold;            /* no contact has a force, from which Newton's method could start */
   Cones         cones;           /* NULL before the phase CONTACT_CONES */
   PetscInt      nsteps, nfutile; /* numbers of steps of this phase; of those in a row that hardly reduced the merit */
   PetscReal  size, best; /* change of motions in this solve, or violation at its start; smallest merit of this phase */

@@ -197,13 +197,26 @@ static PetscErrorCode IterationEnterCones(ContactIteration *it, PetscBool *done)
 {
   PetscFunctionBegin;
   PetscCall(IterationKeep(it, PETSC_TRUE));
-  it->cold   = PETSC_FALSE;
   it->phase  = CONTACT_CONES;
   it->nsteps = 0;
   it->known  = 1e-4; /* most states are known then; IterationReturn() is for the others */
   PetscCall(ConesCreate(it->contacts, &it->bodies, &it->cones));
   PetscCall(ConesStart(it->cones, done));
   if (*done) PetscCall(IterationCones(it, done));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Takes the first step from a cold start: that of Newton's method with all contacts open, if bodies without contact
+   have an equilibrium; or, if this is not the solution, one of the interior point method
+*/
+static PetscErrorCode IterationStart(ContactIteration *it, PetscBool *done)
+{
+  PetscFunctionBegin;
+  it->cold = PETSC_FALSE;
+  *done    = it->bodies.definite;
+  if (*done) PetscCall(IterationNewton(it, done));
+  if (!*done || it->violation > 0.0) PetscCall(IterationEnterCones(it, done));
   PetscFunctionReturn(0);
 }
 
@@ -242,7 +255,7 @@ PetscErrorCode ContactIterate(ContactIteration *it, PetscBool *done)
   if (!*done) PetscFunctionReturn(0);
   if (it->phase == CONTACT_HELD) PetscCall(IterationStick(it, done));
   else if (it->phase == CONTACT_CONES) PetscCall(IterationCones(it, done));
-  else if (it->cold) PetscCall(IterationEnterCones(it, done));
+  else if (it->cold) PetscCall(IterationStart(it, done));
   else {
     PetscCall(IterationNewton(it, done));
     if (!*done && it->phase == CONTACT_WARM) PetscCall(IterationEnterCones(it, done));

@@ -7,7 +7,6 @@
    with other D, use the directions again.
 */
 #include "frictionimpl.h"
-#include "pc_amgf/amgfimpl.h"
 #include "pc_amgf/mumps.h"
 #include "tao_ipfilter/solver/condensed.h"
 #include "tao_ipfilter/solver/constants.h"
@@ -170,19 +169,14 @@ static PetscErrorCode BodiesCreateMatrices(SubspaceBodies b, PetscInt n)
 {
   PetscInt start, end;
   IS       all;
-  Mat      thin, KWW, unit;
+  Mat      KWW, unit;
 
   PetscFunctionBegin;
   PetscCall(MatGetOwnershipRange(b->R, &start, &end));
   PetscCall(ISCreateStride(PetscObjectComm((PetscObject)b->R), end - start, start, 1, &all));
   PetscCall(MatCreateSubMatrix(b->R, all, b->W, MAT_INITIAL_MATRIX, &b->RW));
   PetscCall(ISDestroy(&all));
-  PetscCall(MatGetThinRows_AMGF(b->K, b->W, PETSC_FALSE, &thin));
-  PetscCall(MatGetOwnershipRange(thin, &start, &end));
-  PetscCall(ISCreateStride(PetscObjectComm((PetscObject)b->R), end - start, start, 1, &all));
-  PetscCall(MatCreateSubMatrix(thin, all, b->W, MAT_INITIAL_MATRIX, &KWW));
-  PetscCall(ISDestroy(&all));
-  PetscCall(MatDestroy(&thin));
+  PetscCall(IPGatherStiffness(b->K, b->W, PETSC_FALSE, &KWW));
   PetscCall(BodiesCreateUnit(b->W, &unit));
   PetscCall(BodiesCreateBlocks(b->R, n, &b->D));
   PetscCall(MatMatMult(b->D, b->RW, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &b->DR));
@@ -1001,6 +995,7 @@ ContactBodies SubspaceBodiesInterface(SubspaceBodies b)
 {
   const ContactBodies bodies = {
     .data         = b,
+    .definite     = ((TAO_IPFILTER *)b->tao->data)->given->definite,
     .residual     = BodiesResidual,
     .prepare      = BodiesPrepare,
     .solve        = BodiesSolve,

@@ -38,6 +38,7 @@ struct _n_IPGiven {
   Vec       compliance;              /* compliance of the rows of c_I; NULL: all rows are rigid */
   Vec       warm_s, warm_z;          /* initial slacks and their multipliers */
   PetscReal rounding;                /* rounding errors of the unknowns; 0: unknown */
+  PetscBool definite;                /* the Hessian is known to be positive definite */
   PetscErrorCode (*interrupt)(void *, PetscBool *); /* whether the user wants to end the solve */
   void *interrupt_ctx;
 };

@@ -1,6 +1,6 @@
 /*
-   Gathers data of the reduced problem on the first rank, which solves it, and distributes results: rows of matrices,
-   restricted to the columns of W, entries of vectors, and errors
+   Extracts matrices on W. Gathers data of the reduced problem on the first rank, which solves it, and distributes
+   results: rows of matrices, restricted to the columns of W, entries of vectors, and errors
 */
 #include "subspaceimpl.h"
 
@@ -51,64 +51,84 @@ static PetscErrorCode GatherRow(Mat A, const Gather *g, PetscInt r, PetscInt col
   PetscFunctionReturn(0);
 }
 
-/* Gets the local matrix of the first rank, which has all rows; NULL on the other ranks */
-static PetscErrorCode GatherTakeFirst(Mat all, PetscBool first, Mat *S)
+/*
+   Creates the matrix of the selected rows. rows, columns: its sizes on this rank. Space for the entries of a row is
+   reserved both for columns of this rank and for those of others, as far as both exist.
+*/
+static PetscErrorCode GatherMatrix(Mat A, const Gather *g, PetscInt rows, PetscInt columns, Mat *S)
 {
-  Mat diagonal;
-
-  PetscFunctionBegin;
-  *S = NULL;
-  PetscCall(MatGetDiagonalBlock(all, &diagonal));
-  if (first) {
-    PetscCall(PetscObjectReference((PetscObject)diagonal));
-    *S = diagonal;
-  }
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode GatherMatrix(Mat A, const Gather *g, PetscBool first, Mat *S)
-{
-  PetscInt    *counts, *column;
+  PetscInt    *counts, *others, *column, start;
   PetscScalar *entry;
-  Mat          all;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc3(g->M, &counts, g->nw, &column, g->nw, &entry));
+  PetscCall(PetscCalloc4(g->M, &counts, rows, &others, g->nw, &column, g->nw, &entry));
   if (g->half) PetscCall(MatGetRowUpperTriangular(A));
   for (PetscInt r = 0; r < g->nrows; r++) PetscCall(GatherRow(A, g, r, column, entry, counts, NULL));
   PetscCallMPI(
     MPI_Allreduce(MPI_IN_PLACE, counts, (PetscMPIInt)g->M, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)A)));
-  PetscCall(MatCreate(PetscObjectComm((PetscObject)A), &all));
-  PetscCall(MatSetSizes(all, first ? g->M : 0, first ? g->nw : 0, g->M, g->nw));
-  PetscCall(MatSetType(all, MATAIJ));
-  PetscCall(MatXAIJSetPreallocation(all, 1, counts, NULL, NULL, NULL));
-  for (PetscInt r = 0; r < g->nrows; r++) PetscCall(GatherRow(A, g, r, column, entry, counts, all));
+  PetscCall(MatCreate(PetscObjectComm((PetscObject)A), S));
+  PetscCall(MatSetSizes(*S, rows, columns, g->M, g->nw));
+  PetscCall(MatSetType(*S, MATAIJ));
+  PetscCallMPI(MPI_Scan(&rows, &start, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)A)));
+  start -= rows;
+  for (PetscInt r = 0; r < rows; r++) {
+    others[r]         = PetscMin(counts[start + r], g->nw - columns);
+    counts[start + r] = PetscMin(counts[start + r], columns);
+  }
+  PetscCall(MatXAIJSetPreallocation(*S, 1, counts + start, others, NULL, NULL));
+  for (PetscInt r = 0; r < g->nrows; r++) PetscCall(GatherRow(A, g, r, column, entry, counts, *S));
   if (g->half) PetscCall(MatRestoreRowUpperTriangular(A));
-  PetscCall(MatAssemblyBegin(all, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(all, MAT_FINAL_ASSEMBLY));
-  PetscCall(PetscFree3(counts, column, entry));
-  PetscCall(GatherTakeFirst(all, first, S));
+  PetscCall(MatAssemblyBegin(*S, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*S, MAT_FINAL_ASSEMBLY));
+  PetscCall(PetscFree4(counts, others, column, entry));
+  PetscFunctionReturn(0);
+}
+
+/* Gathers the selected rows on the first rank. S: NULL on the other ranks */
+static PetscErrorCode GatherOnFirst(Mat A, const Gather *g, PetscBool first, Mat *S)
+{
+  Mat all, diagonal;
+
+  PetscFunctionBegin;
+  PetscCall(GatherMatrix(A, g, first ? g->M : 0, first ? g->nw : 0, &all));
+  PetscCall(MatGetDiagonalBlock(all, &diagonal));
+  *S = NULL;
+  if (first) {
+    PetscCall(PetscObjectReference((PetscObject)diagonal));
+    *S = diagonal;
+  }
   PetscCall(MatDestroy(&all));
   PetscFunctionReturn(0);
 }
 
-/* Gathers K_WW. own: local part of W; w: all of W. */
-PetscErrorCode IPGatherStiffness(Mat K, IS own, PetscInt nw, const PetscInt w[], PetscBool first, Mat *S)
+/* Extracts K_WW. own: the rows of K that belong to W; gather: whether the first rank gets it all, in a sequential
+   matrix, and the other ranks NULL */
+PetscErrorCode IPGatherStiffness(Mat K, IS own, PetscBool gather, Mat *S)
 {
-  Gather    g = {.M = nw, .nw = nw, .w = w, .symmetric = PETSC_TRUE};
-  PetscInt *place, start;
+  Gather      g = {.symmetric = PETSC_TRUE};
+  PetscInt   *place, start;
+  PetscMPIInt rank;
+  IS          all;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompareAny((PetscObject)K, &g.half, MATSEQSBAIJ, MATMPISBAIJ, ""));
+  PetscCall(ISAllGather(own, &all));
+  PetscCall(ISGetSize(all, &g.nw));
+  PetscCall(ISGetIndices(all, &g.w));
+  g.M = g.nw;
   PetscCall(ISGetLocalSize(own, &g.nrows));
   PetscCall(ISGetIndices(own, &g.rows));
   PetscCall(PetscMalloc1(g.nrows, &place));
   PetscCallMPI(MPI_Scan(&g.nrows, &start, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)K)));
   for (PetscInt r = 0; r < g.nrows; r++) place[r] = start - g.nrows + r;
   g.place = place;
-  PetscCall(GatherMatrix(K, &g, first, S));
+  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)K), &rank));
+  if (gather) PetscCall(GatherOnFirst(K, &g, (PetscBool)!rank, S));
+  else PetscCall(GatherMatrix(K, &g, g.nrows, g.nrows, S));
   PetscCall(PetscFree(place));
   PetscCall(ISRestoreIndices(own, &g.rows));
+  PetscCall(ISRestoreIndices(all, &g.w));
+  PetscCall(ISDestroy(&all));
   PetscFunctionReturn(0);
 }
 
@@ -125,7 +145,7 @@ PetscErrorCode IPGatherRows(Mat J, PetscInt nw, const PetscInt w[], PetscBool fi
   PetscCall(PetscMalloc1(g.nrows, &rows));
   for (PetscInt r = 0; r < g.nrows; r++) rows[r] = start + r;
   g.rows = g.place = rows;
-  PetscCall(GatherMatrix(J, &g, first, S));
+  PetscCall(GatherOnFirst(J, &g, first, S));
   PetscCall(PetscFree(rows));
   PetscFunctionReturn(0);
 }

@@ -179,12 +179,10 @@ static PetscErrorCode ReducedSetScatter(IPReduced *r, IS W, Vec x)
 static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS own, IS W, Vec x, const IPBasis *basis,
   PetscBool *definite)
 {
-  PetscMPIInt     rank;
-  IS              all;
-  const PetscInt *w;
-  PetscInt        nw;
-  PetscBool       same;
-  Mat             former = r->KWW, factors = r->compliance.F;
+  PetscMPIInt rank;
+  PetscInt    nw;
+  PetscBool   same;
+  Mat         former = r->KWW, factors = r->compliance.F;
 
   PetscFunctionBegin;
   PetscCall(PetscObjectReference((PetscObject)former));
@@ -196,13 +194,9 @@ static PetscErrorCode ReducedSetSpace(IPReduced *r, Mat K, IS own, IS W, Vec x, 
   r->W = W;
   PetscCall(PetscObjectReference((PetscObject)own));
   r->own = own;
-  PetscCall(ISAllGather(own, &all));
-  PetscCall(ISGetSize(all, &nw));
-  PetscCall(ISGetIndices(all, &w));
+  PetscCall(ISGetSize(own, &nw));
   if (r->first) r->n = nw;
-  PetscCall(IPGatherStiffness(K, own, nw, w, r->first, &r->KWW));
-  PetscCall(ISRestoreIndices(all, &w));
-  PetscCall(ISDestroy(&all));
+  PetscCall(IPGatherStiffness(K, own, PETSC_TRUE, &r->KWW));
   PetscCall(ReducedSetScatter(r, W, x));
   PetscCall(ReducedHaveSamePattern(former, r->KWW, &same));
   if (same) r->compliance.F = factors;

@@ -202,7 +202,7 @@ PETSC_INTERN PetscErrorCode IPActiveSetSolve(IPActiveSet *, IPCompliance *, cons
   PetscBool *solved);
 
 /* gather_first.c */
-PETSC_INTERN PetscErrorCode IPGatherStiffness(Mat K, IS own, PetscInt nw, const PetscInt w[], PetscBool first, Mat *);
+PETSC_INTERN PetscErrorCode IPGatherStiffness(Mat K, IS own, PetscBool gather, Mat *);
 PETSC_INTERN PetscErrorCode IPGatherRows(Mat J, PetscInt nw, const PetscInt w[], PetscBool first, Mat *);
 PETSC_INTERN PetscErrorCode IPReducedBroadcast(const IPReduced *, PetscErrorCode, PetscBool *verdict);
 PETSC_INTERN PetscErrorCode IPReducedAgree(const IPReduced *, PetscErrorCode);

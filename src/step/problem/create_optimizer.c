@@ -107,6 +107,7 @@ PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCheck(*ours || !p->friction.T, p->model->comm, PETSC_ERR_SUP,
     "friction needs -tao_type ipfilter; other optimizers do not support it");
   PetscCall(OptimizerSetRounding(p->model, *tao));
+  PetscCall(TaoIPFilterSetDefinite(*tao, (PetscBool)(p->quadratic && ModelIsDynamic(p->model)))); /* by inertia */
   PetscCall(TaoMonitorSet(*tao, InterruptMonitor, sim, NULL));
   PetscCall(TaoIPFilterSetInterrupt(*tao, InterruptCaught, NULL));
   if (p->state->control->observer.optimizer)
