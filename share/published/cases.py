@@ -10,6 +10,7 @@ import os
 import resource
 import subprocess
 import sys
+import textwrap
 
 import numpy as np
 
@@ -589,10 +590,11 @@ def page(lines, notes):
         "user seconds.", "",
         "| | |", "| --- | --- |", *machine.header([]), "",
         "| case | source | value | published | ours | difference | time [s] |",
-        "| --- | --- | --- | --- | --- | --- | --- |", *lines, "", *notes, "",
+        "| --- | --- | --- | --- | --- | --- | --- |", *lines, "",
+        *(textwrap.fill(note, 98, subsequent_indent="  ") for note in notes), "",
         "No published numbers were found for FENET 3 to 5, SSNP165, Puso and Laursen's ironing in three",
-        "dimensions and deep drawing. SSNP166 is a crack, and SSNP167 to 169 are the two rings with",
-        "other sizes.", ""
+        "dimensions and deep drawing. SSNP166 is a crack. SSNP167 to 169 have the pressure of",
+        "the two rings above.", ""
     ])
 
 
