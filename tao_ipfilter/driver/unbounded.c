@@ -42,20 +42,20 @@ static PetscErrorCode UnboundedHasAllBounds(Tao tao, PetscBool *bounded)
 }
 
 /*
-   Finds whether the iterate shows an unbounded objective: the objective has fallen far, and the constraints are
-   satisfied relative to their first values and to their own terms
+   Finds whether the iterate shows an unbounded objective: the objective has fallen far, the point is not nearly
+   stationary, and the constraints are satisfied relative to their first values and to their own terms
 */
 static PetscErrorCode UnboundedAtIterate(Tao tao, PetscBool *unbounded)
 {
   TAO_IPFILTER   *ip   = (TAO_IPFILTER *)tao->data;
-  const PetscReal fall = UnboundedFall(ip), small = 1e-3, trace = 1e-6;
+  const PetscReal fall = UnboundedFall(ip), small = 1e-3, trace = 1e-6, stationary = 0.1;
   PetscReal       own;
 
   PetscFunctionBegin;
   *unbounded = (PetscBool)(fall > 0.0 && ip->at.f < ip->first->f - fall && ip->kkt->violation <= small);
   if (!*unbounded) PetscFunctionReturn(0);
   PetscCall(IPOwnViolation(tao, &own));
-  *unbounded = (PetscBool)(own <= trace);
+  *unbounded = (PetscBool)(own <= trace && IPBothErrors(ip) > stationary);
   PetscFunctionReturn(0);
 }
 

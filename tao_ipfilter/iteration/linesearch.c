@@ -306,7 +306,8 @@ static PetscErrorCode SearchKeepSlow(Tao tao)
 }
 
 /*
-   Shortens the step along the direction until the filter accepts the trial point. *ok: false if no step is acceptable.
+   Shortens the step along the direction until the filter accepts the trial point. The longest step inside the bounds is
+   always tried, since it may be short. *ok: false if no step is acceptable.
 */
 PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
 {
@@ -326,7 +327,7 @@ PetscErrorCode IPLineSearch(Tao tao, PetscBool *ok)
   *ok                                        = PETSC_FALSE;
   PetscCall(SearchWatched(tao, alpha, slope, dual, ok));
   if (*ok) PetscFunctionReturn(0);
-  for (; alpha >= least && !*ok; alpha *= 0.5) {
+  for (; (alpha >= least || !ip->search->ntrials) && !*ok; alpha *= 0.5) {
     PetscReal theta = 0.0, phi = 0.0;
     PetscBool finite = PETSC_FALSE, objective = PETSC_FALSE;
 

@@ -26,6 +26,7 @@ static PetscReal Within(PetscReal size, PetscReal limit)
    constraint is active from the start, values and slacks are zero; the length is then computed from displacements. The
    multipliers of infeasible constraints grow without limit; therefore the pressure is computed with a limited length.
    If no constraint is active, the pressure is a small fraction of that which would balance the objective's gradient.
+   Rows that are empty at the start have no length; slacks that vanish must not become the length.
 */
 static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
 {
@@ -44,6 +45,7 @@ static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
   s->length   = PetscMax(Within(PetscMax(c, t), IP_RUNAWAY * ip->first->length),
       10.0 * IP_VANISHING * PetscMax(ip->first->length, ip->first->jacobian * xsize));
   s->length   = PetscMax(s->length, ip->first->jacobian * ip->given->rounding / ip->tol);
+  if (ip->first->length == 0.0 && ip->first->jacobian == 0.0) s->length = PetscMax(s->length, 1.0);
   s->pressure = PetscMax(s->pressure, IP_VANISHING * ip->stiff->mean * s->length);
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));
   if (transmitted > 0.0) s->balance = gradient / transmitted;

@@ -28,8 +28,8 @@ static const struct {
     ",zigzag,", {2300, 6900}},
   /* it runs into a corner from which restoration leads to a local minimum of the violation, and says so */
   {"monotone", "-tao_max_it 200 -tao_ipfilter_barrier monotone", ",HS104,zigzag,", {2100, 6100}},
-  /* differences know nothing of units as far apart as those of HS54 */
-  {"differences", "-tao_max_it 200 -hessian 0", ",HS54,zigzag,", {2000, 17300}},
+  /* differences know nothing of units as far apart as those of HS54 and HS99EXP */
+  {"differences", "-tao_max_it 200 -hessian 0", ",HS54,HS99EXP,zigzag,", {2000, 17300}},
   /* dense matrices, whose conversions drop zeros: the same path as in the first mode */
   {"dense", "-tao_max_it 200 -dense_hessian -dense_jacobians", ",zigzag,", {2000, 5900}},
 };

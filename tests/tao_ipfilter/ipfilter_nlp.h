@@ -344,6 +344,14 @@ static const NLP problems[] = {
     "+(x1+0.030461768089*x2+0.000927919315108*x3+2.82660629821e-05*x4+8.61034255351e-07*x5+2.62286258032e-08*x6"
     "+x8*exp(-0.030461768089*x7)-9.026378)^2",
     "", "", ": : : : : : 0: :", "1 1 1 1 1 1 1 1", 0.000223955033980, NLP_SOLVED, NULL},
+  /* a bounded objective that falls from -1e-4 to -7e11; two of the seven stages */
+  {"HS99EXP", "-x6^2", "",
+    "405000*cos(x1)-x2; 405000*sin(x1)-x4-129600; 405000*sin(x1)-x3-129600; x2+405000*cos(x5)-x6; "
+    "x4+4050*x3+405000*sin(x5)-x8-100000; x3+405000*sin(x5)-x7-1000",
+    "0:1.58 : : : 0:1.58 : : :", "0.5 0 0 0 0.5 0 0 0", -656100000000.0, NLP_SOLVED, NULL},
+  /* the longest step inside the bounds is a tiny fraction of the direction */
+  {"concave", "-2*x1^2+x1-3*x2^2+x2", "", "", "-1e5:1e6 -1e5:1e6", "1 1", -4999998000000.0, NLP_SOLVED, NULL},
+  {"empty_row", "(x1-1)^2+x2^2", "0*x1", "", "", "3 2", 0.0, NLP_SOLVED, NULL},
 };
 
 #endif
