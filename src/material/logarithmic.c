@@ -8,28 +8,30 @@
 */
 #include "materialimpl.h"
 
-/* Makes the entry (p, q) of A zero by a Jacobi rotation. The columns of V become the eigenvectors. */
+/* Makes the entry (p, q) of A zero by a Jacobi rotation, unless it is far below a rounding error. The columns of V
+   become the eigenvectors. */
 static void LogarithmicRotate(PetscReal A[3][3], PetscReal V[3][3], int p, int q)
 {
   const int       r    = 3 - p - q;
-  const PetscReal half = (A[q][q] - A[p][p]) / 2, off = A[p][q];
+  const PetscReal half = (A[q][q] - A[p][p]) / 2, off = A[p][q], small = 1e-18;
   PetscReal       t, c, s;
 
-  if (off == 0) return;
-  t = off / (half + (half >= 0 ? 1 : -1) * hypot(half, off));
+  A[p][q] = A[q][p] = 0;
+  if (off * off <= PetscSqr(small * (PetscAbsReal(A[p][p]) + PetscAbsReal(A[q][q])))) return;
+  t = off / (half + (half >= 0 ? 1 : -1) * PetscSqrtReal(half * half + off * off));
   c = 1 / PetscSqrtReal(1 + t * t);
   s = t * c;
   A[p][p] -= t * off;
   A[q][q] += t * off;
-  A[p][q] = A[q][p] = 0;
-  for (int k = 0; k < 4; ++k) {
-    PetscReal *x = k < 3 ? &V[k][p] : &A[r][p], *y = k < 3 ? &V[k][q] : &A[r][q], z = *x;
+  for (int k = 0; k < 3; ++k) {
+    const PetscReal x = V[k][p], y = V[k][q];
 
-    *x = c * z - s * *y;
-    *y = s * z + c * *y;
+    V[k][p] = c * x - s * y;
+    V[k][q] = s * x + c * y;
   }
-  A[p][r] = A[r][p];
-  A[q][r] = A[r][q];
+  t       = A[r][p];
+  A[p][r] = A[r][p] = c * t - s * A[r][q];
+  A[q][r] = A[r][q] = s * t + c * A[r][q];
 }
 
 void LogarithmicEigen(const PetscReal M[9], PetscReal c[3], PetscReal V[3][3])
@@ -74,25 +76,26 @@ PetscBool LogarithmicStrain(const PetscReal H[9], Logarithmic *s)
   return PETSC_TRUE;
 }
 
-/* Returns the divided difference f[a,b] */
-static PetscReal LogarithmicFirst(PetscReal a, PetscReal b)
+/* Computes the divided differences f[a,b] of the eigenvalues */
+static void LogarithmicFirst(const PetscReal c[3], PetscReal f[3][3])
 {
-  const PetscReal t = (b - a) / (1 + a);
+  for (int a = 0; a < 3; ++a) {
+    for (int b = a; b < 3; ++b) {
+      const PetscReal t = (c[b] - c[a]) / (1 + c[a]);
 
-  return 0.5 * (t == 0 ? 1 : log1p(t) / t) / (1 + a);
+      f[a][b] = f[b][a] = 0.5 * (t == 0 ? 1 : log1p(t) / t) / (1 + c[a]);
+    }
+  }
 }
 
-/* Returns the divided difference f[a,b,c], by a Taylor series about the mean if all three are close to one another */
-static PetscReal LogarithmicSecond(PetscReal a, PetscReal b, PetscReal c)
+/* Returns the divided difference f[c1,c2,c3] of eigenvalues that are close to one another, by a Taylor series about
+   their mean */
+static PetscReal LogarithmicSeries(PetscReal c1, PetscReal c2, PetscReal c3)
 {
-  const PetscReal low = PetscMin(a, PetscMin(b, c)), high = PetscMax(a, PetscMax(b, c)), mean = (a + b + c) / 3;
-  const PetscReal close = 0.1, middle = a + b + c - low - high, scale = -1 / (1 + mean);
-  PetscReal       h[3] = {1, 0, 0}, sum = 0, power = -0.5 * scale * scale, pairs, product;
+  const PetscReal mean = (c1 + c2 + c3) / 3, x = c1 - mean, y = c2 - mean, z = c3 - mean, scale = -1 / (1 + mean);
+  const PetscReal pairs = x * y + y * z + z * x, product = x * y * z;
+  PetscReal       h[3] = {1, 0, 0}, sum = 0, power = -0.5 * scale * scale;
 
-  if (high - low > close * (1 + low))
-    return (LogarithmicFirst(middle, high) - LogarithmicFirst(low, middle)) / (high - low);
-  pairs   = (a - mean) * (b - mean) + (b - mean) * (c - mean) + (c - mean) * (a - mean);
-  product = (a - mean) * (b - mean) * (c - mean);
   for (int k = 2; k < 18; ++k) { /* h[0]: sum of all products of k - 2 distances from the mean */
     const PetscReal next = product * h[2] - pairs * h[1];
 
@@ -105,31 +108,50 @@ static PetscReal LogarithmicSecond(PetscReal a, PetscReal b, PetscReal c)
   return sum;
 }
 
+/* Returns the divided difference f[a,b,d] of three eigenvalues, by their numbers; f: divided differences of two */
+static PetscReal LogarithmicSecond(const PetscReal c[3], PetscReal f[3][3], int a, int b, int d)
+{
+  const PetscReal close    = 0.1;
+  int             order[3] = {a, b, d};
+
+  for (int i = 0; i < 3; ++i) { /* sorts */
+    const int k = i == 1 ? 1 : 0, low = order[k], high = order[k + 1];
+
+    order[k]     = c[low] <= c[high] ? low : high;
+    order[k + 1] = c[low] <= c[high] ? high : low;
+  }
+  if (c[order[2]] - c[order[0]] <= close * (1 + c[order[0]])) return LogarithmicSeries(c[a], c[b], c[d]);
+  return (f[order[1]][order[2]] - f[order[0]][order[1]]) / (c[order[2]] - c[order[0]]);
+}
+
 /* Transforms index 0, 1, 2 or 3 of R by the rows of M: R_..j.. = sum_a M_aj R_..a.. */
 static void TensorTransform(PetscReal R[81], int index, PetscReal (*M)[3])
 {
   static const int strides[4] = {27, 9, 3, 1};
   const int        stride     = strides[index];
 
-  for (int k = 0; k < 27; ++k) {
-    PetscReal      *r    = R + k / stride * 3 * stride + k % stride;
-    const PetscReal x[3] = {r[0], r[stride], r[2 * stride]};
+  for (PetscReal *block = R; block < R + 81; block += 3 * stride) {
+    for (PetscReal *r = block; r < block + stride; ++r) {
+      const PetscReal x = r[0], y = r[stride], z = r[2 * stride];
 
-    for (int j = 0; j < 3; ++j) r[j * stride] = M[0][j] * x[0] + M[1][j] * x[1] + M[2][j] * x[2];
+      for (int j = 0; j < 3; ++j) r[j * stride] = M[0][j] * x + M[1][j] * y + M[2][j] * z;
+    }
   }
 }
 
 /*
    Computes T in the basis of eigenvectors of C (turned), and from it half of the second Piola-Kirchhoff stress S in
-   that basis
+   that basis. f: divided differences
 */
-static void LogarithmicTurnStress(Logarithmic *s, const PetscReal T[9], PetscReal turned[3][3], PetscReal half[3][3])
+static void LogarithmicTurnStress(Logarithmic *s, const PetscReal T[9], PetscReal f[3][3], PetscReal turned[3][3],
+  PetscReal half[3][3])
 {
+  LogarithmicFirst(s->c, f);
   for (int a = 0; a < 3; ++a) {
     for (int b = 0; b < 3; ++b) {
       turned[a][b] = 0;
       for (int k = 0; k < 9; ++k) turned[a][b] += s->V[k / 3][a] * T[k] * s->V[k % 3][b];
-      half[a][b] = LogarithmicFirst(s->c[a], s->c[b]) * turned[a][b];
+      half[a][b] = f[a][b] * turned[a][b];
     }
   }
 }
@@ -147,9 +169,9 @@ static void LogarithmicSecondStress(Logarithmic *s, PetscReal half[3][3], PetscR
 
 void LogarithmicStress(Logarithmic *s, const PetscReal H[9], const PetscReal T[9], PetscReal P[9])
 {
-  PetscReal turned[3][3], half[3][3], S[3][3];
+  PetscReal f[3][3], turned[3][3], half[3][3], S[3][3];
 
-  LogarithmicTurnStress(s, T, turned, half);
+  LogarithmicTurnStress(s, T, f, turned, half);
   LogarithmicSecondStress(s, half, S);
   for (int i = 0; i < 9; ++i) {
     P[i] = S[i / 3][i % 3];
@@ -158,22 +180,26 @@ void LogarithmicStress(Logarithmic *s, const PetscReal H[9], const PetscReal T[9
 }
 
 /* Replaces D = d2W/dE dE by d2W/dC dC in the basis of eigenvectors of C */
-static void LogarithmicCurvature(Logarithmic *s, PetscReal turned[3][3], PetscReal D[81])
+static void LogarithmicCurvature(Logarithmic *s, PetscReal f[3][3], PetscReal turned[3][3], PetscReal D[81])
 {
   for (int index = 0; index < 4; ++index) TensorTransform(D, index, s->V);
   for (int p = 0; p < 9; ++p) {
-    for (int q = 0; q < 9; ++q)
-      D[9 * p + q] *= LogarithmicFirst(s->c[p / 3], s->c[p % 3]) * LogarithmicFirst(s->c[q / 3], s->c[q % 3]);
+    for (int q = 0; q < 9; ++q) D[9 * p + q] *= f[p / 3][p % 3] * f[q / 3][q % 3];
   }
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      for (int j = 0; j < 3; ++j) {
-        const PetscReal term = 0.5 * turned[i][j] * LogarithmicSecond(s->c[i], s->c[k], s->c[j]);
+  for (int k = 0; k < 3; ++k) {
+    for (int i = 0; i < 3; ++i) {
+      for (int j = i; j < 3; ++j) {
+        const PetscReal second = 0.5 * LogarithmicSecond(s->c, f, i, k, j);
 
-        D[9 * (3 * i + k) + 3 * k + j] += term;
-        D[9 * (3 * k + i) + 3 * k + j] += term;
-        D[9 * (3 * i + k) + 3 * j + k] += term;
-        D[9 * (3 * k + i) + 3 * j + k] += term;
+        for (int mirror = 0; mirror < (i == j ? 1 : 2); ++mirror) {
+          const int       a = mirror ? j : i, b = mirror ? i : j;
+          const PetscReal term = turned[a][b] * second;
+
+          D[9 * (3 * a + k) + 3 * k + b] += term;
+          D[9 * (3 * k + a) + 3 * k + b] += term;
+          D[9 * (3 * a + k) + 3 * b + k] += term;
+          D[9 * (3 * k + a) + 3 * b + k] += term;
+        }
       }
     }
   }
@@ -181,11 +207,11 @@ static void LogarithmicCurvature(Logarithmic *s, PetscReal turned[3][3], PetscRe
 
 void LogarithmicTangent(Logarithmic *s, const PetscReal H[9], const PetscReal T[9], PetscReal D[81], PetscReal A[81])
 {
-  PetscReal turned[3][3], half[3][3], S[3][3], along[3][3], back[3][3];
+  PetscReal f[3][3], turned[3][3], half[3][3], S[3][3], along[3][3], back[3][3];
 
-  LogarithmicTurnStress(s, T, turned, half);
+  LogarithmicTurnStress(s, T, f, turned, half);
   LogarithmicSecondStress(s, half, S);
-  LogarithmicCurvature(s, turned, D);
+  LogarithmicCurvature(s, f, turned, D);
   for (int a = 0; a < 3; ++a) {
     for (int i = 0; i < 3; ++i) {
       along[a][i] = s->V[i][a];

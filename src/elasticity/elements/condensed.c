@@ -3,7 +3,7 @@
    method in the cell finds a, for which the forces int P:M_m on the modes vanish. The derivative of E is therefore that
    of the energy at fixed a, and
      K = K_uu - K_ua K_aa^(-1) K_au.
-   A cell that remains elastic needs one Newton step.
+   A cell that remains elastic needs one step, with the elastic K_aa.
 */
 #include "elementsimpl.h"
 
@@ -84,13 +84,27 @@ LANES_INLINE void CondensedModeStress(const Lanes A[81], const Lanes M[9], Lanes
   }
 }
 
-/*
-   Computes the energy and the factor of the stiffness K_aa of the modes. A small multiple of its diagonal is added,
-   since without hardening K_aa may be singular.
-*/
-AMGF_CLONES static void CondensedFactor(const BodyMaterial *m, Condensed *c)
+/* Adds int AM:M_l over the points of a pack to row k of K_aa. AM: stresses of mode k, times the points' volumes */
+LANES_INLINE void CondensedAddRow(PetscInt pack, int k, const Lanes AM[9], Condensed *c)
 {
-  c->energy = CondensedSum(m, c);
+  for (int l = 0; l <= k; ++l) {
+    Lanes sum = {0};
+
+    for (int i = 0; i < 9; ++i) sum += AM[i] * c->M[pack][l][i];
+    c->L[k][l] += LanesSum(&sum);
+  }
+}
+
+/* Replaces K_aa by its factor. A small multiple of its diagonal is added: without hardening K_aa may be singular. */
+static void CondensedFactor(Condensed *c)
+{
+  for (int k = 0; k < MODES; ++k) c->L[k][k] *= 1 + singular;
+  IncompatibleFactor(c->L);
+}
+
+/* Computes the factor of the stiffness K_aa of the modes */
+AMGF_CLONES static void CondensedSetFactor(const BodyMaterial *m, Condensed *c)
+{
   memset(c->L, 0, sizeof(c->L));
   for (PetscInt pack = 0; pack < c->basis->npacks; ++pack) {
     Lanes A[81], AM[9];
@@ -99,16 +113,31 @@ AMGF_CLONES static void CondensedFactor(const BodyMaterial *m, Condensed *c)
     for (int i = 0; i < 81; ++i) A[i] *= c->points[pack].w;
     for (int k = 0; k < MODES; ++k) {
       CondensedModeStress(A, c->M[pack][k], AM);
-      for (int l = 0; l <= k; ++l) {
-        Lanes sum = {0};
-
-        for (int i = 0; i < 9; ++i) sum += AM[i] * c->M[pack][l][i];
-        c->L[k][l] += LanesSum(&sum);
-      }
+      CondensedAddRow(pack, k, AM, c);
     }
   }
-  for (int k = 0; k < MODES; ++k) c->L[k][k] *= 1 + singular;
-  IncompatibleFactor(c->L);
+  CondensedFactor(c);
+}
+
+/* Computes the factor of K_aa without yielding */
+AMGF_CLONES static void CondensedSetElasticFactor(const MaterialModuli *moduli, Condensed *c)
+{
+  memset(c->L, 0, sizeof(c->L));
+  for (PetscInt pack = 0; pack < c->basis->npacks; ++pack) {
+    const Lanes lambda = moduli->lambda * c->points[pack].w, mu = moduli->mu * c->points[pack].w;
+
+    for (int k = 0; k < MODES; ++k) {
+      const Lanes *M = c->M[pack][k], trace = M[0] + M[4] + M[8];
+      Lanes        AM[9];
+
+      for (int i = 0; i < 9; ++i) {
+        AM[i] = mu * (M[i] + M[3 * (i % 3) + i / 3]);
+        if (i % 4 == 0) AM[i] += lambda * trace;
+      }
+      CondensedAddRow(pack, k, AM, c);
+    }
+  }
+  CondensedFactor(c);
 }
 
 /* CondensedForward() computes x = L^(-1) x, and CondensedBackward() computes x = L^(-T) x */
@@ -130,11 +159,10 @@ static void CondensedBackward(const Condensed *c, PetscReal x[MODES])
 
 /* Computes Newton's step from the forces on the modes. Returns the square of its norm in the stiffness K_aa, which is
    minus the slope of the energy along it. */
-static PetscReal CondensedStep(const BodyMaterial *m, Condensed *c, PetscReal step[MODES])
+static PetscReal CondensedStep(const Condensed *c, PetscReal step[MODES])
 {
   PetscReal square = 0;
 
-  CondensedFactor(m, c);
   for (int k = 0; k < MODES; ++k) step[k] = -c->force[k];
   CondensedForward(c, step);
   for (int k = 0; k < MODES; ++k) square += step[k] * step[k];
@@ -161,7 +189,8 @@ static void CondensedStart(const BodyMaterial *m, Condensed *c)
   elastic.moduli.hardening = &never;
   CondensedMoveBy(c, none, 0, none);
   CondensedForces(&elastic, c);
-  (void)CondensedStep(&elastic, c, step);
+  CondensedSetElasticFactor(&m->moduli, c);
+  (void)CondensedStep(c, step);
   CondensedMoveBy(c, none, 1, step);
 }
 
@@ -189,29 +218,45 @@ static void CondensedSearch(const BodyMaterial *m, const PetscReal step[MODES], 
   }
 }
 
-/*
-   Finds a by Newton's method. It ends with a step whose square is `negligible` or, below the rounding errors of the
-   forces in K_aa, no longer falls: metal that flows without hardening has a K_aa that is almost singular. This step is
-   taken, too: without it small changes of U would leave `a` as it is, and the forces of the cell would change as if it
-   had no modes.
-*/
-static void CondensedSolve(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
-  PetscReal U[3][CELL_MAX_NODES], Condensed *c)
-{
-  const PetscReal negligible = 1e-26, progress = 0.25;
-  const PetscReal rounding = PETSC_MACHINE_EPSILON * PETSC_MACHINE_EPSILON / singular;
-  PetscReal       step[MODES], square, predicted = PETSC_INFINITY;
+/* Square of a step that is no longer taken into account, divided by the energy */
+static const PetscReal negligible = 1e-26;
 
-  CondensedSetPoints(basis, X, U, c);
-  CondensedStart(m, c);
-  CondensedForces(m, c);
+/*
+   Moves `a` by Newton's method until a step is negligible or, below the rounding errors of the forces in K_aa, no
+   longer falls: metal that flows without hardening has a K_aa that is almost singular. This step is the result.
+*/
+static void CondensedNewton(const BodyMaterial *m, Condensed *c, PetscReal step[MODES])
+{
+  const PetscReal rounding = PETSC_MACHINE_EPSILON * PETSC_MACHINE_EPSILON / singular, progress = 0.25;
+  PetscReal       predicted = PETSC_INFINITY;
+
   for (int it = 0; it < 50; ++it) {
-    square = CondensedStep(m, c, step);
+    PetscReal square;
+
+    c->energy = CondensedSum(m, c);
+    CondensedSetFactor(m, c);
+    square = CondensedStep(c, step);
     if (!(square > negligible * c->energy)) break;
     if (square < rounding * c->energy && square > progress * predicted) break;
     predicted = square;
     CondensedSearch(m, step, square, c);
   }
+}
+
+/*
+   Finds a. Without further yielding it is the start. The last step is taken, too: without it small changes of U would
+   leave `a` as it is, and the forces of the cell would change as if it had no modes.
+*/
+static void CondensedSolve(const CellBasis *basis, const BodyMaterial *m, PetscReal X[3][CELL_MAX_NODES],
+  PetscReal U[3][CELL_MAX_NODES], Condensed *c)
+{
+  PetscReal step[MODES];
+
+  CondensedSetPoints(basis, X, U, c);
+  CondensedStart(m, c);
+  CondensedForces(m, c);
+  c->energy = CondensedSum(m, c);
+  if (CondensedStep(c, step) > negligible * c->energy) CondensedNewton(m, c, step);
   CondensedMoveBy(c, c->a, 1, step);
 }
 
@@ -263,6 +308,7 @@ AMGF_CLONES PetscBool CondensedStiffness(const CellBasis *basis, const BodyMater
   CellTangents t;
 
   CondensedSolve(basis, m, X, U, &c);
+  memset(c.L, 0, sizeof(c.L));
   for (PetscInt pack = 0; pack < basis->npacks; ++pack) {
     (void)PointsTangent(m->law, &m->moduli, pack, basis->npoints, c.H[pack], t.A[pack]);
     for (int i = 0; i < 81; ++i) t.A[pack][i] *= c.points[pack].w;
@@ -270,8 +316,10 @@ AMGF_CLONES PetscBool CondensedStiffness(const CellBasis *basis, const BodyMater
     for (int k = 0; k < MODES; ++k) {
       CondensedModeStress(t.A[pack], c.M[pack][k], AM);
       CondensedAddForce(AM, c.points[pack].G, B[k]);
+      CondensedAddRow(pack, k, AM, &c);
     }
   }
+  CondensedFactor(&c);
   CellStiffness(basis, &t, K);
   for (int r = 0; r < 24; ++r) {
     PetscReal x[MODES];

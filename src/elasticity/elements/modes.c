@@ -53,12 +53,13 @@ void IncompatibleModes(const CellBasis *basis, PetscInt q, PetscReal w, PetscRea
 */
 void IncompatibleFactor(PetscReal L[MODES][MODES])
 {
-  for (int m = 0; m < MODES; ++m) {
-    for (int n = 0; n <= m; ++n) {
-      PetscReal sum = L[m][n];
+  for (int n = 0; n < MODES; ++n) {
+    const PetscReal root = PetscSqrtReal(L[n][n]), inverse = 1 / root;
 
-      for (int k = 0; k < n; ++k) sum -= L[m][k] * L[n][k];
-      L[m][n] = m == n ? PetscSqrtReal(sum) : sum / L[n][n];
+    L[n][n] = root;
+    for (int m = n + 1; m < MODES; ++m) L[m][n] *= inverse;
+    for (int m = n + 1; m < MODES; ++m) {
+      for (int k = n + 1; k <= m; ++k) L[m][k] -= L[m][n] * L[k][n];
     }
   }
 }
