@@ -492,12 +492,14 @@ CASES = [
                "the border of the slip area is found to one cell, an eighth of the radius"),
          Value("shear force after the cycle over that before", 1,
                lambda run: force(run, 3)[0] / force(run, 1)[0], 1)),
-    Case("crushed", "Thin ring crushed between plates", "elastica, Frisch-Fay 1962", CRUSHED,
-         *(Value(f"F h^2/EI at height {2 * h:.4g} R", 1.43554, pair("normal_force", 2 * 15000 * h * h, step), 0.5)
+    Case("crushed", "Thin ring crushed between plates", "elastica: (int sqrt(sin))^2, 0 to 90 degrees", CRUSHED,
+         *(Value(f"F h^2/EI, half of the height h = {h:.4g} R", 1.43554,
+                 pair("normal_force", 2 * 15000 * h * h, step), 0.5)
            for h, step in ((0.71777, 2), (0.6, 3), (0.4, 5)))),
     Case("annulus", "Thick ring crushed between plates", "Code_Aster SSNP501, read off a curve", ANNULUS,
          *(Value(f"force at {1.1125 * k:g} cm [N]", 8.00833 * k, pair("normal_force", step=k - 1), 15,
-                 "the published forces are on a straight line, and Code_Aster allows 15 %" if k == 4 else "")
+                 "plane strain here, plane stress there; the published forces are on a straight line, and "
+                 "Code_Aster allows 15 %" if k == 4 else "")
            for k in (1, 2, 3, 4))),
     Case("arch", "Deep arch, clamped and hinged", "DaDeppo and Schmidt 1975", ARCH,
          Value("largest force", 897, largest_push, 2)),

@@ -7,10 +7,12 @@
 #define FIGURE_ROWS    8    /* largest number of rows of a table, and of symmetry reactions */
 #define FIGURE_COLUMNS 32   /* more than any table has */
 
-/* A table of texts. The first row is the heading, the first column has the names. */
+/* A table of texts. The first row is the heading, the first column has the names. values: the numbers
+   in the cells */
 typedef struct {
   PetscInt nrows, ncolumns;
   char (*cells)[CELL];
+  PetscReal *values;
 } FigureTable;
 
 static const char place_heading[] = "at", components_heading[] = "components";
@@ -132,8 +134,9 @@ static PetscErrorCode FigureTableAdd(FigureTable *table, const RunReport *report
   (void)snprintf(FigureTableCell(table, row, 0), CELL, "%s", name);
   (void)snprintf(FigureTableCell(table, row, column), CELL, "%.5g%s", (double)figure->value,
     FigureIsNarrow(report, figure) ? " (one facet wide)" : "");
-  *nrows    = PetscMax(*nrows, row + 1);
-  *ncolumns = PetscMax(*ncolumns, column + 1);
+  table->values[row * table->ncolumns + column] = figure->value;
+  *nrows                                        = PetscMax(*nrows, row + 1);
+  *ncolumns                                     = PetscMax(*ncolumns, column + 1);
   if (PetscIsNanReal(vector[0])) PetscFunctionReturn(0);
   (void)snprintf(FigureTableCell(table, 0, column + 1), CELL, "%s",
     vector == figure->place ? place_heading : components_heading);
@@ -162,15 +165,14 @@ static PetscBool FigureTableIsLeft(const FigureTable *table, PetscInt column)
 /* Returns the row with the largest value of a column, or the smallest safety factor; 0: none */
 static PetscInt FigureTableFindLargest(const FigureTable *table, PetscInt nrows, PetscInt column)
 {
-  const PetscBool safety  = (PetscBool)!strcmp(FigureTableCell(table, 0, column), safety_column);
+  const PetscReal sign    = strcmp(FigureTableCell(table, 0, column), safety_column) ? 1.0 : -1.0;
   PetscInt        best    = 0;
-  double          largest = 0.0;
+  PetscReal       largest = 0.0;
 
   for (PetscInt row = 1; row < nrows; ++row) {
-    const char  *text  = FigureTableCell(table, row, column);
-    const double value = safety ? -strtod(text, NULL) : strtod(text, NULL);
+    const PetscReal value = sign * table->values[row * table->ncolumns + column];
 
-    if (!text[0] || (best && value <= largest)) continue;
+    if (!FigureTableCell(table, row, column)[0] || (best && value <= largest)) continue;
     best    = row;
     largest = value;
   }
@@ -252,14 +254,14 @@ static PetscErrorCode FiguresViewTable(const RunReport *report, const char *cons
     PetscCall(PetscStrlcat(heading, name, CELL));
   }
   if (table.nrows == 1) PetscFunctionReturn(0);
-  PetscCall(PetscCalloc1(table.nrows * table.ncolumns, &table.cells));
+  PetscCall(PetscCalloc2(table.nrows * table.ncolumns, &table.cells, table.nrows * table.ncolumns, &table.values));
   (void)snprintf(FigureTableCell(&table, 0, 0), CELL, "%s", heading);
   for (PetscInt f = 0; f < report->nfigures; ++f) {
     if (names[report->figures[f].owner])
       PetscCall(FigureTableAdd(&table, report, &report->figures[f], steps, &nrows, &ncolumns));
   }
   PetscCall(FigureTableView(&table, nrows, ncolumns, viewer));
-  PetscCall(PetscFree(table.cells));
+  PetscCall(PetscFree2(table.cells, table.values));
   PetscFunctionReturn(0);
 }
 

@@ -44,36 +44,56 @@ PetscErrorCode IPOwnTerms(Mat J, Vec x, Vec sums, Vec largest)
   PetscFunctionReturn(0);
 }
 
+/* Computes the size of the terms of each row of c = J x + constant: the larger one of the constant and the sum of
+   IPOwnTerms(). largest: as there */
+static PetscErrorCode OwnRowSizes(Tao tao, IPSpace space, Mat J, Vec c, Vec sizes, Vec largest)
+{
+  Vec constant;
+
+  PetscFunctionBegin;
+  PetscCall(IPGetWork(tao, space, &constant));
+  PetscCall(MatMult(J, tao->solution, constant));
+  PetscCall(VecAYPX(constant, -1.0, c));
+  PetscCall(VecAbs(constant));
+  PetscCall(IPOwnTerms(J, tao->solution, sizes, largest));
+  PetscCall(VecPointwiseMax(sizes, sizes, constant));
+  PetscCall(IPRestoreWork(tao, space, &constant));
+  PetscFunctionReturn(0);
+}
+
 /*
-   Computes the largest violation relative to the terms of its row, namely those of the unknowns and the constant. The
-   size of the terms is at least the fraction `trace` of what the largest unknown would contribute, and at least the
-   rounding error of `first`, the terms at the start.
+   Computes the largest violation relative to the terms of its row. The size of the terms is at least the fraction
+   `trace` of what the largest unknown would contribute, and at least the rounding error of `first`, the terms at the
+   start.
 */
 static PetscErrorCode OwnLargest(Tao tao, IPSpace space, Mat J, Vec c, Vec violation, PetscReal trace, PetscReal first,
   PetscReal *own)
 {
-  const PetscScalar *a[5];
-  Vec                v[5]  = {c, violation, NULL, NULL, NULL}; /* constraint values, violations, J x, and the results of
-                                                         IPOwnTerms() */
+  const PetscScalar *v, *t, *most;
   PetscReal          local = 0.0, xsize;
   PetscInt           n;
+  Vec                terms, largest;
 
   PetscFunctionBegin;
-  for (PetscInt k = 2; k < 5; k++) PetscCall(IPGetWork(tao, space, &v[k]));
+  PetscCall(IPGetWork(tao, space, &terms));
+  PetscCall(IPGetWork(tao, space, &largest));
+  PetscCall(OwnRowSizes(tao, space, J, c, terms, largest));
   PetscCall(VecNorm(tao->solution, NORM_INFINITY, &xsize));
-  PetscCall(MatMult(J, tao->solution, v[2]));
-  PetscCall(IPOwnTerms(J, tao->solution, v[3], v[4]));
   PetscCall(VecGetLocalSize(c, &n));
-  for (PetscInt k = 0; k < 5; k++) PetscCall(VecGetArrayRead(v[k], &a[k]));
+  PetscCall(VecGetArrayRead(violation, &v));
+  PetscCall(VecGetArrayRead(terms, &t));
+  PetscCall(VecGetArrayRead(largest, &most));
   for (PetscInt i = 0; i < n; i++) {
-    const PetscReal terms = PetscMax(PetscRealPart(a[3][i]), PetscAbsScalar(a[0][i] - a[2][i]));
     const PetscReal size =
-      PetscMax(PetscMax(terms, trace * PetscRealPart(a[4][i]) * xsize), PETSC_MACHINE_EPSILON * first);
+      PetscMax(PetscMax(PetscRealPart(t[i]), trace * PetscRealPart(most[i]) * xsize), PETSC_MACHINE_EPSILON * first);
 
-    if (a[1][i] != 0.0) local = PetscMax(local, size > 0.0 ? PetscAbsScalar(a[1][i]) / size : PETSC_INFINITY);
+    if (v[i] != 0.0) local = PetscMax(local, size > 0.0 ? PetscAbsScalar(v[i]) / size : PETSC_INFINITY);
   }
-  for (PetscInt k = 0; k < 5; k++) PetscCall(VecRestoreArrayRead(v[k], &a[k]));
-  for (PetscInt k = 4; k >= 2; k--) PetscCall(IPRestoreWork(tao, space, &v[k]));
+  PetscCall(VecRestoreArrayRead(largest, &most));
+  PetscCall(VecRestoreArrayRead(terms, &t));
+  PetscCall(VecRestoreArrayRead(violation, &v));
+  PetscCall(IPRestoreWork(tao, space, &largest));
+  PetscCall(IPRestoreWork(tao, space, &terms));
   PetscCallMPI(MPI_Allreduce(&local, own, 1, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
   PetscFunctionReturn(0);
 }
@@ -115,26 +135,24 @@ PetscErrorCode IPOwnActiveSize(Tao tao, PetscReal *size)
 {
   TAO_IPFILTER      *ip     = (TAO_IPFILTER *)tao->data;
   const PetscReal    active = 1e-3;
-  const PetscScalar *a[4];
-  Vec                v[4]     = {ip->at.c, ip->at.s, NULL, NULL}; /* constraint values, slacks, J x, and the sums of
-                                                                  IPOwnTerms() */
+  const PetscScalar *s, *t;
   PetscReal          local[2] = {0.0, PETSC_NINFINITY}; /* the largest term of active rows; minus the smallest row */
   PetscInt           n;
+  Vec                terms;
 
   PetscFunctionBegin;
-  for (PetscInt k = 2; k < 4; k++) PetscCall(IPGetWork(tao, IP_INEQUALITIES, &v[k]));
-  PetscCall(MatMult(ip->jac->inequality, tao->solution, v[2]));
-  PetscCall(IPOwnTerms(ip->jac->inequality, tao->solution, v[3], NULL));
-  PetscCall(VecGetLocalSize(ip->at.c, &n));
-  for (PetscInt k = 0; k < 4; k++) PetscCall(VecGetArrayRead(v[k], &a[k]));
+  PetscCall(IPGetWork(tao, IP_INEQUALITIES, &terms));
+  PetscCall(OwnRowSizes(tao, IP_INEQUALITIES, ip->jac->inequality, ip->at.c, terms, NULL));
+  PetscCall(VecGetLocalSize(terms, &n));
+  PetscCall(VecGetArrayRead(ip->at.s, &s));
+  PetscCall(VecGetArrayRead(terms, &t));
   for (PetscInt i = 0; i < n; i++) {
-    const PetscReal terms = PetscMax(PetscRealPart(a[3][i]), PetscAbsScalar(a[0][i] - a[2][i]));
-
-    if (PetscRealPart(a[1][i]) <= active * terms) local[0] = PetscMax(local[0], terms);
-    local[1] = PetscMax(local[1], -terms);
+    if (PetscRealPart(s[i]) <= active * PetscRealPart(t[i])) local[0] = PetscMax(local[0], PetscRealPart(t[i]));
+    local[1] = PetscMax(local[1], -PetscRealPart(t[i]));
   }
-  for (PetscInt k = 0; k < 4; k++) PetscCall(VecRestoreArrayRead(v[k], &a[k]));
-  for (PetscInt k = 3; k >= 2; k--) PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &v[k]));
+  PetscCall(VecRestoreArrayRead(terms, &t));
+  PetscCall(VecRestoreArrayRead(ip->at.s, &s));
+  PetscCall(IPRestoreWork(tao, IP_INEQUALITIES, &terms));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, local, 2, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)tao)));
   *size = local[0] > 0.0 ? local[0] : (local[1] > PETSC_NINFINITY ? -local[1] : 0.0);
   PetscFunctionReturn(0);
