@@ -67,6 +67,7 @@ static PetscErrorCode SpringsSolve(void *data, const PetscReal load[], PetscReal
 
   PetscFunctionBeginUser;
   (void)fraction;
+  (void)target;
   *solved = PETSC_TRUE;
   for (PetscInt i = 0; i < N; i++) {
     PetscReal A[9], inverse[9], b[3];

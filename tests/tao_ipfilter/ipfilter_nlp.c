@@ -190,7 +190,7 @@ static PetscErrorCode SolveAll(PetscInt mode)
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(problems); k++) {
     Outcome         outcome;
     FormulasProblem problem;
-    PetscBool       wanted, wild;
+    PetscBool       wanted = PETSC_FALSE, wild = PETSC_FALSE;
 
     PetscCall(Wanted(&problems[k], mode, nonly, only, &wanted));
     if (!wanted) continue;
