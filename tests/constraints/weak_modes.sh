@@ -31,6 +31,31 @@ weak_springs: true
 SCENE
   "$contact" plate.yaml -quiet -error_estimate 0 -summary plate_$young.json || echo "plate, $young: exit code $?"
 done
+# Half a ball on weak springs between inclined planes, with many directions (Hertz)
+cat > ball.yaml <<'SCENE'
+bodies:
+  - shaft: {shape: rigid_plane, point: [1.4142135623730951, 0, -1.4142135623730951], normal: [1, 0, -1]}
+  - ball: {shape: ball, center: [2.121320343559643, 0, -2.121320343559643], octant: [2, 1, 2], radius: 1,
+           patches: [3, 3, 3], layers: 3, young: 1, poisson: 0.3}
+  - pad: {shape: rigid_plane, point: [2.8284271247461903, 0, -2.8284271247461903], normal: [-1, 0, 1]}
+displacements:
+  - hold: {body: pad, value: [0, 0, 0]}
+  - load: {body: shaft, value: [0.004, 0, -0.004]}
+symmetry: [ball.y0]
+weak_springs: true
+equations:
+  - centre: {body: ball, point: [2.121320343559643, 0, -2.121320343559643], direction: [1, 0, 1]}
+  - radius: {body: ball, point: [1.4142135623730951, 0, -1.4142135623730951], direction: [1, 0, 1]}
+contact:
+  - in: {mortar: shaft.surface, nonmortar: ball.surface}
+  - out: {mortar: pad.surface, nonmortar: ball.surface}
+refinements:
+  - iw: {near: in, levels: 2, distance: 0.04}
+  - ic: {near: in, levels: 4, distance: 0.008}
+  - ow: {near: out, levels: 2, distance: 0.04}
+  - oc: {near: out, levels: 4, distance: 0.008}
+SCENE
+"$contact" ball.yaml -quiet -error_estimate 0 -summary ball.json || echo "ball: exit code $?"
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'CHECK'
 from summaries import load, say, within
 
@@ -42,4 +67,7 @@ for n in (1, 3):
 for young in ("1", "2e5", "1e8"):
     step = load(f"plate_{young}")["steps"][-1]
     say(f"contact carries the plate of E = {young}", within(step["pairs"][0]["force"][2], -0.0064, 1e-6), step["pairs"])
+forces = [pair["normal_force"] for pair in load("ball")["steps"][-1]["pairs"]]
+hertz = 0.5 * 4 / 3 / (1 - 0.3**2) * (0.004 / 2**0.5)**1.5
+say("ball: Hertz's force on both sides", within(forces[0], forces[1], 1e-6) and within(forces[0], hertz, 0.05), forces)
 CHECK
