@@ -115,8 +115,9 @@ int main(int argc, char **argv)
   PetscCall(SNESSetJacobian(snes, J, J, FormJacobian, NULL));
   PetscCall(SNESSetTolerances(snes, 1e-9, 0.0, 0.0, 50, PETSC_DEFAULT));
   PetscCall(SNESGetLineSearch(snes, &search));
-  PetscCall(SNESLineSearchSetType(search, SNESLINESEARCHBASIC)); /* a primal-dual active set method: full steps */
-  PetscCall(SNESSetDivergenceTolerance(snes, -1.0));             /* whatever the first of them leaves */
+  /* a primal-dual active set method: full steps. The type was called "basic" before PETSc 3.26 */
+  PetscCall(SNESLineSearchSetType(search, PETSC_VERSION_LT(3, 26, 0) ? "basic" : "none"));
+  PetscCall(SNESSetDivergenceTolerance(snes, -1.0)); /* whatever the first of them leaves */
   PetscCall(SNESSetFromOptions(snes));
   PetscCall(SNESSolve(snes, NULL, u));
   PetscCall(SNESGetConvergedReason(snes, &reason));

@@ -78,8 +78,7 @@ static PetscErrorCode BodiesCombineRows(Mat first, Mat second, PetscInt m, const
   *combined = NULL;
   for (PetscInt pass = 0; pass < 2; pass++) {
     if (pass) {
-      PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)first), m, columns, PETSC_DETERMINE, PETSC_DETERMINE, 0,
-        counts, 0, counts, combined));
+      PetscCall(IPMatrixCreate(PetscObjectComm((PetscObject)first), m, columns, counts, combined));
       PetscCall(MatGetOwnershipRange(*combined, &to, NULL));
     }
     for (PetscInt i = 0; i < m; i++) {

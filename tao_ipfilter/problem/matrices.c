@@ -204,3 +204,21 @@ PetscErrorCode IPMatricesCheck(Tao tao, PetscBool *changed)
   ip->hess->products = (PetscBool)(!has && !needed);
   PetscFunctionReturn(0);
 }
+
+/* Creates a matrix with room for counts[i] entries in row i of this rank, whichever ranks own their columns. rows,
+   columns: sizes on this rank */
+PetscErrorCode IPMatrixCreate(MPI_Comm comm, PetscInt rows, PetscInt columns, const PetscInt counts[], Mat *A)
+{
+  PetscInt *own, *others, N;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(&columns, &N, 1, MPIU_INT, MPI_SUM, comm));
+  PetscCall(PetscMalloc2(rows, &own, rows, &others));
+  for (PetscInt r = 0; r < rows; r++) {
+    own[r]    = PetscMin(counts[r], columns);
+    others[r] = PetscMin(counts[r], N - columns);
+  }
+  PetscCall(MatCreateAIJ(comm, rows, columns, PETSC_DETERMINE, N, 0, own, 0, others, A));
+  PetscCall(PetscFree2(own, others));
+  PetscFunctionReturn(0);
+}

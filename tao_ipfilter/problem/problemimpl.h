@@ -109,6 +109,7 @@ PETSC_INTERN PetscErrorCode IPRowScaleNorm(Tao, IPSpace, Vec, PetscReal *);
 PETSC_INTERN PetscErrorCode IPMatrixSamePattern(Mat, Mat, PetscBool *);
 PETSC_INTERN PetscErrorCode IPMatrixKeep(Mat *, Mat *);
 PETSC_INTERN PetscErrorCode IPMatrixConvert(Mat, Mat *);
+PETSC_INTERN PetscErrorCode IPMatrixCreate(MPI_Comm, PetscInt rows, PetscInt columns, const PetscInt counts[], Mat *);
 PETSC_INTERN PetscErrorCode IPMatricesCheck(Tao, PetscBool *changed);
 
 /* jacobian.c */

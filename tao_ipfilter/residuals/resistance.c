@@ -16,8 +16,7 @@ static PetscErrorCode ResistanceCreateSums(const IPTerms *terms, Mat *sums)
   PetscCall(PetscCalloc1(m / 2, &counts));
   for (PetscInt pass = 0; pass < 2; pass++) {
     if (pass) {
-      PetscCall(MatCreateAIJ(PetscObjectComm((PetscObject)terms->T), m / 2, n, PETSC_DETERMINE, PETSC_DETERMINE, 0,
-        counts, 0, counts, sums));
+      PetscCall(IPMatrixCreate(PetscObjectComm((PetscObject)terms->T), m / 2, n, counts, sums));
       PetscCall(MatSetOption(*sums, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
       PetscCall(MatGetOwnershipRange(*sums, &first, NULL));
     }

@@ -51,36 +51,25 @@ static PetscErrorCode GatherRow(Mat A, const Gather *g, PetscInt r, PetscInt col
   PetscFunctionReturn(0);
 }
 
-/*
-   Creates the matrix of the selected rows. rows, columns: its sizes on this rank. Space for the entries of a row is
-   reserved both for columns of this rank and for those of others, as far as both exist.
-*/
+/* Creates the matrix of the selected rows. rows, columns: its sizes on this rank */
 static PetscErrorCode GatherMatrix(Mat A, const Gather *g, PetscInt rows, PetscInt columns, Mat *S)
 {
-  PetscInt    *counts, *others, *column, start;
-  PetscScalar *entry;
+  const MPI_Comm comm = PetscObjectComm((PetscObject)A);
+  PetscInt      *counts, *column, start;
+  PetscScalar   *entry;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc4(g->M, &counts, rows, &others, g->nw, &column, g->nw, &entry));
+  PetscCall(PetscCalloc3(g->M, &counts, g->nw, &column, g->nw, &entry));
   if (g->half) PetscCall(MatGetRowUpperTriangular(A));
   for (PetscInt r = 0; r < g->nrows; r++) PetscCall(GatherRow(A, g, r, column, entry, counts, NULL));
-  PetscCallMPI(
-    MPI_Allreduce(MPI_IN_PLACE, counts, (PetscMPIInt)g->M, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)A)));
-  PetscCall(MatCreate(PetscObjectComm((PetscObject)A), S));
-  PetscCall(MatSetSizes(*S, rows, columns, g->M, g->nw));
-  PetscCall(MatSetType(*S, MATAIJ));
-  PetscCallMPI(MPI_Scan(&rows, &start, 1, MPIU_INT, MPI_SUM, PetscObjectComm((PetscObject)A)));
-  start -= rows;
-  for (PetscInt r = 0; r < rows; r++) {
-    others[r]         = PetscMin(counts[start + r], g->nw - columns);
-    counts[start + r] = PetscMin(counts[start + r], columns);
-  }
-  PetscCall(MatXAIJSetPreallocation(*S, 1, counts + start, others, NULL, NULL));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, (PetscMPIInt)g->M, MPIU_INT, MPI_SUM, comm));
+  PetscCallMPI(MPI_Scan(&rows, &start, 1, MPIU_INT, MPI_SUM, comm));
+  PetscCall(IPMatrixCreate(comm, rows, columns, counts + start - rows, S));
   for (PetscInt r = 0; r < g->nrows; r++) PetscCall(GatherRow(A, g, r, column, entry, counts, *S));
   if (g->half) PetscCall(MatRestoreRowUpperTriangular(A));
   PetscCall(MatAssemblyBegin(*S, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(*S, MAT_FINAL_ASSEMBLY));
-  PetscCall(PetscFree4(counts, others, column, entry));
+  PetscCall(PetscFree3(counts, column, entry));
   PetscFunctionReturn(0);
 }
 
