@@ -117,7 +117,7 @@ int main(int argc, char **argv)
   PetscCall(SNESGetLineSearch(snes, &search));
   /* a primal-dual active set method: full steps. The type was called "basic" before PETSc 3.26 */
   PetscCall(SNESLineSearchSetType(search, PETSC_VERSION_LT(3, 26, 0) ? "basic" : "none"));
-  PetscCall(SNESSetDivergenceTolerance(snes, -1.0)); /* whatever the first of them leaves */
+  PetscCall(SNESSetDivergenceTolerance(snes, PETSC_MAX_REAL)); /* whatever the first of them leaves */
   PetscCall(SNESSetFromOptions(snes));
   PetscCall(SNESSolve(snes, NULL, u));
   PetscCall(SNESGetConvergedReason(snes, &reason));
