@@ -52,9 +52,9 @@ static inline PetscErrorCode AMGFMumpsFactors(MatType type, MatFactorType factor
 #endif
 
 /*
-   Computes L U of A by MUMPS, again with more work space while MUMPS's estimate is too small. PETSc factors a small
-   matrix of one rank, since MUMPS takes a millisecond for any matrix, unless it finds a zero pivot; and any matrix
-   without MUMPS.
+   Computes the LU factorization of A. MUMPS factors large matrices and those of several ranks. It factors again with
+   more work space while its estimate is too small. PETSc factors small matrices of one rank, since MUMPS takes a
+   millisecond for any matrix. If PETSc finds a zero pivot, MUMPS factors the matrix. Without MUMPS PETSc factors all.
    *F: NULL, or factors for the same nonzero pattern, whose analysis is used again; NULL on return after an error.
    *relaxation: work space beyond the estimate [per cent], AMGF_MUMPS_RELAXATION at first
 */

@@ -261,7 +261,8 @@ load: {factors: [0.9, 0.96, 0.98, 1]}
 
 
 def block(name, cells, place):
-    """Writes a block of cells as a mesh file; place: of parameters from 0 to 1"""
+    """Writes a mesh of hexahedra, and returns the keys of a body that read it. place: the function that maps the unit
+    cube to the body"""
     points, corners, places = hexahedra.grid(cells)
     faces = hexahedra.outer_faces(corners, places, cells, "rest")
     del faces["rest"]

@@ -97,8 +97,9 @@ static void ContactsProjectLaw(const Contacts *c, PetscInt i)
 }
 
 /*
-   Finishes D and s of a contact: projects them, and puts them in series with the compliance of the contact itself, so
-   that they relate changes of forces to those of the bodies' motions. With du = R dx + own df_n e_n, the law is
+   Finishes the linearized law df = s - D du of a contact. The components of D and s in the direction in which the
+   contact cannot slip are removed. D and s then become those of the law in series with the compliance of the contact
+   itself, so that du is replaced by the motion R dx of the bodies. With du = R dx + own df_n e_n the law is
    df = (I + own D e_n e_n^T)^-1 (s - D R dx).
 */
 void ContactsFinishLaw(const Contacts *c, PetscInt i)

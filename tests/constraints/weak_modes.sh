@@ -31,7 +31,8 @@ weak_springs: true
 SCENE
   "$contact" plate.yaml -quiet -error_estimate 0 -summary plate_$young.json || echo "plate, $young: exit code $?"
 done
-# Half a ball on weak springs between inclined planes, with many directions (Hertz)
+# Half a ball on weak springs between inclined planes. The solver has to reduce its search directions. The forces are
+# those of Hertz
 cat > ball.yaml <<'SCENE'
 bodies:
   - shaft: {shape: rigid_plane, point: [1.4142135623730951, 0, -1.4142135623730951], normal: [1, 0, -1]}
