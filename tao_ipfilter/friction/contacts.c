@@ -116,35 +116,40 @@ void ContactsFinishLaw(const Contacts *c, PetscInt i)
   }
 }
 
+/* Returns by how much a violation [length] exceeds the rounding errors of a gap and of a force */
+static PetscReal ContactsExcess(const Contacts *c, PetscReal violation, PetscReal force, PetscReal compliance)
+{
+  const PetscReal exact = 1e-13; /* rounding errors of forces that are much larger than their changes */
+
+  return PetscMax(PetscAbsReal(violation) - exact * PetscAbsReal(force) * compliance - c->rounding, 0.0);
+}
+
 /*
    Computes the violation of the laws by forces and motions [square root of energy]: rho r^2 is summed over all
    contacts, with the stiffness rho, r = min(f / rho, u) for the normal component and r = |tau - P(tau - rho v)| /
-   rho for the tangential ones, where P projects onto |tau| <= b. rounding: the violation that rounding errors cause.
+   rho for the tangential ones, where P projects onto |tau| <= b. From each r its rounding errors are subtracted: the
+   KKT error has the largest one of all contacts, which a sum of theirs would not limit.
 */
 PetscErrorCode ContactsViolation(const Contacts *c, const PetscReal force[], const PetscReal motion[],
-  PetscReal *violation, PetscReal *rounding)
+  PetscReal *violation)
 {
-  const PetscReal exact  = 1e-13; /* rounding errors of forces that are much larger than their changes */
-  PetscReal       sum[2] = {0.0, 0.0};
-
   PetscFunctionBegin;
+  *violation = 0.0;
   for (PetscInt i = 0; i < c->n; i++) {
     const PetscReal *f = &force[3 * i], *u = &motion[3 * i], *compliance = &c->compliance[2 * i];
 
-    if (c->normal[i]) {
-      sum[0] += PetscSqr(PetscMin(f[0] * compliance[0], u[0])) / compliance[0];
-      sum[1] += PetscSqr(exact * f[0]) * compliance[0] + PetscSqr(c->rounding) / compliance[0];
-    }
+    if (c->normal[i])
+      *violation +=
+        PetscSqr(ContactsExcess(c, PetscMin(f[0] * compliance[0], u[0]), f[0], compliance[0])) / compliance[0];
     if (c->law[i] != CONTACT_SMOOTH) {
       const PetscReal rho = 1.0 / compliance[1];
 
-      sum[0] += rho * PetscSqr(IPTermViolation(f + 1, u + 1, rho, ContactsBound(c, i, f[0])));
-      sum[1] += (PetscSqr(exact * f[1]) + PetscSqr(exact * f[2])) * compliance[1] + PetscSqr(c->rounding) * rho;
+      *violation += rho * PetscSqr(ContactsExcess(c, IPTermViolation(f + 1, u + 1, rho, ContactsBound(c, i, f[0])),
+                            PetscSqrtReal(f[1] * f[1] + f[2] * f[2]), compliance[1]));
     }
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 2, MPIU_REAL, MPIU_SUM, c->comm));
-  *violation = PetscSqrtReal(sum[0]);
-  *rounding  = PetscSqrtReal(sum[1]);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, violation, 1, MPIU_REAL, MPIU_SUM, c->comm));
+  *violation = PetscSqrtReal(*violation);
   PetscFunctionReturn(0);
 }
 

@@ -96,7 +96,7 @@ PETSC_INTERN void           ContactsFinishLaw(const Contacts *, PetscInt i);
 PETSC_INTERN void           ContactsSetForce(const Contacts *, PetscInt i, PetscReal normal_force);
 PETSC_INTERN void           ContactsSetNoSlip(const Contacts *, PetscInt i);
 PETSC_INTERN PetscErrorCode ContactsViolation(const Contacts *, const PetscReal force[], const PetscReal motion[],
-  PetscReal *violation, PetscReal *rounding);
+  PetscReal *violation);
 PETSC_INTERN PetscErrorCode ContactsNorm(const Contacts *, const PetscReal du[], PetscReal *norm);
 PETSC_INTERN PetscErrorCode ContactsStep(Contacts *, const ContactBodies *, PetscReal fraction, PetscReal target,
   PetscReal du[], PetscReal df[], PetscBool *solved);

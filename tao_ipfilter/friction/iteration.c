@@ -60,18 +60,18 @@ static PetscErrorCode IterationStick(ContactIteration *it, PetscBool *done)
 {
   const PetscInt most = 1000;
   Contacts      *c    = it->contacts;
-  PetscReal      before, change = 0.0, violation, rounding;
+  PetscReal      before, change = 0.0, violation;
   PetscBool      settled;
 
   PetscFunctionBegin;
-  PetscCall(ContactsViolation(c, c->f, c->u, &before, &rounding));
+  PetscCall(ContactsViolation(c, c->f, c->u, &before));
   PetscCall(StickIterate(&it->stick, &settled, done));
   if (*done) PetscCall(ContactsNorm(c, it->stick.du, &change));
   it->size      = PetscMax(it->size, PetscMax(before, change));
   it->violation = PETSC_INFINITY;
   if (settled) {
-    PetscCall(ContactsViolation(c, c->f, c->u, &violation, &rounding));
-    it->violation = violation > rounding && violation <= 0.5 * it->best ? violation / it->size : 0.0;
+    PetscCall(ContactsViolation(c, c->f, c->u, &violation));
+    it->violation = violation > 0.0 && violation <= 0.5 * it->best ? violation / it->size : 0.0;
     it->best      = violation;
   }
   it->nsteps = settled ? 0 : it->nsteps + 1;
@@ -107,18 +107,18 @@ static PetscErrorCode IterationNewton(ContactIteration *it, PetscBool *done)
   const PetscInt  patience = 3, most = 12;
   const PetscReal exact = 1e-9, /* violation that counts as none, relative to its size at the start */
     known               = 1e-6; /* violation at which forces are chosen */
-  PetscReal before, violation, rounding, change, merit;
+  PetscReal before, violation, change, merit;
 
   PetscFunctionBegin;
-  PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &before, &rounding));
+  PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &before));
   PetscCall(ContactsNewtonStep(it->contacts, &it->bodies, &merit, &change, done));
   if (!*done) PetscFunctionReturn(0);
   if (it->size == 0.0) it->size = PetscMax(before, change);
-  PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &violation, &rounding));
-  PetscCall(PetscInfo(NULL, "Newton: merit %g, violation %g, rounding %g, size %g, change %g\n", (double)merit,
-    (double)violation, (double)rounding, (double)it->size, (double)change));
-  it->violation = violation > rounding ? violation / it->size : 0.0;
-  if (violation <= PetscMax((it->chosen || it->sticks ? exact : known) * it->size, rounding)) {
+  PetscCall(ContactsViolation(it->contacts, it->contacts->f, it->contacts->u, &violation));
+  PetscCall(PetscInfo(NULL, "Newton: merit %g, violation %g, size %g, change %g\n", (double)merit, (double)violation,
+    (double)it->size, (double)change));
+  it->violation = violation > 0.0 ? violation / it->size : 0.0;
+  if (violation <= (it->chosen || it->sticks ? exact : known) * it->size) {
     it->nsteps = it->nfutile = 0;
     it->best                 = PETSC_INFINITY; /* a next step is for a smaller residual of the bodies */
     if (it->sticks) PetscCall(IterationUpdateHeld(it));

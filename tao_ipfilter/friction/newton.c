@@ -122,11 +122,11 @@ static PetscErrorCode NewtonChooseFraction(const Contacts *c, const PetscReal du
   PetscReal residual, PetscReal *fraction, PetscReal *merit)
 {
   const PetscInt halvings = 8;
-  PetscReal      violation, rounding, *f, *u, whole = 0.0, start;
+  PetscReal      violation, *f, *u, whole = 0.0, start;
 
   PetscFunctionBegin;
   *fraction = 1.0;
-  PetscCall(ContactsViolation(c, c->f, c->u, &violation, &rounding));
+  PetscCall(ContactsViolation(c, c->f, c->u, &violation));
   start = *merit = PetscSqrtReal(PetscSqr(violation) + PetscSqr(residual));
   PetscCall(PetscMalloc2(3 * c->n, &f, 3 * c->n, &u));
   for (PetscReal alpha = 1.0; alpha >= PetscPowRealInt(0.5, halvings); alpha *= 0.5) {
@@ -134,7 +134,7 @@ static PetscErrorCode NewtonChooseFraction(const Contacts *c, const PetscReal du
       f[r] = c->f[r] + alpha * df[r];
       u[r] = c->u[r] + alpha * du[r];
     }
-    PetscCall(ContactsViolation(c, f, u, &violation, &rounding));
+    PetscCall(ContactsViolation(c, f, u, &violation));
     violation = PetscSqrtReal(PetscSqr(violation) + PetscSqr((1.0 - alpha) * residual));
     if (alpha == 1.0) whole = violation;
     if (!(violation < *merit)) continue;

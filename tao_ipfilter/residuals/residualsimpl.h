@@ -15,6 +15,7 @@ PETSC_INTERN PetscErrorCode IPStiffnessTerms(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPStiffnessMeanEnergy(Tao, PetscReal *mean);
 
 /* row_violation.c */
+PETSC_INTERN PetscReal      IPConstraintRounding(const TAO_IPFILTER *);
 PETSC_INTERN PetscErrorCode IPOwnTerms(Mat, Vec x, Vec sums, Vec largest);
 PETSC_INTERN PetscErrorCode IPOwnViolation(Tao, PetscReal *);
 PETSC_INTERN PetscErrorCode IPOwnActiveSize(Tao, PetscReal *);

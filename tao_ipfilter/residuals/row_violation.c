@@ -9,6 +9,15 @@
 #include "tao_ipfilter/solver/sizes.h"
 
 /*
+   Returns the size of the rounding errors of a constraint: those of its value and, as large, those of the step that was
+   to make it zero
+*/
+PetscReal IPConstraintRounding(const TAO_IPFILTER *ip)
+{
+  return 2.0 * ip->first->jacobian * ip->given->rounding;
+}
+
+/*
    Computes for every row i of J: sums_i = sum_j |J_ij x_j|, the magnitude of the terms that cancel if the constraint is
    satisfied, and largest_i = max_j |J_ij|. `largest` may be NULL.
 */
@@ -105,11 +114,10 @@ PetscErrorCode IPOwnViolation(Tao tao, PetscReal *own)
 {
   TAO_IPFILTER   *ip    = (TAO_IPFILTER *)tao->data;
   const IPFirst  *first = ip->first;
-  const PetscReal trace = 1e-6, rounding = trace * PETSC_MACHINE_EPSILON,
-                  rows = PetscMax(PetscMax(first->length, first->jacobian * first->x),
-                    first->jacobian * ip->given->rounding / rounding);
-  PetscReal other      = 0.0;
-  Vec       v;
+  const PetscReal trace = 1e-6, rows = PetscMax(PetscMax(first->length, first->jacobian * first->x),
+                                  IPConstraintRounding(ip) / (ip->tol * PETSC_MACHINE_EPSILON));
+  PetscReal       other = 0.0;
+  Vec             v;
 
   PetscFunctionBegin;
   *own = 0.0;

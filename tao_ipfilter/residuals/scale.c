@@ -44,7 +44,7 @@ static PetscErrorCode InequalityScale(Tao tao, PetscReal xsize)
   s->pressure = PetscMax(s->pressure, upper);
   s->length   = PetscMax(Within(PetscMax(c, t), IP_RUNAWAY * ip->first->length),
       10.0 * IP_VANISHING * PetscMax(ip->first->length, ip->first->jacobian * xsize));
-  s->length   = PetscMax(s->length, ip->first->jacobian * ip->given->rounding / ip->tol);
+  s->length   = PetscMax(s->length, IPConstraintRounding(ip) / ip->tol);
   if (ip->first->length == 0.0 && ip->first->jacobian == 0.0) s->length = PetscMax(s->length, 1.0);
   s->pressure = PetscMax(s->pressure, IP_VANISHING * ip->stiff->mean * s->length);
   PetscCall(VecNorm(tao->gradient, NORM_INFINITY, &gradient));

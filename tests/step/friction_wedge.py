@@ -11,3 +11,6 @@ say("pressed alike by both faces", alike and 0 < pressed[0][0] < pressed[1][0], 
 say("without force at the end", max(pressed[-1]) < 1e-9 * pressed[1][0], pressed)
 cuts = [step["cuts"] for step in steps]
 say("no load step is cut, although rounding errors are all that is left at the end", not any(cuts), cuts)
+most = max(step["ip_iterations"] for step in steps)
+say("no load step takes more than 15 iterations: where nothing is left to solve, rounding errors count as none",
+    most <= 15, [step["ip_iterations"] for step in steps])
