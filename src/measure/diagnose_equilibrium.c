@@ -9,7 +9,6 @@
    drive. There is then no equilibrium (Farkas' lemma).
 */
 #include "measureimpl.h"
-#include "src/mesh/supports/supportsimpl.h"
 #include "src/state/interrupt.h"
 
 /*
@@ -19,27 +18,30 @@
 */
 typedef enum { CONE_NEAR, CONE_FAR, CONE_KINDS } ConeKind;
 
-/* Rates of gaps and slips in the free motions */
+/* Rates of gaps and slips in the free motions; and a number per row, which is a rate or a force */
 typedef struct {
   ContactLinearization lin;
   Mat                  gap, slip; /* one, and two rows per contact row; slip is NULL without friction */
+  Vec                  gaps, slips;
 } ConeRows;
 
-/* Rays with n components each, and their factors. The sum of factor times ray is the nearest point found so far. */
+/* Rays in the space of the free motions. The sum of factor times ray is the nearest point found so far. */
 typedef struct {
-  PetscInt   n, nrays, nmax;
-  PetscReal *ray, *normal;    /* rays; the same without friction */
-  PetscReal *amount;          /* factor of each ray [force] */
-  PetscInt   nfactored, ncap; /* number of rays in `Q` and `R`; number for which these have space */
-  PetscReal *Q, *R;           /* QR factors of the matrix of the rays; column k of R has k + 1 numbers */
+  PetscInt   nrays, nmax;
+  Vec       *ray, *normal; /* [nmax] rays, which are independent; the same without friction */
+  PetscReal *amount;       /* factor of each ray [force] */
+  PetscInt   nfactored;    /* number of rays in `Q` and `R` */
+  Vec       *Q;            /* QR factors of the matrix of the rays */
+  PetscReal *R;            /* column k begins at nmax k */
   ConeRows   rows[CONE_KINDS];
 } ContactCone;
 
-static PetscErrorCode ConeCreate(PetscInt n, ContactCone *cone)
+static PetscErrorCode ConeCreate(PetscInt nmax, ContactCone *cone)
 {
   PetscFunctionBegin;
-  *cone = (ContactCone){.n = n, .nmax = 20 * n + 100};
-  PetscCall(PetscMalloc3(n * cone->nmax, &cone->ray, n * cone->nmax, &cone->normal, cone->nmax, &cone->amount));
+  *cone = (ContactCone){.nmax = nmax};
+  PetscCall(PetscCalloc4(nmax, &cone->ray, nmax, &cone->normal, nmax, &cone->Q, nmax, &cone->amount));
+  PetscCall(PetscMalloc1(nmax * nmax, &cone->R));
   PetscFunctionReturn(0);
 }
 
@@ -50,9 +52,15 @@ static PetscErrorCode ConeDestroy(ContactCone *cone)
     PetscCall(ContactLinearizationDestroy(&cone->rows[k].lin));
     PetscCall(MatDestroy(&cone->rows[k].gap));
     PetscCall(MatDestroy(&cone->rows[k].slip));
+    PetscCall(VecDestroy(&cone->rows[k].gaps));
+    PetscCall(VecDestroy(&cone->rows[k].slips));
   }
-  PetscCall(PetscFree3(cone->ray, cone->normal, cone->amount));
-  PetscCall(PetscFree(cone->Q));
+  for (PetscInt k = 0; k < cone->nmax; ++k) {
+    PetscCall(VecDestroy(&cone->ray[k]));
+    PetscCall(VecDestroy(&cone->normal[k]));
+    PetscCall(VecDestroy(&cone->Q[k]));
+  }
+  PetscCall(PetscFree4(cone->ray, cone->normal, cone->Q, cone->amount));
   PetscCall(PetscFree(cone->R));
   PetscFunctionReturn(0);
 }
@@ -76,26 +84,25 @@ static PetscErrorCode ConeLinearize(Contact contact, const VertexPlaces *places,
   PetscCall(ContactSetReach(contact, 0.0, 0.0));
   PetscCall(ContactSetDual(contact, used, &changed));
   PetscCall(MatMatMult(rows->lin->J, m->Z, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &rows->gap));
-  if (rows->lin->slip) PetscCall(MatMatMult(rows->lin->slip, m->Z, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &rows->slip));
+  PetscCall(MatCreateVecs(rows->gap, NULL, &rows->gaps));
+  if (!rows->lin->slip) PetscFunctionReturn(0);
+  PetscCall(MatMatMult(rows->lin->slip, m->Z, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &rows->slip));
+  PetscCall(MatCreateVecs(rows->slip, NULL, &rows->slips));
   PetscFunctionReturn(0);
 }
 
 /*
-   Computes the force of local row r that does the most negative work on a motion: normal and shear force. Pairs that
-   stick, or have a shear limit, allow any friction force. *rate: its work, negative
+   Computes the force of local row r that does the most negative work on a motion with given slip rates: normal and
+   shear force. Pairs that stick, or have a shear limit, allow any friction force. *rate: the rate of the gap; on exit
+   the work, negative
 */
 static PetscErrorCode ConeGetForce(Scene scene, PetscReal time, const ConeRows *rows, PetscInt r,
-  const PetscReal motion[], PetscReal force[3], PetscReal *rate)
+  const PetscReal slip[2], PetscReal force[3], PetscReal *rate)
 {
-  PetscReal slip[2] = {0.0, 0.0}, size, mu, shear;
-  PetscInt  first;
+  const PetscReal size = PetscSqrtReal(slip[0] * slip[0] + slip[1] * slip[1]);
+  PetscReal       mu, shear;
 
   PetscFunctionBegin;
-  PetscCall(MatGetOwnershipRange(rows->gap, &first, NULL));
-  PetscCall(FreeMotionsGetRate(rows->gap, first + r, motion, rate));
-  for (PetscInt c = 0; c < 2 && rows->slip; ++c)
-    PetscCall(FreeMotionsGetRate(rows->slip, 2 * (first + r) + c, motion, &slip[c]));
-  size     = PetscSqrtReal(slip[0] * slip[0] + slip[1] * slip[1]);
   force[0] = 1.0;
   PetscCall(FrictionGetCoefficient(scene, time, rows->lin->pair[r], &mu));
   if (mu < PETSC_INFINITY) {
@@ -111,31 +118,17 @@ static PetscErrorCode ConeGetForce(Scene scene, PetscReal time, const ConeRows *
   PetscFunctionReturn(0);
 }
 
-/* Adds factor times row `row` of a matrix to a ray */
-static PetscErrorCode ConeAddRow(Mat A, PetscInt row, PetscReal factor, PetscReal ray[])
-{
-  const PetscInt    *columns;
-  const PetscScalar *values;
-  PetscInt           n;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetRow(A, row, &n, &columns, &values));
-  for (PetscInt k = 0; k < n; ++k) ray[columns[k]] += factor * PetscRealPart(values[k]);
-  PetscCall(MatRestoreRow(A, row, &n, &columns, &values));
-  PetscFunctionReturn(0);
-}
-
 /*
-   Appends the ray of the row whose force does the most negative work on a motion, the same on all ranks. *found: false
-   if no force does at least the work `least`, which is negative; no ray is then appended
+   Replaces the rates of the rows by the force of that row whose force does the most negative work, and zero for all
+   others. *found: false if no force does at least the work `least`, which is negative
 */
-static PetscErrorCode ConeAppend(MPI_Comm comm, Scene scene, PetscReal time, ContactCone *cone, const ConeRows *rows,
-  const PetscReal motion[], PetscReal least, PetscBool *found)
+static PetscErrorCode ConeChoose(MPI_Comm comm, Scene scene, PetscReal time, ConeRows *rows, PetscReal least,
+  PetscBool *found)
 {
-  const PetscInt n   = cone->n;
-  PetscReal     *ray = &cone->ray[n * cone->nrays], *normal = &cone->normal[n * cone->nrays], force[3] = {0.0};
-  PetscInt       row = PETSC_DECIDE, first;
-  PetscMPIInt    rank;
+  PetscReal    force[3] = {0.0};
+  PetscScalar *gap, *slip = NULL;
+  PetscInt     row = PETSC_DECIDE;
+  PetscMPIInt  rank;
   struct {
     double value;
     int    rank;
@@ -143,10 +136,15 @@ static PetscErrorCode ConeAppend(MPI_Comm comm, Scene scene, PetscReal time, Con
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  PetscCall(VecGetArray(rows->gaps, &gap));
+  if (rows->slip) PetscCall(VecGetArray(rows->slips, &slip));
   for (PetscInt r = 0; r < rows->lin->nlocal; ++r) {
-    PetscReal own[3], rate;
+    const PetscReal slips[2] = {slip ? PetscRealPart(slip[2 * r]) : 0.0, slip ? PetscRealPart(slip[2 * r + 1]) : 0.0};
+    PetscReal       own[3] = {0.0}, rate = PetscRealPart(gap[r]);
 
-    PetscCall(ConeGetForce(scene, time, rows, r, motion, own, &rate));
+    gap[r] = 0.0;
+    for (PetscInt c = 0; c < 2 && slip; ++c) slip[2 * r + c] = 0.0;
+    PetscCall(ConeGetForce(scene, time, rows, r, slips, own, &rate));
     if (rate >= best.value) continue;
     best.value = (double)rate;
     row        = r;
@@ -155,100 +153,91 @@ static PetscErrorCode ConeAppend(MPI_Comm comm, Scene scene, PetscReal time, Con
   best.rank = rank;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &best, 1, MPI_DOUBLE_INT, MPI_MINLOC, comm));
   *found = (PetscBool)(best.value < least);
-  if (!*found) PetscFunctionReturn(0);
-  PetscCall(PetscArrayzero(ray, n));
-  PetscCall(PetscArrayzero(normal, n));
-  if (rank == best.rank) {
-    PetscCall(MatGetOwnershipRange(rows->gap, &first, NULL));
-    row += first;
-    PetscCall(ConeAddRow(rows->gap, row, force[0], normal));
-    PetscCall(PetscArraycpy(ray, normal, n));
-    for (PetscInt c = 0; c < 2 && rows->slip; ++c) PetscCall(ConeAddRow(rows->slip, 2 * row + c, force[1 + c], ray));
+  if (*found && rank == best.rank) {
+    gap[row] = force[0];
+    for (PetscInt c = 0; c < 2 && slip; ++c) slip[2 * row + c] = force[1 + c];
   }
-  PetscCallMPI(MPI_Bcast(ray, (PetscMPIInt)n, MPIU_REAL, best.rank, comm));
-  PetscCallMPI(MPI_Bcast(normal, (PetscMPIInt)n, MPIU_REAL, best.rank, comm));
+  if (rows->slip) PetscCall(VecRestoreArray(rows->slips, &slip));
+  PetscCall(VecRestoreArray(rows->gaps, &gap));
+  PetscFunctionReturn(0);
+}
+
+/* Appends the ray of the row that ConeChoose() finds for a motion, the same on all ranks */
+static PetscErrorCode ConeAppend(const FreeMotions *m, Scene scene, PetscReal time, ContactCone *cone, ConeRows *rows,
+  Vec motion, PetscReal least, PetscBool *found)
+{
+  const PetscInt k = cone->nrays;
+
+  PetscFunctionBegin;
+  PetscCall(FreeMotionsMultiply(m, rows->gap, motion, rows->gaps));
+  if (rows->slip) PetscCall(FreeMotionsMultiply(m, rows->slip, motion, rows->slips));
+  PetscCall(ConeChoose(PetscObjectComm((PetscObject)m->Z), scene, time, rows, least, found));
+  if (!*found) PetscFunctionReturn(0);
+  if (!cone->ray[k]) PetscCall(VecDuplicate(motion, &cone->ray[k]));
+  if (!cone->normal[k]) PetscCall(VecDuplicate(motion, &cone->normal[k]));
+  if (!cone->Q[k]) PetscCall(VecDuplicate(motion, &cone->Q[k]));
+  PetscCall(FreeMotionsSum(m, rows->gap, rows->gaps, cone->normal[k]));
+  PetscCall(VecZeroEntries(cone->ray[k]));
+  if (rows->slip) PetscCall(FreeMotionsSum(m, rows->slip, rows->slips, cone->ray[k]));
+  PetscCall(VecAXPY(cone->ray[k], 1.0, cone->normal[k]));
   cone->amount[cone->nrays++] = 0.0;
   PetscFunctionReturn(0);
 }
 
-static PetscReal ConeDot(PetscInt n, const PetscReal a[], const PetscReal b[])
+/* Updates the QR factors for the vectors that were added since the last call. dependent: a vector whose square has a
+   smaller part across all others counts as dependent */
+static PetscErrorCode ConeOrthogonalize(ContactCone *cone, Vec vectors[], PetscReal dependent)
 {
-  PetscReal sum = 0.0;
-
-  for (PetscInt i = 0; i < n; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-/* Computes product = A^T x. A: columns of n numbers each */
-static void ConeDots(PetscInt n, PetscInt columns, const PetscReal A[], const PetscReal x[], PetscReal product[])
-{
-  for (PetscInt k = 0; k < columns; ++k) product[k] = ConeDot(n, &A[n * k], x);
-}
-
-/* Computes y += alpha A factor. A: columns of n numbers each */
-static void ConeAdd(PetscInt n, PetscInt columns, const PetscReal A[], PetscReal alpha, const PetscReal factor[],
-  PetscReal y[])
-{
-  for (PetscInt k = 0; k < columns; ++k) {
-    for (PetscInt i = 0; i < n; ++i) y[i] += alpha * factor[k] * A[n * k + i];
-  }
-}
-
-static PetscReal *ConeColumn(const ContactCone *cone, PetscInt ray)
-{
-  return cone->R + ray * (ray + 1) / 2;
-}
-
-/* Updates the QR factors for the rays that were added since the last call */
-static PetscErrorCode ConeOrthogonalize(ContactCone *cone)
-{
-  const PetscInt  n         = cone->n;
-  const PetscReal dependent = 1e-12, again = 0.01;
-  PetscReal      *along;
+  PetscReal *along;
 
   PetscFunctionBegin;
-  if (cone->ncap < cone->nrays) {
-    cone->ncap = 2 * cone->nrays;
-    PetscCall(PetscRealloc(sizeof(PetscReal) * (size_t)(n * cone->ncap), &cone->Q));
-    PetscCall(PetscRealloc(sizeof(PetscReal) * (size_t)(cone->ncap * (cone->ncap + 1) / 2), &cone->R));
-  }
-  PetscCall(PetscMalloc1(cone->nrays, &along));
+  PetscCall(PetscMalloc1(cone->nmax, &along));
   for (; cone->nfactored < cone->nrays; ++cone->nfactored) {
     const PetscInt k = cone->nfactored;
-    PetscReal     *q = &cone->Q[n * k], *R = ConeColumn(cone, k), whole, remainder;
+    PetscReal     *R = &cone->R[cone->nmax * k], whole;
 
-    PetscCall(PetscArraycpy(q, &cone->ray[n * k], n));
-    whole = ConeDot(n, q, q);
+    PetscCall(VecCopy(vectors[k], cone->Q[k]));
+    PetscCall(VecNorm(cone->Q[k], NORM_2, &whole));
     PetscCall(PetscArrayzero(R, k));
-    remainder = whole;
     for (PetscInt pass = 0; pass < 2; ++pass) { /* the second pass removes the rounding errors of a small remainder */
-      if (pass && remainder > again * whole) break;
-      ConeDots(n, k, cone->Q, q, along);
-      ConeAdd(n, k, cone->Q, -1.0, along, q);
-      for (PetscInt j = 0; j < k; ++j) R[j] += along[j];
-      remainder = ConeDot(n, q, q);
+      PetscCall(VecMDot(cone->Q[k], k, cone->Q, along));
+      for (PetscInt j = 0; j < k; ++j) {
+        R[j] += along[j];
+        along[j] = -along[j];
+      }
+      PetscCall(VecMAXPY(cone->Q[k], k, along, cone->Q));
     }
-    R[k] = remainder > dependent * whole ? PetscSqrtReal(remainder) : 0.0;
-    for (PetscInt i = 0; i < n; ++i) q[i] = R[k] > 0.0 ? q[i] / R[k] : 0.0;
+    PetscCall(VecNormalize(cone->Q[k], &R[k]));
+    if (PetscSqr(R[k]) > dependent * PetscSqr(whole)) continue;
+    PetscCall(VecZeroEntries(cone->Q[k]));
+    R[k] = 0.0;
   }
   PetscCall(PetscFree(along));
   PetscFunctionReturn(0);
 }
 
 /* Computes the factors, of any sign, for which the unbalanced load is smallest */
-static PetscErrorCode ConeSolve(ContactCone *cone, const PetscReal load[], PetscReal amount[])
+static PetscErrorCode ConeSolve(ContactCone *cone, Vec load, PetscReal amount[])
 {
   PetscFunctionBegin;
-  PetscCall(ConeOrthogonalize(cone));
-  ConeDots(cone->n, cone->nrays, cone->Q, load, amount);
-  for (PetscInt k = 0; k < cone->nrays; ++k) amount[k] = -amount[k];
+  PetscCall(ConeOrthogonalize(cone, cone->ray, 1e-12));
+  PetscCall(VecMDot(load, cone->nrays, cone->Q, amount));
   for (PetscInt k = cone->nrays - 1; k >= 0; --k) {
-    const PetscReal *R = ConeColumn(cone, k);
+    const PetscReal *R = &cone->R[cone->nmax * k];
 
     amount[k] = R[k] > 0.0 ? amount[k] / R[k] : 0.0;
     for (PetscInt j = 0; j < k; ++j) amount[j] -= R[j] * amount[k];
   }
+  for (PetscInt k = 0; k < cone->nrays; ++k) amount[k] = -amount[k];
   PetscFunctionReturn(0);
+}
+
+static void ConeSwap(Vec v[], PetscInt i, PetscInt j)
+{
+  const Vec other = v[i];
+
+  v[i] = v[j];
+  v[j] = other;
 }
 
 /* Removes rays whose factor is zero */
@@ -264,11 +253,8 @@ static void ConeDrop(ContactCone *cone)
       continue;
     }
     cone->amount[kept] = cone->amount[k];
-    for (PetscInt i = 0; i < cone->n; ++i) {
-      cone->ray[cone->n * kept + i]    = cone->ray[cone->n * k + i];
-      cone->normal[cone->n * kept + i] = cone->normal[cone->n * k + i];
-    }
-    ++kept;
+    ConeSwap(cone->ray, kept, k);
+    ConeSwap(cone->normal, kept++, k);
   }
   cone->nrays = kept;
 }
@@ -276,7 +262,7 @@ static void ConeDrop(ContactCone *cone)
 /*
    Computes the non-negative factors for which the unbalanced load is smallest (Lawson and Hanson's algorithm)
 */
-static PetscErrorCode ConeBalance(ContactCone *cone, const PetscReal load[])
+static PetscErrorCode ConeBalance(ContactCone *cone, Vec load)
 {
   PetscReal *wanted, part = 0.0;
 
@@ -302,28 +288,29 @@ static PetscErrorCode ConeBalance(ContactCone *cone, const PetscReal load[])
    Computes `left`, the loads that contact forces cannot balance. size: sum of the magnitudes of the nodal loads.
    *none: no equilibrium exists, or only one with contact forces of more than a thousand times the loads.
 */
-static PetscErrorCode ConeProject(Model model, State state, PetscReal time, const FreeMotions *m,
-  const PetscReal load[], PetscReal size, ContactCone *cone, PetscReal left[], PetscBool *none)
+static PetscErrorCode ConeProject(Model model, State state, PetscReal time, const FreeMotions *m, Vec load,
+  PetscReal size, ContactCone *cone, Vec left, PetscBool *none)
 {
   const PetscReal beyond = 1e3, negligible = model->springs.weak ? WEAK_SPRINGS_SHARE : 1e-7;
-  const PetscInt  n = m->n;
+  PetscReal       norm, along;
   PetscBool       stop;
 
   PetscFunctionBegin;
   *none = PETSC_FALSE;
-  for (PetscInt it = 0; it < cone->nmax && cone->nrays < cone->nmax && !*none; ++it) {
+  for (PetscInt it = 0; it < 20 * m->n + 100 && cone->nrays < cone->nmax && !*none; ++it) {
     PetscBool found = PETSC_FALSE;
 
     PetscCall(InterruptTest(model, state, &stop));
     if (stop) break;
-    PetscCall(PetscArraycpy(left, load, n));
-    ConeAdd(n, cone->nrays, cone->ray, 1.0, cone->amount, left);
-    if (PetscSqrtReal(ConeDot(n, left, left)) <= negligible * size) break;
+    PetscCall(VecCopy(load, left));
+    PetscCall(VecMAXPY(left, cone->nrays, cone->amount, cone->ray));
+    PetscCall(VecNorm(left, NORM_2, &norm));
+    if (norm <= negligible * size) break;
+    PetscCall(VecDot(load, left, &along));
     for (ConeKind kind = CONE_NEAR; kind < CONE_KINDS && model->contact && !found; ++kind) {
       if (!cone->rows[kind].lin)
         PetscCall(ConeLinearize(model->contact, &model->places, state->path, m, kind, &cone->rows[kind]));
-      PetscCall(ConeAppend(model->comm, model->scene, time, cone, &cone->rows[kind], left,
-        -ConeDot(n, load, left) / (beyond * size), &found));
+      PetscCall(ConeAppend(m, model->scene, time, cone, &cone->rows[kind], left, -along / (beyond * size), &found));
     }
     *none = (PetscBool)!found;
     if (found) PetscCall(ConeBalance(cone, load));
@@ -335,29 +322,30 @@ static PetscErrorCode ConeProject(Model model, State state, PetscReal time, cons
    Removes from a motion the part that changes the gaps of the rows that carry a force. What remains is sliding. The
    motion is unchanged if nothing remains.
 */
-static PetscErrorCode ConeSlide(const ContactCone *cone, PetscReal motion[])
+static PetscErrorCode ConeSlide(ContactCone *cone, Vec motion)
 {
-  const PetscInt n = cone->n;
-  PetscInt       nfree;
-  PetscReal     *matrix, *slide, *along;
+  PetscReal *along, before, after;
+  Vec        slide;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc3(n * n, &matrix, n, &slide, n, &along));
-  for (PetscInt k = 0; k < cone->nrays; ++k) {
-    const PetscReal *v = &cone->normal[n * k], square = ConeDot(n, v, v);
-
-    for (PetscInt i = 0; i < n * n && square > 0.0; ++i) matrix[i] += v[i / n] * v[i % n] / square;
-  }
-  PetscCall(SupportFindNull(n, matrix, &nfree));
-  ConeDots(n, nfree, matrix, motion, along);
-  ConeAdd(n, nfree, matrix, 1.0, along, slide);
-  if (ConeDot(n, slide, slide) > 1e-6 * ConeDot(n, motion, motion)) PetscCall(PetscArraycpy(motion, slide, n));
-  PetscCall(PetscFree3(matrix, slide, along));
+  cone->nfactored = 0;
+  PetscCall(ConeOrthogonalize(cone, cone->normal, 1e-9));
+  PetscCall(PetscMalloc1(cone->nmax, &along));
+  PetscCall(VecDuplicate(motion, &slide));
+  PetscCall(VecCopy(motion, slide));
+  PetscCall(VecMDot(motion, cone->nrays, cone->Q, along));
+  for (PetscInt k = 0; k < cone->nrays; ++k) along[k] = -along[k];
+  PetscCall(VecMAXPY(slide, cone->nrays, along, cone->Q));
+  PetscCall(VecNorm(motion, NORM_2, &before));
+  PetscCall(VecNorm(slide, NORM_2, &after));
+  if (after > 1e-3 * before) PetscCall(VecCopy(slide, motion));
+  PetscCall(VecDestroy(&slide));
+  PetscCall(PetscFree(along));
   PetscFunctionReturn(0);
 }
 
 /* Reports the motion of the bodies that contact does not hold. left: unbalanced load on the free motions. */
-static PetscErrorCode EquilibriumReport(Model model, const FreeMotions *m, const ContactCone *cone, PetscReal left[],
+static PetscErrorCode EquilibriumReport(Model model, const FreeMotions *m, ContactCone *cone, Vec left,
   StepReport *report)
 {
   Vec w;
@@ -365,7 +353,7 @@ static PetscErrorCode EquilibriumReport(Model model, const FreeMotions *m, const
   PetscFunctionBegin;
   PetscCall(ConeSlide(cone, left));
   PetscCall(VecDuplicate(model->places.x, &w));
-  PetscCall(FreeMotionsDisplace(m, left, w));
+  PetscCall(FreeMotionsMultiply(m, m->Z, left, w));
   PetscCall(ReportReason(report, PETSC_FALSE,
     cone->rows[CONE_NEAR].slip ? "friction does not hold the bodies"
     : model->contact           ? "contact does not hold the bodies"
@@ -397,8 +385,9 @@ PetscErrorCode EquilibriumDiagnose(Model model, State state, PetscReal time, Vec
 {
   ContactCone cone;
   FreeMotions motions;
-  PetscReal  *load, *left, size;
+  PetscReal   size;
   PetscBool   stop;
+  Vec         load, left;
 
   PetscFunctionBegin;
   *none = PETSC_FALSE;
@@ -409,13 +398,15 @@ PetscErrorCode EquilibriumDiagnose(Model model, State state, PetscReal time, Vec
   PetscCall(NodalMagnitudesMeasure(force, &size, NULL));
   PetscCall(FreeMotionsCreate(model, state, &motions));
   if (motions.n && size > 0.0) {
-    PetscCall(PetscMalloc2(motions.n, &load, motions.n, &left));
-    PetscCall(ConeCreate(motions.n, &cone));
-    PetscCall(FreeMotionsSum(&motions, force, load));
+    PetscCall(ConeCreate(motions.n + 1, &cone));
+    PetscCall(VecCreateSeq(PETSC_COMM_SELF, motions.n, &load));
+    PetscCall(VecDuplicate(load, &left));
+    PetscCall(FreeMotionsSum(&motions, motions.Z, force, load));
     PetscCall(ConeProject(model, state, time, &motions, load, size, &cone, left, none));
     if (*none) PetscCall(EquilibriumReport(model, &motions, &cone, left, report));
     PetscCall(ConeDestroy(&cone));
-    PetscCall(PetscFree2(load, left));
+    PetscCall(VecDestroy(&left));
+    PetscCall(VecDestroy(&load));
   }
   PetscCall(FreeMotionsDestroy(&motions));
   PetscFunctionReturn(0);

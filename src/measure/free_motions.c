@@ -51,7 +51,6 @@ PetscErrorCode FreeMotionsCreate(Model model, State state, FreeMotions *m)
   Vec       places;
 
   PetscFunctionBegin;
-  m->comm = model->comm;
   PetscCall(ElasticityIsLinear(model->elasticity, &linear));
   moved = (PetscBool)(!linear || model->rigid.turns);
   PetscCall(SupportCreate(model->dm, model->scene, moved ? state->path->u : NULL, SUPPORT_FIXED, &support));
@@ -60,66 +59,36 @@ PetscErrorCode FreeMotionsCreate(Model model, State state, FreeMotions *m)
   PetscCall(VecCopy(model->places.x, places));
   if (moved) PetscCall(VecAXPY(places, 1.0, state->path->u));
   PetscCall(VecGetLocalSize(places, &n));
-  PetscCall(MatCreateAIJ(m->comm, n, PETSC_DECIDE, PETSC_DETERMINE, m->n, 6, NULL, 6, NULL, &m->Z));
+  PetscCall(MatCreateAIJ(model->comm, n, PETSC_DECIDE, PETSC_DETERMINE, m->n, 6, NULL, 6, NULL, &m->Z));
   PetscCall(MatSetOption(m->Z, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
   PetscCall(FreeMotionsSetRows(&support, model->places.body, places, combinations, m->Z));
   PetscCall(MatAssemblyBegin(m->Z, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(m->Z, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatCreateVecs(m->Z, &m->each, NULL));
+  PetscCall(VecScatterCreateToAll(m->each, &m->all, NULL));
   PetscCall(VecDestroy(&places));
   PetscCall(MatDestroy(&combinations));
   PetscCall(SupportDestroy(&support));
   PetscFunctionReturn(0);
 }
 
-/* Computes the product of row i of a matrix, which this rank owns, with `motion` */
-PetscErrorCode FreeMotionsGetRate(Mat A, PetscInt row, const PetscReal motion[], PetscReal *rate)
+/* Computes the product of a matrix, whose columns are free motions, with a vector `motion` that each rank has */
+PetscErrorCode FreeMotionsMultiply(const FreeMotions *m, Mat A, Vec motion, Vec product)
 {
-  const PetscInt    *columns;
-  const PetscScalar *values;
-  PetscInt           n;
-
   PetscFunctionBegin;
-  *rate = 0.0;
-  PetscCall(MatGetRow(A, row, &n, &columns, &values));
-  for (PetscInt k = 0; k < n; ++k) *rate += PetscRealPart(values[k]) * motion[columns[k]];
-  PetscCall(MatRestoreRow(A, row, &n, &columns, &values));
+  PetscCall(VecScatterBegin(m->all, motion, m->each, INSERT_VALUES, SCATTER_REVERSE));
+  PetscCall(VecScatterEnd(m->all, motion, m->each, INSERT_VALUES, SCATTER_REVERSE));
+  PetscCall(MatMult(A, m->each, product));
   PetscFunctionReturn(0);
 }
 
-/* Computes the displacements w of a combination of the free motions */
-PetscErrorCode FreeMotionsDisplace(const FreeMotions *m, const PetscReal motion[], Vec w)
+/* Computes the work on the free motions of the forces of the rows of a matrix, on each rank */
+PetscErrorCode FreeMotionsSum(const FreeMotions *m, Mat A, Vec force, Vec work)
 {
-  PetscInt first, end;
-  Vec      c;
-
   PetscFunctionBegin;
-  PetscCall(MatCreateVecs(m->Z, &c, NULL));
-  PetscCall(VecGetOwnershipRange(c, &first, &end));
-  for (PetscInt k = first; k < end; ++k) PetscCall(VecSetValue(c, k, motion[k], INSERT_VALUES));
-  PetscCall(VecAssemblyBegin(c));
-  PetscCall(VecAssemblyEnd(c));
-  PetscCall(MatMult(m->Z, c, w));
-  PetscCall(VecDestroy(&c));
-  PetscFunctionReturn(0);
-}
-
-/* Computes the work of forces on the free motions */
-PetscErrorCode FreeMotionsSum(const FreeMotions *m, Vec force, PetscReal motion[])
-{
-  const PetscScalar *a;
-  PetscInt           first, end;
-  Vec                work;
-
-  PetscFunctionBegin;
-  PetscCall(PetscArrayzero(motion, m->n));
-  PetscCall(MatCreateVecs(m->Z, &work, NULL));
-  PetscCall(MatMultTranspose(m->Z, force, work));
-  PetscCall(VecGetOwnershipRange(work, &first, &end));
-  PetscCall(VecGetArrayRead(work, &a));
-  for (PetscInt k = first; k < end; ++k) motion[k] = PetscRealPart(a[k - first]);
-  PetscCall(VecRestoreArrayRead(work, &a));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, motion, (PetscMPIInt)m->n, MPIU_REAL, MPIU_SUM, m->comm));
-  PetscCall(VecDestroy(&work));
+  PetscCall(MatMultTranspose(A, force, m->each));
+  PetscCall(VecScatterBegin(m->all, m->each, work, INSERT_VALUES, SCATTER_FORWARD));
+  PetscCall(VecScatterEnd(m->all, m->each, work, INSERT_VALUES, SCATTER_FORWARD));
   PetscFunctionReturn(0);
 }
 
@@ -127,5 +96,7 @@ PetscErrorCode FreeMotionsDestroy(FreeMotions *m)
 {
   PetscFunctionBegin;
   PetscCall(MatDestroy(&m->Z));
+  PetscCall(VecDestroy(&m->each));
+  PetscCall(VecScatterDestroy(&m->all));
   PetscFunctionReturn(0);
 }

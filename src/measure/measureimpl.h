@@ -55,15 +55,15 @@ PETSC_INTERN PetscErrorCode RigidMotionReport(Model, Vec u, const char known[], 
 
 /* free_motions.c: rigid motions of all bodies that no prescribed displacement, spring or tie resists */
 typedef struct {
-  MPI_Comm comm;
-  PetscInt n;
-  Mat      Z; /* one column for each motion: the displacements of the nodes [length] */
+  PetscInt   n;
+  Mat        Z;    /* one column for each motion: the displacements of the nodes [length] */
+  Vec        each; /* work vector with a number for each motion */
+  VecScatter all;  /* from such a vector to a copy on each rank */
 } FreeMotions;
 
 PETSC_INTERN PetscErrorCode FreeMotionsCreate(Model, State, FreeMotions *);
-PETSC_INTERN PetscErrorCode FreeMotionsGetRate(Mat, PetscInt row, const PetscReal motion[], PetscReal *rate);
-PETSC_INTERN PetscErrorCode FreeMotionsDisplace(const FreeMotions *, const PetscReal motion[], Vec w);
-PETSC_INTERN PetscErrorCode FreeMotionsSum(const FreeMotions *, Vec force, PetscReal motion[]);
+PETSC_INTERN PetscErrorCode FreeMotionsMultiply(const FreeMotions *, Mat, Vec motion, Vec product);
+PETSC_INTERN PetscErrorCode FreeMotionsSum(const FreeMotions *, Mat, Vec force, Vec work);
 PETSC_INTERN PetscErrorCode FreeMotionsDestroy(FreeMotions *);
 
 /* diagnose_equilibrium.c */

@@ -102,7 +102,9 @@ PetscErrorCode StiffnessGiveMotions(Model model, State state, Tao tao)
     PetscCall(TiesSet(&model->ties, 0.0, moves));
     PetscCall(MatDiagonalScale(motions.Z, moves, NULL));
     PetscCall(VecDestroy(&moves));
+    PetscCall(PetscObjectReference((PetscObject)motions.Z));
     model->springs.modes = motions.Z;
+    PetscCall(FreeMotionsDestroy(&motions));
   }
   PetscCall(TaoIPFilterSetModes(tao, model->springs.modes));
   PetscFunctionReturn(0);
