@@ -5,28 +5,22 @@
    ties permit. Prescribed displacements have their own velocity. */
 static PetscErrorCode StartVelocity(const Constraints *c, Dynamics *d)
 {
-  Scene              scene = c->bodies.scene;
-  const PetscScalar *x;
-  PetscScalar       *v;
+  Scene scene = c->bodies.scene;
   PetscReal(*centres)[3];
-  PetscInt n;
+  BodyMotion *motions;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(scene->nbodies, &centres));
+  PetscCall(PetscMalloc2(scene->nbodies, &centres, scene->nbodies, &motions));
   PetscCall(MassGetCentres(c, d, centres));
-  PetscCall(VecGetLocalSize(d->velocity, &n));
-  PetscCall(VecGetArrayRead(c->bodies.places.x, &x));
-  PetscCall(VecGetArrayWrite(d->velocity, &v));
-  for (PetscInt i = 0; i < n; ++i) {
-    const PetscInt   b = c->bodies.places.body[i / 3], k = i % 3, next = (k + 1) % 3, last = (k + 2) % 3;
-    const PetscReal *w = scene->bodies[b].spin;
+  for (PetscInt i = 0; i < 3 * scene->nbodies; ++i) {
+    const SceneBody *body = &scene->bodies[i / 3];
 
-    v[i] = scene->bodies[b].velocity[k] + w[next] * (x[i - k + last] - centres[b][last]) -
-           w[last] * (x[i - k + next] - centres[b][next]);
+    motions[i / 3].t[i % 3]      = body->velocity[i % 3];
+    motions[i / 3].w[i % 3]      = body->spin[i % 3];
+    motions[i / 3].center[i % 3] = centres[i / 3][i % 3];
   }
-  PetscCall(VecRestoreArrayWrite(d->velocity, &v));
-  PetscCall(VecRestoreArrayRead(c->bodies.places.x, &x));
-  PetscCall(PetscFree(centres));
+  PetscCall(VertexPlacesMove(&c->bodies.places, NULL, motions, d->velocity));
+  PetscCall(PetscFree2(centres, motions));
   PetscCall(DriveStart(c, 1, d->velocity));
   if (c->ties->C) {
     PetscCall(VecCopy(d->velocity, c->ties->work));

@@ -10,12 +10,11 @@
 
 /*
    A rotating body: its centre of rotation before and after the time step [length]; the moment that is missing; the sum
-   of m r r^T over the arms r of the nodes about their mean position, where m is the node's mass; and the vector w, for
-   which m w x r is the additional force on a node
+   of m r r^T over the arms r of the nodes about their mean position, where m is the node's mass
 */
 typedef struct {
   PetscBool turns;
-  PetscReal before[3], after[3], moment[3], arms[6], w[3];
+  PetscReal before[3], after[3], moment[3], arms[6];
 } TurnBody;
 
 /* Finds the bodies that rotate, and their centres of rotation before and after the step */
@@ -79,34 +78,6 @@ static PetscErrorCode TurnSum(const Constraints *c, Vec before, Vec u, Vec force
   PetscFunctionReturn(0);
 }
 
-/* Computes the additional nodal forces m w x r */
-static PetscErrorCode TurnSpread(const Constraints *c, Vec u, const BodyPose poses[], const TurnBody bodies[], Vec turn)
-{
-  const PetscScalar *x, *a, *m;
-  PetscScalar       *f;
-  PetscInt           n;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(u, &n));
-  PetscCall(VecGetArrayRead(c->bodies.places.x, &x));
-  PetscCall(VecGetArrayRead(c->bodies.mass, &m));
-  PetscCall(VecGetArrayRead(u, &a));
-  PetscCall(VecGetArray(turn, &f));
-  for (PetscInt i = 0; i < n; i += 3) {
-    const PetscInt b = c->bodies.places.body[i / 3];
-    PetscReal      arm[3], force[3];
-
-    for (int k = 0; k < 3; ++k) arm[k] = PetscRealPart(x[i + k] + a[i + k]) - poses[b].to[k];
-    VectorCross(bodies[b].w, arm, force);
-    for (int k = 0; k < 3; ++k) f[i + k] = PetscRealPart(m[i]) * force[k];
-  }
-  PetscCall(VecRestoreArray(turn, &f));
-  PetscCall(VecRestoreArrayRead(u, &a));
-  PetscCall(VecRestoreArrayRead(c->bodies.mass, &m));
-  PetscCall(VecRestoreArrayRead(c->bodies.places.x, &x));
-  PetscFunctionReturn(0);
-}
-
 /* Collective. Sets d->turn for a time step from the displacement `before` to u, with the rigid bodies at their
    positions in u. load: dead loads at the end of the step; contact: contact forces. NULL if there are none */
 PetscErrorCode TurnSetForce(const Constraints *c, Vec before, Vec u, Vec load, Vec contact, Dynamics *d)
@@ -115,13 +86,14 @@ PetscErrorCode TurnSetForce(const Constraints *c, Vec before, Vec u, Vec load, V
   PetscReal      energy  = 0.0, *sums, inertia[3][3];
   BodyPose      *poses;
   TurnBody      *bodies;
+  BodyMotion    *motions; /* displacements that, multiplied with the nodes' masses, are the additional forces */
   Vec            force;
 
   PetscFunctionBegin;
   if (!d->residual || !c->rigid->turns) PetscFunctionReturn(0);
   PetscCall(VecDestroy(&d->turn));
   PetscCall(PetscMalloc2(nbodies, &poses, 9 * nbodies, &sums));
-  PetscCall(PetscCalloc1(nbodies, &bodies));
+  PetscCall(PetscCalloc2(nbodies, &bodies, nbodies, &motions));
   PetscCall(VecDuplicate(u, &force));
   PetscCall(VecZeroEntries(force));
   PetscCall(SchemeAddForce(d, u, &energy, force));
@@ -138,11 +110,13 @@ PetscErrorCode TurnSetForce(const Constraints *c, Vec before, Vec u, Vec load, V
     for (int k = 0; k < 6; ++k) bodies[b].arms[k] = sums[9 * b + 3 + k];
     if (!bodies[b].turns) continue;
     MatrixSetInertia(bodies[b].arms, inertia);
-    (void)MatrixSolve(inertia, bodies[b].moment, bodies[b].w);
+    (void)MatrixSolve(inertia, bodies[b].moment, motions[b].w);
+    PetscCall(PetscArraycpy(motions[b].center, poses[b].to, 3));
   }
-  PetscCall(TurnSpread(c, u, poses, bodies, force));
+  PetscCall(VertexPlacesMove(&c->bodies.places, u, motions, force));
+  PetscCall(VecPointwiseMult(force, force, c->bodies.mass));
   d->turn = force;
-  PetscCall(PetscFree(bodies));
+  PetscCall(PetscFree2(bodies, motions));
   PetscCall(PetscFree2(poses, sums));
   PetscFunctionReturn(0);
 }

@@ -88,7 +88,8 @@ PETSC_INTERN PetscErrorCode SpringsCreate(const Bodies *, Springs *);
 PETSC_INTERN PetscErrorCode SpringsMeasure(const Springs *, Vec u, Vec *force, PetscReal *weak);
 PETSC_INTERN PetscErrorCode SpringsDestroy(Springs *);
 
-/* rotations.c: text for the axis of a rotation that only weak springs resist */
+/* rotations.c: text for the axis of a rotation that nothing resists */
+PETSC_INTERN PetscReal      RotationRound(PetscReal x, PetscReal unit);
 PETSC_INTERN PetscErrorCode RotationDescribe(const MeshRotation *, size_t size, char text[]);
 
 /* bolts.c: pretension of bolts: forces and shortenings of the sections */

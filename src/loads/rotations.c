@@ -1,8 +1,8 @@
-/* Describes rotations of bodies that nothing but weak springs resists */
+/* Describes rotations of bodies that nothing resists */
 #include "loadsimpl.h"
 
-/* Returns x rounded to a multiple of `unit`, and never -0 */
-static PetscReal RotationRound(PetscReal x, PetscReal unit)
+/* Returns x rounded to a multiple of `unit`, and never -0, so that rounding errors are not printed */
+PetscReal RotationRound(PetscReal x, PetscReal unit)
 {
   return PetscFloorReal(x / unit + 0.5) * unit + 0.0;
 }

@@ -43,6 +43,32 @@ PetscErrorCode VertexPlacesCreate(DM dm, VertexPlaces *places)
   PetscFunctionReturn(0);
 }
 
+/* Computes the displacement of each node by the motion of its body. u: displacement before; NULL: none */
+PetscErrorCode VertexPlacesMove(const VertexPlaces *places, Vec u, const BodyMotion motions[], Vec moved)
+{
+  const PetscScalar *x, *a = NULL;
+  PetscScalar       *v;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(moved, &n));
+  PetscCall(VecGetArrayRead(places->x, &x));
+  if (u) PetscCall(VecGetArrayRead(u, &a));
+  PetscCall(VecGetArrayWrite(moved, &v));
+  for (PetscInt i = 0; i < n; ++i) {
+    const BodyMotion *m = &motions[places->body[i / 3]];
+    const PetscInt    c = i % 3, next = (c + 1) % 3, last = (c + 2) % 3, of[2] = {i - c + next, i - c + last};
+    const PetscReal   arm[2] = {PetscRealPart(x[of[0]] + (a ? a[of[0]] : 0.0)) - m->center[next],
+        PetscRealPart(x[of[1]] + (a ? a[of[1]] : 0.0)) - m->center[last]};
+
+    v[i] = m->t[c] + m->w[next] * arm[1] - m->w[last] * arm[0];
+  }
+  PetscCall(VecRestoreArrayWrite(moved, &v));
+  if (u) PetscCall(VecRestoreArrayRead(u, &a));
+  PetscCall(VecRestoreArrayRead(places->x, &x));
+  PetscFunctionReturn(0);
+}
+
 /* Sets one component of a global vector at the nodes of a face to a number */
 PetscErrorCode MeshFaceSet(DM dm, const char face[], PetscInt component, PetscReal value, Vec v)
 {

@@ -88,7 +88,13 @@ typedef struct {
   PetscInt *body; /* body of each owned node */
 } VertexPlaces;
 
+/* A rigid motion by a small rotation w: t + w x (x - center) */
+typedef struct {
+  PetscReal t[3], w[3], center[3];
+} BodyMotion;
+
 PETSC_INTERN PetscErrorCode VertexPlacesCreate(DM, VertexPlaces *);
+PETSC_INTERN PetscErrorCode VertexPlacesMove(const VertexPlaces *, Vec u, const BodyMotion motions[], Vec moved);
 PETSC_INTERN PetscErrorCode MeshFaceSet(DM, const char face[], PetscInt component, PetscReal value, Vec);
 PETSC_INTERN PetscErrorCode NodalMagnitudesMeasure(Vec v, PetscReal *sum, PetscReal *largest);
 PETSC_INTERN PetscErrorCode VertexPlacesSum(const VertexPlaces *, Vec v, PetscInt nbodies, PetscReal sums[]);

@@ -111,37 +111,6 @@ static PetscErrorCode ContactUpdateErrorMeasureSlip(Model model, State state, Ve
 }
 
 /*
-   Sets `rotation` to the displacement of a unit rotation of each rigid surface at u, about the axis of this number
-   through its centre; 0 at the nodes of other bodies.
-*/
-static PetscErrorCode ContactUpdateErrorSetRotation(Model model, Vec u, const BodyPose poses[], PetscInt axis,
-  Vec rotation)
-{
-  const PetscInt     d = (axis + 1) % 3, e = (axis + 2) % 3;
-  const PetscScalar *x, *a;
-  PetscScalar       *t;
-  PetscInt           n;
-
-  PetscFunctionBegin;
-  PetscCall(VecZeroEntries(rotation));
-  PetscCall(VecGetLocalSize(u, &n));
-  PetscCall(VecGetArrayRead(model->places.x, &x));
-  PetscCall(VecGetArrayRead(u, &a));
-  PetscCall(VecGetArray(rotation, &t));
-  for (PetscInt i = 0; i < n; i += 3) {
-    const PetscInt body = model->places.body[i / 3];
-
-    if (!SceneBodyIsSurface(&model->scene->bodies[body])) continue;
-    t[i + d] = -(x[i + e] + a[i + e] - poses[body].to[e]);
-    t[i + e] = x[i + d] + a[i + d] - poses[body].to[d];
-  }
-  PetscCall(VecRestoreArray(rotation, &t));
-  PetscCall(VecRestoreArrayRead(u, &a));
-  PetscCall(VecRestoreArrayRead(model->places.x, &x));
-  PetscFunctionReturn(0);
-}
-
-/*
    Adds to sums[pair] the sums over the rows of a pair. sums[pair][axis]: moment about the axis by which the forces on
    the rigid surface with the linearization at_u exceed those of the solve [force length]; sums[pair][3]: normal forces
    [force]; sums[pair][4]: slack masses, which are areas [length^2]. The last two are added only for axis 0.
@@ -190,6 +159,7 @@ static PetscErrorCode ContactUpdateErrorMeasureArms(Model model, State state, Ve
   Scene        scene  = model->scene;
   PetscBool    any    = PETSC_FALSE;
   BodyPose    *poses;
+  BodyMotion  *turns; /* unit rotations of the rigid surfaces about an axis through their centres */
   Vec          rotation;
   PetscReal(*sums)[5];
 
@@ -198,12 +168,15 @@ static PetscErrorCode ContactUpdateErrorMeasureArms(Model model, State state, Ve
   for (PetscInt p = 0; p < scene->npairs; ++p)
     any = (PetscBool)(any || SceneBodyIsSurface(SceneFaceBody(scene, scene->pairs[p].mortar)));
   if (!any) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(scene->nbodies, &poses));
-  PetscCall(PetscCalloc1(scene->npairs, &sums));
+  PetscCall(PetscCalloc3(scene->nbodies, &poses, scene->nbodies, &turns, scene->npairs, &sums));
   PetscCall(PosesFind(&bodies, NULL, u, poses));
   PetscCall(VecDuplicate(u, &rotation));
   for (PetscInt axis = 0; axis < 3; ++axis) {
-    PetscCall(ContactUpdateErrorSetRotation(model, u, poses, axis, rotation));
+    for (PetscInt b = 0; b < scene->nbodies; ++b) {
+      turns[b]         = (BodyMotion){.center = {poses[b].to[0], poses[b].to[1], poses[b].to[2]}};
+      turns[b].w[axis] = SceneBodyIsSurface(&scene->bodies[b]) ? 1.0 : 0.0;
+    }
+    PetscCall(VertexPlacesMove(&model->places, u, turns, rotation));
     PetscCall(ContactUpdateErrorSumMoments(state, sol, at_u, row, rotation, axis, sums));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, (PetscMPIInt)(5 * scene->npairs), MPIU_REAL, MPIU_SUM, model->comm));
@@ -213,8 +186,7 @@ static PetscErrorCode ContactUpdateErrorMeasureArms(Model model, State state, Ve
     if (wrong > misplaced * PetscSqrtReal(sums[p][4])) *arm = PetscMax(*arm, wrong);
   }
   PetscCall(VecDestroy(&rotation));
-  PetscCall(PetscFree(sums));
-  PetscCall(PetscFree(poses));
+  PetscCall(PetscFree3(poses, turns, sums));
   PetscFunctionReturn(0);
 }
 

@@ -238,54 +238,38 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
   PetscFunctionReturn(0);
 }
 
-/* Returns component i of a unit rotation about an axis through `point`, or, if `point` is NULL, of a unit translation
-   along the axis. x: coordinates of the nodes [length] */
-static PetscReal ProximalMotion(const PetscReal axis[3], const PetscReal point[3], const PetscScalar x[], PetscInt i)
-{
-  const PetscInt c = i % 3, d = (c + 1) % 3, e = (c + 2) % 3, v = i - c;
-
-  if (!point) return axis[c];
-  return axis[d] * (PetscRealPart(x[v + e]) - point[e]) - axis[e] * (PetscRealPart(x[v + d]) - point[d]);
-}
-
 /*
-   Removes from `way`, the displacement from the centre, a motion of body b, see ProximalMotion(), unless the force of
-   the proximal term that resists it is more than `most` of the forces `all` on the body
+   Removes from `way`, the displacement from the centre, a motion of body b, unless the force of the proximal term that
+   resists it is more than `most` of the forces `all` on the body
 */
-static PetscErrorCode ProximalRelease(StepProblem *p, PetscInt b, const PetscReal axis[3], const PetscReal point[3],
-  PetscReal most, Vec all, Vec way)
+static PetscErrorCode ProximalRelease(StepProblem *p, PetscInt b, const BodyMotion *motion, PetscReal most, Vec all,
+  Vec way)
 {
-  const PetscInt    *body = p->model->places.body;
-  const PetscScalar *x, *a, *k;
-  PetscScalar       *w;
-  PetscReal          sums[4] = {0.0}; /* work on the motion, its stiffness, magnitudes of the resistance, of `all` */
-  PetscInt           n;
+  const PetscInt nbodies = p->model->scene->nbodies;
+  BodyMotion    *motions;
+  PetscReal     *sums;
+  PetscScalar    work, stiffness, part;
+  Vec            moved, force;
 
   PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(way, &n));
-  PetscCall(VecGetArrayRead(p->model->places.x, &x));
-  PetscCall(VecGetArrayRead(all, &a));
-  PetscCall(VecGetArrayRead(p->proximal, &k));
-  PetscCall(VecGetArray(way, &w));
-  for (PetscInt i = 0; i < n; ++i) {
-    const PetscReal moved = ProximalMotion(axis, point, x, i), force = PetscRealPart(k[i]) * moved;
-
-    if (body[i / 3] != b) continue;
-    sums[0] += PetscRealPart(w[i]) * force;
-    sums[1] += moved * force;
-    sums[2] += PetscAbsReal(force);
-    sums[3] += PetscAbsScalar(a[i]);
-  }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPIU_REAL, MPIU_SUM, p->model->comm));
-  if (sums[1] > 0.0 && PetscAbsReal(sums[0] / sums[1]) * sums[2] <= most * sums[3]) {
-    for (PetscInt i = 0; i < n; ++i)
-      if (body[i / 3] == b) w[i] -= sums[0] / sums[1] * ProximalMotion(axis, point, x, i);
+  PetscCall(PetscCalloc2(nbodies, &motions, 8 * nbodies, &sums));
+  motions[b] = *motion;
+  PetscCall(VecDuplicate(way, &moved));
+  PetscCall(VecDuplicate(way, &force));
+  PetscCall(VertexPlacesMove(&p->model->places, NULL, motions, moved));
+  PetscCall(VecPointwiseMult(force, p->proximal, moved));
+  PetscCall(VecDot(way, force, &work));
+  PetscCall(VecDot(moved, force, &stiffness));
+  PetscCall(VertexPlacesSumForces(&p->model->places, force, force, nbodies, sums));
+  PetscCall(VertexPlacesSumForces(&p->model->places, all, all, nbodies, sums + 4 * nbodies));
+  part = PetscRealPart(stiffness) > 0.0 ? work / stiffness : 0.0;
+  if (PetscRealPart(stiffness) > 0.0 && PetscAbsScalar(part) * sums[4 * b + 3] <= most * sums[4 * (nbodies + b) + 3]) {
+    PetscCall(VecAXPY(way, -part, moved));
     p->glides = PETSC_TRUE;
   }
-  PetscCall(VecRestoreArray(way, &w));
-  PetscCall(VecRestoreArrayRead(p->proximal, &k));
-  PetscCall(VecRestoreArrayRead(all, &a));
-  PetscCall(VecRestoreArrayRead(p->model->places.x, &x));
+  PetscCall(VecDestroy(&force));
+  PetscCall(VecDestroy(&moved));
+  PetscCall(PetscFree2(motions, sums));
   PetscFunctionReturn(0);
 }
 
@@ -303,15 +287,18 @@ static PetscErrorCode ProximalReleaseGliding(StepProblem *p, Vec all, Vec way)
   PetscFunctionBegin;
   p->glides = PETSC_FALSE;
   for (PetscInt b = 0; b < p->model->scene->nbodies; ++b) {
-    const PetscInt naxes = rotations[b].any ? 3 : 1;
+    for (PetscInt k = 0; k < (rotations[b].any ? 3 : 1) && rotations[b].free; ++k) {
+      BodyMotion turn = {.w = {k == 0, k == 1, k == 2}};
 
-    for (PetscInt axis = 0; axis < naxes && rotations[b].free; ++axis) {
-      const PetscReal own[3] = {axis == 0, axis == 1, axis == 2};
-
-      PetscCall(ProximalRelease(p, b, naxes == 3 ? own : rotations[b].axis, rotations[b].point, torque, all, way));
+      if (!rotations[b].any) PetscCall(PetscArraycpy(turn.w, rotations[b].axis, 3));
+      PetscCall(PetscArraycpy(turn.center, rotations[b].point, 3));
+      PetscCall(ProximalRelease(p, b, &turn, torque, all, way));
     }
-    if (rotations[b].free && rotations[b].slides)
-      PetscCall(ProximalRelease(p, b, rotations[b].axis, NULL, axial, all, way));
+    if (rotations[b].free && rotations[b].slides) {
+      BodyMotion slide = {.t = {rotations[b].axis[0], rotations[b].axis[1], rotations[b].axis[2]}};
+
+      PetscCall(ProximalRelease(p, b, &slide, axial, all, way));
+    }
   }
   PetscFunctionReturn(0);
 }
