@@ -82,8 +82,7 @@ typedef struct {
    [force/length]. */
 PETSC_INTERN PetscErrorCode SpringsMeasureVolumes(const Bodies *, PetscReal volume[]);
 PETSC_INTERN PetscErrorCode SpringsMeasureStiffness(const Bodies *, PetscReal *largest);
-PETSC_INTERN PetscErrorCode SpringsDistribute(const Bodies *, const PetscReal density[], Vec stiffness);
-PETSC_INTERN PetscErrorCode SpringsOfSize(const Bodies *, PetscReal share, Vec stiffness);
+PETSC_INTERN PetscErrorCode SpringsDistribute(const Bodies *, const PetscReal modulus[], Vec stiffness);
 PETSC_INTERN PetscErrorCode SpringsCreate(const Bodies *, Springs *);
 PETSC_INTERN PetscErrorCode SpringsMeasure(const Springs *, Vec u, Vec *force, PetscReal *weak);
 PETSC_INTERN PetscErrorCode SpringsDestroy(Springs *);

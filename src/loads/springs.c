@@ -34,37 +34,29 @@ PetscErrorCode SpringsMeasureStiffness(const Bodies *bodies, PetscReal *largest)
   PetscFunctionReturn(0);
 }
 
-/* Computes a stiffness per row [force/length]. density[b]: stiffness of body b per volume [force/length^4] */
-PetscErrorCode SpringsDistribute(const Bodies *bodies, const PetscReal density[], Vec stiffness)
+/* Collective. Computes a stiffness per row [force/length]: that of body b is modulus[b] times its size, the cube root
+   of its volume, distributed to its nodes by volume. modulus: [force/length^2] */
+PetscErrorCode SpringsDistribute(const Bodies *bodies, const PetscReal modulus[], Vec stiffness)
 {
   const PetscScalar *m;
   PetscScalar       *k;
+  PetscReal         *volume;
   PetscInt           n;
 
   PetscFunctionBegin;
+  PetscCall(PetscMalloc1(bodies->scene->nbodies, &volume));
+  PetscCall(SpringsMeasureVolumes(bodies, volume));
   PetscCall(VecGetLocalSize(bodies->mass, &n));
   PetscCall(VecGetArrayRead(bodies->mass, &m));
   PetscCall(VecGetArrayWrite(stiffness, &k));
-  for (PetscInt i = 0; i < n; ++i) k[i] = density[bodies->places.body[i / 3]] * PetscRealPart(m[i]);
+  for (PetscInt i = 0; i < n; ++i) {
+    const PetscInt b = bodies->places.body[i / 3];
+
+    k[i] = volume[b] > 0.0 ? modulus[b] * PetscCbrtReal(volume[b]) / volume[b] * PetscRealPart(m[i]) : 0.0;
+  }
   PetscCall(VecRestoreArrayWrite(stiffness, &k));
   PetscCall(VecRestoreArrayRead(bodies->mass, &m));
-  PetscFunctionReturn(0);
-}
-
-/* Collective. Computes a stiffness per row: share x Young's modulus x size of each body, distributed to its vertices by
-   volume [force/length] */
-PetscErrorCode SpringsOfSize(const Bodies *bodies, PetscReal share, Vec stiffness)
-{
-  Scene      scene = bodies->scene;
-  PetscReal *volume, *density;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc2(scene->nbodies, &volume, scene->nbodies, &density));
-  PetscCall(SpringsMeasureVolumes(bodies, volume));
-  for (PetscInt b = 0; b < scene->nbodies; ++b)
-    density[b] = volume[b] > 0.0 ? share * scene->bodies[b].material.young * PetscCbrtReal(volume[b]) / volume[b] : 0.0;
-  PetscCall(SpringsDistribute(bodies, density, stiffness));
-  PetscCall(PetscFree2(volume, density));
+  PetscCall(PetscFree(volume));
   PetscFunctionReturn(0);
 }
 
@@ -99,18 +91,16 @@ static PetscErrorCode SpringsCreateWeak(const Bodies *bodies, const PetscBool un
 {
   const PetscInt   nbodies = bodies->scene->nbodies;
   const SceneBody *soft, *hard;
-  PetscReal       *volume, *density, modulus;
+  PetscReal       *modulus;
 
   PetscFunctionBegin;
   SceneFindStiffest(bodies->scene, &soft, &hard);
-  modulus = soft ? springs->softness * soft->material.young : 0.0;
-  PetscCall(PetscMalloc2(nbodies, &volume, nbodies, &density));
-  PetscCall(SpringsMeasureVolumes(bodies, volume));
+  PetscCall(PetscCalloc1(nbodies, &modulus));
   for (PetscInt b = 0; b < nbodies; ++b)
-    density[b] = unsupported[b] ? modulus * PetscCbrtReal(volume[b]) / volume[b] : 0.0;
+    if (unsupported[b] && soft) modulus[b] = springs->softness * soft->material.young;
   PetscCall(VecDuplicate(bodies->mass, &springs->weak));
-  PetscCall(SpringsDistribute(bodies, density, springs->weak));
-  PetscCall(PetscFree2(volume, density));
+  PetscCall(SpringsDistribute(bodies, modulus, springs->weak));
+  PetscCall(PetscFree(modulus));
   PetscFunctionReturn(0);
 }
 

@@ -33,18 +33,17 @@ static PetscErrorCode RigidFitFindFarthest(Scene scene, const VertexPlaces *plac
 static PetscErrorCode RigidFitGetMean(Model model, Vec v, PetscInt b, PetscReal *mean)
 {
   const PetscInt nbodies = model->scene->nbodies;
-  PetscReal     *sums, *counts;
+  PetscReal     *sums;
   Vec            ones;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc2(4 * nbodies, &sums, 3 * nbodies, &counts));
+  PetscCall(PetscMalloc1(4 * nbodies, &sums));
   PetscCall(VecDuplicate(v, &ones));
   PetscCall(VecSet(ones, 1.0));
-  PetscCall(VertexPlacesSum(&model->places, ones, nbodies, counts));
-  PetscCall(VertexPlacesSumForces(&model->places, v, v, nbodies, sums));
-  *mean = sums[4 * b + 3] / counts[3 * b];
+  PetscCall(VertexPlacesSumForces(&model->places, ones, v, nbodies, sums));
+  *mean = sums[4 * b + 3] / sums[4 * b];
   PetscCall(VecDestroy(&ones));
-  PetscCall(PetscFree2(sums, counts));
+  PetscCall(PetscFree(sums));
   PetscFunctionReturn(0);
 }
 

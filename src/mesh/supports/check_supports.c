@@ -43,7 +43,7 @@ static PetscBool SupportDescribe(const char name[], const PetscReal outside[6], 
 }
 
 /* Collective. Reports the bodies that have free modes */
-static PetscErrorCode SupportRaise(const Support *support, Scene scene, const PetscReal outside[])
+static PetscErrorCode SupportRaise(const Support *support, Scene scene)
 {
   const PetscInt most  = 4; /* number of bodies in the message */
   PetscInt       first = PETSC_DECIDE, n = 0;
@@ -51,7 +51,7 @@ static PetscErrorCode SupportRaise(const Support *support, Scene scene, const Pe
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
-    if (!SupportDescribe(scene->bodies[b].name, outside + 6 * b, body, sizeof(body))) continue;
+    if (!SupportDescribe(scene->bodies[b].name, support->outside[b], body, sizeof(body))) continue;
     if (first < 0) first = b;
     if (n && n < most) PetscCall(PetscStrlcat(text, "; ", sizeof(text)));
     if (n++ < most) PetscCall(PetscStrlcat(text, body, sizeof(text)));
@@ -90,38 +90,18 @@ static PetscErrorCode SupportCheckFacets(DM dm, const char what[], const void *o
   PetscFunctionReturn(0);
 }
 
-/* Computes outside[6 b + k], the free part of mode k of body b: the square of its projection onto the free motions */
-static PetscErrorCode SupportGetFree(const Support *support, PetscReal outside[])
+/* Collective. Reports the bodies with free modes as an error. Contact pairs are assumed closed. */
+static PetscErrorCode SupportCheckBodies(DM dm, Scene scene)
 {
+  Support  support;
   Mat      motions;
   PetscInt n;
 
   PetscFunctionBegin;
-  PetscCall(SupportFindFree(support, &n, &motions));
-  for (PetscInt k = 0; k < 6 * support->nbodies; ++k) {
-    const PetscScalar *values;
-
-    outside[k] = 0;
-    PetscCall(MatGetRow(motions, k, &n, NULL, &values));
-    for (PetscInt m = 0; m < n; ++m) outside[k] += PetscSqr(PetscRealPart(values[m]));
-    PetscCall(MatRestoreRow(motions, k, &n, NULL, &values));
-  }
-  PetscCall(MatDestroy(&motions));
-  PetscFunctionReturn(0);
-}
-
-/* Collective. Reports the bodies with free modes as an error. Contact pairs are assumed closed. */
-static PetscErrorCode SupportCheckBodies(DM dm, Scene scene)
-{
-  Support    support;
-  PetscReal *outside;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(6 * scene->nbodies, &outside));
   PetscCall(SupportCreate(dm, scene, NULL, SUPPORT_SLIDING, &support));
-  PetscCall(SupportGetFree(&support, outside));
-  PetscCall(SupportRaise(&support, scene, outside));
-  PetscCall(PetscFree(outside));
+  PetscCall(SupportFindFree(&support, &n, &motions));
+  PetscCall(SupportRaise(&support, scene));
+  PetscCall(MatDestroy(&motions));
   PetscCall(SupportDestroy(&support));
   PetscFunctionReturn(0);
 }
@@ -148,22 +128,21 @@ static PetscErrorCode SupportCheckBodies(DM dm, Scene scene)
 @*/
 PetscErrorCode MeshGetUnsupported(DM dm, Scene scene, PetscBool unsupported[], MeshRotation rotations[])
 {
-  Support    support;
-  PetscReal *outside;
+  Support  support;
+  Mat      motions = NULL;
+  PetscInt n;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(6 * scene->nbodies, &outside));
   PetscCall(SupportCreate(dm, scene, NULL, SUPPORT_SLIDING, &support));
   PetscCall(SupportFindGliding(&support, unsupported, rotations));
-  if (scene->weak_springs) PetscCall(SupportGetFree(&support, outside));
+  if (scene->weak_springs) PetscCall(SupportFindFree(&support, &n, &motions));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     if (!scene->weak_springs)
       unsupported[b] = (PetscBool)(rotations[b].free && scene->bodies[b].material.type != MATERIAL_RIGID);
-    for (PetscInt k = 6 * b; k < 6 * b + 6 && scene->weak_springs; ++k)
-      unsupported[b] = (PetscBool)(unsupported[b] || outside[k] > 2e-6);
+    else unsupported[b] = (PetscBool)(unsupported[b] || SupportFindFreest(support.outside[b]) >= 0);
   }
+  PetscCall(MatDestroy(&motions));
   PetscCall(SupportDestroy(&support));
-  PetscCall(PetscFree(outside));
   PetscFunctionReturn(0);
 }
 

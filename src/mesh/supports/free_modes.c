@@ -115,8 +115,8 @@ static void SupportGather(const Support *support, const PetscInt group[], PetscI
 
 /* Creates the n free motions on every rank: row 6 b + k has the coefficients of mode k of body b, one column for each
    motion, and then zeros. The motions of a group of bodies are orthonormal; those of different groups move different
-   bodies. */
-PetscErrorCode SupportFindFree(const Support *support, PetscInt *nmotions, Mat *motions)
+   bodies. Also computes `outside`. */
+PetscErrorCode SupportFindFree(Support *support, PetscInt *nmotions, Mat *motions)
 {
   const PetscInt nbodies = support->nbodies;
   PetscInt      *group, *place;
@@ -140,8 +140,12 @@ PetscErrorCode SupportFindFree(const Support *support, PetscInt *nmotions, Mat *
     SupportGather(support, group, first, place, n, matrix);
     PetscCall(SupportFindNull(n, matrix, &nfree));
     for (PetscInt i = 6 * first; i < 6 * nbodies; ++i) {
-      for (PetscInt k = 0; k < nfree && group[i / 6] == first; ++k)
-        PetscCall(MatSetValue(*motions, i, *nmotions + k, matrix[k * n + 6 * place[i / 6] + i % 6], INSERT_VALUES));
+      for (PetscInt k = 0; k < nfree && group[i / 6] == first; ++k) {
+        const PetscReal part = matrix[k * n + 6 * place[i / 6] + i % 6];
+
+        PetscCall(MatSetValue(*motions, i, *nmotions + k, part, INSERT_VALUES));
+        support->outside[i / 6][i % 6] += part * part;
+      }
     }
     *nmotions += nfree;
     PetscCall(PetscFree(matrix));

@@ -34,21 +34,17 @@ static PetscErrorCode SupportAddPoint(Support *support, const SceneDisplacement 
   PetscFunctionReturn(0);
 }
 
-/* Adds the restraints of a rigid body some of whose motions are released, on the first rank only. *released: whether
-   any motion is */
+/* Adds the restraints of a rigid body some of whose motions are released. *released: whether any motion is */
 static PetscErrorCode SupportAddRigid(Support *support, const SceneDisplacement *displacement, PetscInt b,
   PetscBool *released)
 {
-  PetscMPIInt rank;
-
   PetscFunctionBegin;
   *released = SceneFreesMotion(displacement);
-  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)support->dm), &rank));
-  for (PetscInt m = 0; *released && !rank && m < 6; ++m) {
+  for (PetscInt m = 0; *released && m < 6; ++m) {
     if (displacement->released[m]) continue;
     if (m < 3) SupportAddMotion(support, b, axes[m], displacement->center, 1);
     else support->row[m] = 1;
-    PetscCall(SupportAddRow(support, 1));
+    PetscCall(SupportAddRow(support, support->once));
   }
   PetscFunctionReturn(0);
 }
@@ -122,21 +118,18 @@ static PetscErrorCode SupportAddFaces(Support *support, Scene scene, SupportKind
   PetscFunctionReturn(0);
 }
 
-/* Adds the restraints of a cyclic symmetry, on the first rank: the only free motions of the body are the translation
+/* Adds the restraints of a cyclic symmetry: the only free motions of the body are the translation
    along the axis and the rotation about it */
 static PetscErrorCode SupportAddCyclic(Support *support, const SceneCyclic *cut)
 {
   SupportFace face;
-  PetscInt    least = 0;
-  PetscMPIInt rank;
+  PetscInt    least   = 0;
   PetscReal   axis[3] = {cut->axis[0], cut->axis[1], cut->axis[2]}, across[2][3];
 
   PetscFunctionBegin;
   PetscCall(SupportGetFace(support, cut->from, &face));
   PetscCall(SupportDestroyFace(&face));
   SupportBeginLink(support, face.body, PETSC_DECIDE, SUPPORT_FIXED);
-  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)support->dm), &rank));
-  if (rank) PetscFunctionReturn(0);
   (void)VectorScaleToUnit(axis);
   for (PetscInt d = 1; d < 3; ++d) least = PetscAbsReal(axis[d]) < PetscAbsReal(axis[least]) ? d : least;
   for (PetscInt d = 0; d < 3; ++d) across[0][d] = (d == least ? 1 : 0) - axis[least] * axis[d];
@@ -144,22 +137,19 @@ static PetscErrorCode SupportAddCyclic(Support *support, const SceneCyclic *cut)
   VectorCross(axis, across[0], across[1]);
   for (PetscInt k = 0; k < 2; ++k) {
     SupportAddMotion(support, face.body, across[k], cut->center, 1);
-    PetscCall(SupportAddRow(support, 1));
+    PetscCall(SupportAddRow(support, support->once));
     PetscCall(PetscArraycpy(support->row + 3, across[k], 3));
-    PetscCall(SupportAddRow(support, 1));
+    PetscCall(SupportAddRow(support, support->once));
   }
   PetscFunctionReturn(0);
 }
 
-/* Adds the restraints of a spring between two points, on the first rank only */
+/* Adds the restraints of a spring between two points */
 static PetscErrorCode SupportAddConnector(Support *support, const SceneConnector *connector)
 {
-  PetscMPIInt rank;
-
   PetscFunctionBegin;
   SupportBeginLink(support, connector->body, connector->to, SUPPORT_FIXED);
-  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)support->dm), &rank));
-  for (int m = 0; !rank && m < (connector->axial ? 1 : 3); ++m) {
+  for (int m = 0; m < (connector->axial ? 1 : 3); ++m) {
     PetscReal along[3] = {m == 0, m == 1, m == 2};
 
     if (!connector->axial && connector->value[m] == 0.0) continue;
@@ -167,23 +157,19 @@ static PetscErrorCode SupportAddConnector(Support *support, const SceneConnector
     (void)VectorScaleToUnit(along);
     SupportAddMotion(support, connector->body, along, connector->point[0], 1);
     if (connector->to >= 0) SupportAddMotion(support, connector->to, along, connector->point[1], -1);
-    PetscCall(SupportAddRow(support, 1));
+    PetscCall(SupportAddRow(support, support->once));
   }
   PetscFunctionReturn(0);
 }
 
-/* Adds the restraint of an equation between displacements of points, on the first rank only */
+/* Adds the restraint of an equation between displacements of points */
 static PetscErrorCode SupportAddEquation(Support *support, const SceneEquation *equation)
 {
-  PetscMPIInt rank;
-
   PetscFunctionBegin;
   SupportBeginLink(support, equation->body, equation->to, SUPPORT_FIXED);
-  PetscCallMPI(MPI_Comm_rank(PetscObjectComm((PetscObject)support->dm), &rank));
-  if (rank) PetscFunctionReturn(0);
   SupportAddMotion(support, equation->body, equation->direction[0], equation->point[0], 1);
   if (equation->to >= 0) SupportAddMotion(support, equation->to, equation->direction[1], equation->point[1], 1);
-  PetscCall(SupportAddRow(support, 1));
+  PetscCall(SupportAddRow(support, support->once));
   PetscFunctionReturn(0);
 }
 
@@ -221,15 +207,17 @@ PetscErrorCode SupportCreate(DM dm, Scene scene, Vec u, SupportKind most, Suppor
   const MPI_Comm comm   = PetscObjectComm((PetscObject)dm);
   const PetscInt nlinks = scene->ndisplacements + scene->nsprings + scene->nconnectors + scene->nequations +
                           scene->npairs + scene->nties + scene->ncyclic;
+  PetscMPIInt rank;
 
   PetscFunctionBegin;
-  *support = (Support){.dm = dm, .nbodies = scene->nbodies};
+  PetscCallMPI(MPI_Comm_rank(comm, &rank));
+  *support = (Support){.dm = dm, .nbodies = scene->nbodies, .once = rank ? 0 : 1};
   if (u) {
     PetscCall(DMCreateLocalVector(dm, &support->u));
     PetscCall(DMGlobalToLocal(dm, u, INSERT_VALUES, support->u));
   }
-  PetscCall(PetscCalloc5(scene->nbodies, &support->center, scene->nbodies, &support->size, nlinks, &support->links,
-    nlinks, &support->gram, scene->nbodies, &support->contact));
+  PetscCall(PetscCalloc6(scene->nbodies, &support->center, scene->nbodies, &support->size, nlinks, &support->links,
+    nlinks, &support->gram, scene->nbodies, &support->contact, scene->nbodies, &support->outside));
   PetscCall(SupportMeasureBodies(support));
   PetscCall(SupportAddScene(support, scene, most));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, support->gram,
@@ -243,6 +231,7 @@ PetscErrorCode SupportDestroy(Support *support)
 {
   PetscFunctionBegin;
   PetscCall(VecDestroy(&support->u));
-  PetscCall(PetscFree5(support->center, support->size, support->links, support->gram, support->contact));
+  PetscCall(
+    PetscFree6(support->center, support->size, support->links, support->gram, support->contact, support->outside));
   PetscFunctionReturn(0);
 }

@@ -35,7 +35,9 @@ typedef struct {
   SupportLink *links;
   PetscReal (*gram)[SUPPORT_BLOCK * SUPPORT_BLOCK]; /* for each link, the sum of the outer products of its rows */
   SupportContact *contact;                          /* [nbodies] */
-  PetscReal       row[SUPPORT_BLOCK];               /* row of the last link that is being computed */
+  PetscReal (*outside)[6]; /* free part of each mode of each body: the square of its projection onto the free motions */
+  PetscReal once;          /* weight of a row that all ranks know: 1 on the first rank, 0 on the others */
+  PetscReal row[SUPPORT_BLOCK]; /* row of the last link that is being computed */
 } Support;
 
 /* links.c: positions of vertices; sizes of the bodies (collective); restraints as rows, which are added to the link
@@ -78,7 +80,7 @@ PETSC_INTERN PetscErrorCode SupportDestroy(Support *);
 /* free_modes.c: the motions that no link prevents */
 PETSC_INTERN void           SupportAddBlock(const Support *, PetscInt link, PetscInt end, PetscReal block[36]);
 PETSC_INTERN PetscErrorCode SupportFindNull(PetscInt n, PetscReal matrix[], PetscInt *nfree);
-PETSC_INTERN PetscErrorCode SupportFindFree(const Support *, PetscInt *n, Mat *motions);
+PETSC_INTERN PetscErrorCode SupportFindFree(Support *, PetscInt *n, Mat *motions);
 
 /* gliding.c: bodies that glide along their contact faces if all others are held */
 PETSC_INTERN PetscErrorCode SupportFindGliding(const Support *, PetscBool glides[], MeshRotation rotations[]);

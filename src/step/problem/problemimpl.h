@@ -78,7 +78,7 @@ typedef struct {
   char      *failed;           /* reason for which the solve before the proximal term was added failed; NULL:
                                         no such failure */
   PetscBool  holds_weak;       /* true if the proximal term holds bodies on weak springs */
-  PetscReal *weak_density;     /* stiffness of this term per volume of each body [force/length^4]; NULL: no such term */
+  PetscReal *weak_modulus;     /* modulus of this term of each body, see SpringsDistribute(); NULL: no such term */
   PetscBool  glides;           /* true if this term holds a body in a motion that no contact resists */
   PetscReal  carried;          /* force of the proximal term after the last solve [force] */
   PetscReal  tolerance;        /* relative KKT error to which the present linearization is solved; 0: that of

@@ -41,25 +41,6 @@ PetscErrorCode ProximalAdd(const StepProblem *p, Vec x, PetscReal *energy, Vec f
   PetscFunctionReturn(0);
 }
 
-/*
-   Computes the force of the proximal term at x (`proximal`) and that of the deformation (`elastic`) in new vectors.
-   norms: 2-norms of both [force].
-*/
-static PetscErrorCode ProximalGetForces(const StepProblem *p, Vec x, Vec *proximal, Vec *elastic, PetscReal norms[2])
-{
-  PetscReal energy = 0.0;
-
-  PetscFunctionBegin;
-  PetscCall(VecDuplicate(x, proximal));
-  PetscCall(VecDuplicate(x, elastic));
-  PetscCall(VecZeroEntries(*proximal));
-  PetscCall(ProximalAdd(p, x, &energy, *proximal));
-  PetscCall(ElasticityForce(p->model->elasticity, x, *elastic));
-  PetscCall(VecNorm(*proximal, NORM_2, &norms[0]));
-  PetscCall(VecNorm(*elastic, NORM_2, &norms[1]));
-  PetscFunctionReturn(0);
-}
-
 /* Moves the centre to x, and updates energy and force at p->base of the quadratic model. */
 static PetscErrorCode ProximalCentre(StepProblem *p, Vec x)
 {
@@ -89,12 +70,12 @@ PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
 }
 
 /*
-   Computes the stiffness per volume of the proximal term of each body on weak springs at the displacement u. The
-   stiffness is the sum of the magnitudes of the nodal forces on the body, divided by its size, the cube root of its
-   volume. Before the first solve contact forces are not known, and the largest sum of all bodies is taken. density[b]:
-   0 for bodies without weak springs [force/length^4]
+   Computes the modulus, see SpringsDistribute(), of the proximal term of each body on weak springs at the displacement
+   u: the sum of the magnitudes of the nodal forces on the body, divided by the square of its size. Before the first
+   solve contact forces are not known, and the largest sum of all bodies is taken. modulus[b]: 0 for bodies without weak
+   springs [force/length^2]
 */
-static PetscErrorCode ProximalGetWeakDensity(const StepProblem *p, Vec u, PetscReal density[])
+static PetscErrorCode ProximalGetWeakModulus(const StepProblem *p, Vec u, PetscReal modulus[])
 {
   const Bodies   bodies  = ModelBodies(p->model);
   const PetscInt nbodies = p->model->scene->nbodies;
@@ -110,27 +91,26 @@ static PetscErrorCode ProximalGetWeakDensity(const StepProblem *p, Vec u, PetscR
   PetscCall(SpringsMeasureVolumes(&bodies, volume));
   for (PetscInt b = 0; b < nbodies; ++b) largest = PetscMax(largest, sums[4 * b + 3]);
   for (PetscInt b = 0; b < nbodies; ++b) {
-    const PetscReal sum = p->weak_density ? sums[4 * b + 3] : largest;
+    const PetscReal sum = p->weak_modulus ? sums[4 * b + 3] : largest;
 
-    density[b] = VectorNorm(&sums[4 * b]) > 0.0 ? sum / (PetscCbrtReal(volume[b]) * volume[b]) : 0.0;
+    modulus[b] = VectorNorm(&sums[4 * b]) > 0.0 ? sum / PetscSqr(PetscCbrtReal(volume[b])) : 0.0;
   }
   PetscCall(VecDestroy(&force));
   PetscCall(PetscFree2(sums, volume));
   PetscFunctionReturn(0);
 }
 
-/* Adds a proximal term with the centre at p->base. weak: its stiffness per volume for each body on weak
-   springs; NULL: all bodies get the term */
-static PetscErrorCode ProximalCreate(StepProblem *p, const PetscReal weak[])
+/* Adds a proximal term with the centre at p->base. modulus: see SpringsDistribute(); weak: whether the term is that of
+   bodies on weak springs */
+static PetscErrorCode ProximalCreate(StepProblem *p, const PetscReal modulus[], PetscBool weak)
 {
   const Bodies bodies = ModelBodies(p->model);
   Mat          K;
 
   PetscFunctionBegin;
-  p->holds_weak = (PetscBool)(weak != NULL);
+  p->holds_weak = weak;
   PetscCall(VecDuplicate(p->base, &p->proximal));
-  if (weak) PetscCall(SpringsDistribute(&bodies, weak, p->proximal));
-  else PetscCall(SpringsOfSize(&bodies, friction_stiffness, p->proximal));
+  PetscCall(SpringsDistribute(&bodies, modulus, p->proximal));
   PetscCall(PrescribedSet(&p->model->prescribed, 0.0, p->proximal));
   PetscCall(TiesSet(&p->model->ties, 0.0, p->proximal));
   if (p->model->quadratic) {
@@ -150,7 +130,7 @@ PetscErrorCode ProximalEnd(StepProblem *p)
   PetscCall(VecDestroy(&p->centre));
   PetscCall(VecDestroy(&p->proximal));
   PetscCall(PetscFree(p->failed));
-  PetscCall(PetscFree(p->weak_density));
+  PetscCall(PetscFree(p->weak_modulus));
   PetscFunctionReturn(0);
 }
 
@@ -172,25 +152,25 @@ static PetscBool ProximalHoldsWeak(const StepProblem *p)
 static PetscErrorCode ProximalHoldWeak(StepProblem *p, Vec u)
 {
   const PetscInt nbodies = p->model->scene->nbodies;
-  PetscReal     *density;
-  PetscBool      same = (PetscBool)(p->weak_density != NULL);
+  PetscReal     *modulus;
+  PetscBool      same = (PetscBool)(p->weak_modulus != NULL);
 
   PetscFunctionBegin;
   if (!ProximalHoldsWeak(p)) PetscFunctionReturn(0);
-  PetscCall(PetscMalloc1(nbodies, &density));
-  PetscCall(ProximalGetWeakDensity(p, u, density));
-  for (PetscInt b = 0; b < nbodies && p->weak_density; ++b) {
-    const PetscReal last = p->weak_density[b];
+  PetscCall(PetscMalloc1(nbodies, &modulus));
+  PetscCall(ProximalGetWeakModulus(p, u, modulus));
+  for (PetscInt b = 0; b < nbodies && p->weak_modulus; ++b) {
+    const PetscReal last = p->weak_modulus[b];
 
-    if (density[b] == 0.0) density[b] = last; /* the body has no contact for now */
-    same = (PetscBool)(same && density[b] <= growth * last && last <= growth * density[b]);
+    if (modulus[b] == 0.0) modulus[b] = last; /* the body has no contact for now */
+    same = (PetscBool)(same && modulus[b] <= growth * last && last <= growth * modulus[b]);
   }
   if (!same) {
     if (p->centre) PetscCall(ProximalCentre(p, p->base)); /* removes the old term from energy and force */
     PetscCall(ProximalEnd(p));
-    PetscCall(ProximalCreate(p, density));
-    p->weak_density = density;
-  } else PetscCall(PetscFree(density));
+    PetscCall(ProximalCreate(p, modulus, PETSC_TRUE));
+    p->weak_modulus = modulus;
+  } else PetscCall(PetscFree(modulus));
   PetscFunctionReturn(0);
 }
 
@@ -227,13 +207,19 @@ PetscErrorCode ProximalTurn(StepProblem *p, Vec u)
 */
 PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBool *again)
 {
+  const PetscInt nbodies = p->model->scene->nbodies;
+  PetscReal     *modulus;
+
   PetscFunctionBegin;
   *again =
     (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->unsupported && !p->flowing &&
                 !p->state->control->interrupted && EnergyIsFinite(p->energy) && !ModelIsDynamic(p->model));
   if (!*again) PetscFunctionReturn(0);
   PetscCall(PetscStrallocpy(report->reason, &p->failed));
-  PetscCall(ProximalCreate(p, NULL));
+  PetscCall(PetscMalloc1(nbodies, &modulus));
+  for (PetscInt b = 0; b < nbodies; ++b) modulus[b] = friction_stiffness * p->model->scene->bodies[b].material.young;
+  PetscCall(ProximalCreate(p, modulus, PETSC_FALSE));
+  PetscCall(PetscFree(modulus));
   PetscCall(VecCopy(p->base, u));
   PetscFunctionReturn(0);
 }
@@ -304,6 +290,24 @@ static PetscErrorCode ProximalReleaseGliding(StepProblem *p, Vec all, Vec way)
 }
 
 /*
+   Computes the force of the proximal term at x (`proximal`), without motions of bodies on weak springs that no contact
+   resists, and that of the deformation (`elastic`) in new vectors. norms: 2-norms of both [force].
+*/
+static PetscErrorCode ProximalGetForces(StepProblem *p, Vec x, Vec *proximal, Vec *elastic, PetscReal norms[2])
+{
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(x, proximal));
+  PetscCall(VecDuplicate(x, elastic));
+  PetscCall(ElasticityForce(p->model->elasticity, x, *elastic));
+  PetscCall(VecWAXPY(*proximal, -1.0, p->centre, x));
+  if (p->holds_weak) PetscCall(ProximalReleaseGliding(p, *elastic, *proximal));
+  PetscCall(VecPointwiseMult(*proximal, p->proximal, *proximal));
+  PetscCall(VecNorm(*proximal, NORM_2, &norms[0]));
+  PetscCall(VecNorm(*elastic, NORM_2, &norms[1]));
+  PetscFunctionReturn(0);
+}
+
+/*
    Moves the centre to u_linearized, at which the gap is linearized, if the term holds bodies on weak springs. Motions
    that no contact resists remain as they are.
 */
@@ -355,18 +359,12 @@ static PetscErrorCode ProximalCompareResultants(const StepProblem *p, Vec force,
 PetscErrorCode ProximalMeasure(StepProblem *p, Vec u, PetscReal *fraction)
 {
   PetscReal norms[2], resultant;
-  Vec       force, all, way;
+  Vec       force, all;
 
   PetscFunctionBegin;
   *fraction = 0.0;
   if (!p->holds_weak) PetscFunctionReturn(0);
   PetscCall(ProximalGetForces(p, u, &force, &all, norms));
-  PetscCall(VecDuplicate(u, &way));
-  PetscCall(VecWAXPY(way, -1.0, p->centre, u));
-  PetscCall(ProximalReleaseGliding(p, all, way));
-  PetscCall(VecPointwiseMult(force, p->proximal, way));
-  PetscCall(VecDestroy(&way));
-  PetscCall(VecNorm(force, NORM_2, &norms[0]));
   PetscCall(ProximalCompareResultants(p, force, all, &resultant));
   PetscCall(VecDestroy(&force));
   PetscCall(VecDestroy(&all));
