@@ -1,6 +1,5 @@
 /* The mass matrix, nodes without mass, momentum and kinetic energy */
 #include "dynamicsimpl.h"
-#include <vector3.h>
 #include <mesh.h>
 
 /* Returns whether the nodes of a face have no mass because of a contact pair */
@@ -103,37 +102,27 @@ PetscErrorCode MassGetCentres(const Constraints *c, const Dynamics *d, PetscReal
 PetscErrorCode MassMeasure(const Constraints *c, const Dynamics *d, Vec u, PetscReal *kinetic, PetscReal momentum[3],
   PetscReal spin[3])
 {
-  const PetscScalar *p, *x, *a;
-  PetscReal          sums[6] = {0};
-  PetscScalar        twice;
-  PetscInt           n;
-  Vec                product;
+  const PetscInt nbodies = c->bodies.scene->nbodies;
+  PetscScalar    twice, sum;
+  BodyMotion    *motions;
+  Vec            product, moved;
 
   PetscFunctionBegin;
+  PetscCall(PetscMalloc1(nbodies, &motions));
   PetscCall(VecDuplicate(u, &product));
+  PetscCall(VecDuplicate(u, &moved));
   PetscCall(MatMult(d->mass, d->velocity, product));
   PetscCall(VecDot(product, d->velocity, &twice));
-  PetscCall(VecGetLocalSize(u, &n));
-  PetscCall(VecGetArrayRead(product, &p));
-  PetscCall(VecGetArrayRead(u, &a));
-  PetscCall(VecGetArrayRead(c->bodies.places.x, &x));
-  for (PetscInt i = 0; i < n; i += 3) {
-    PetscReal y[3], q[3];
-
-    for (PetscInt k = 0; k < 3; ++k) {
-      y[k] = PetscRealPart(x[i + k] + a[i + k]);
-      q[k] = PetscRealPart(p[i + k]);
-      sums[k] += q[k];
-    }
-    VectorAddCross(y, q, sums + 3);
-  }
-  PetscCall(VecRestoreArrayRead(c->bodies.places.x, &x));
-  PetscCall(VecRestoreArrayRead(u, &a));
-  PetscCall(VecRestoreArrayRead(product, &p));
-  PetscCall(VecDestroy(&product));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPIU_REAL, MPIU_SUM, c->bodies.comm));
   *kinetic = 0.5 * PetscRealPart(twice);
-  PetscCall(PetscArraycpy(momentum, sums, 3));
-  PetscCall(PetscArraycpy(spin, sums + 3, 3));
+  for (PetscInt k = 0; k < 6; ++k) { /* products with unit translations and rotations of all bodies */
+    for (PetscInt b = 0; b < nbodies; ++b)
+      motions[b] = (BodyMotion){.t = {k == 0, k == 1, k == 2}, .w = {k == 3, k == 4, k == 5}};
+    PetscCall(VertexPlacesMove(&c->bodies.places, u, motions, moved));
+    PetscCall(VecDot(product, moved, &sum));
+    (k < 3 ? momentum : spin)[k % 3] = PetscRealPart(sum);
+  }
+  PetscCall(VecDestroy(&moved));
+  PetscCall(VecDestroy(&product));
+  PetscCall(PetscFree(motions));
   PetscFunctionReturn(0);
 }

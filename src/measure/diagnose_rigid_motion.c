@@ -10,25 +10,6 @@ typedef struct {
   PetscReal  residual; /* mean distance of the displacements from the motion, relative to that of the displacements */
 } RigidFit;
 
-/* Finds the body with the largest displacement component, and that component. Collective. */
-static PetscErrorCode RigidFitFindFarthest(Scene scene, const VertexPlaces *places, Vec u, PetscInt *farthest,
-  PetscReal *distance)
-{
-  const PetscInt nbodies = scene->nbodies;
-  PetscReal     *largest;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(nbodies, &largest));
-  PetscCall(VertexPlacesLargest(places, u, nbodies, largest));
-  *farthest = 0;
-  for (PetscInt b = 1; b < nbodies; ++b) {
-    if (largest[b] > largest[*farthest]) *farthest = b;
-  }
-  *distance = largest[*farthest];
-  PetscCall(PetscFree(largest));
-  PetscFunctionReturn(0);
-}
-
 /* Collective. Computes the mean over the nodes of body b of the magnitude of a vector */
 static PetscErrorCode RigidFitGetMean(Model model, Vec v, PetscInt b, PetscReal *mean)
 {
@@ -128,14 +109,19 @@ static PetscErrorCode RigidFitDescribe(const RigidFit *fit, PetscReal distance, 
 */
 PetscErrorCode RigidMotionReport(Model model, Vec u, const char known[], const char turning[], StepReport *report)
 {
-  RigidFit  fit;
-  PetscReal distance = 0.0;
-  PetscInt  body     = 0;
-  char      motion[256];
-  PetscBool turns;
+  const PetscInt nbodies = model->scene->nbodies;
+  RigidFit       fit;
+  PetscReal     *largest, distance;
+  PetscInt       body = 0;
+  char           motion[256];
+  PetscBool      turns;
 
   PetscFunctionBegin;
-  PetscCall(RigidFitFindFarthest(model->scene, &model->places, u, &body, &distance));
+  PetscCall(PetscMalloc1(nbodies, &largest));
+  PetscCall(VertexPlacesLargest(&model->places, u, nbodies, largest));
+  for (PetscInt b = 1; b < nbodies; ++b) body = largest[b] > largest[body] ? b : body;
+  distance = largest[body];
+  PetscCall(PetscFree(largest));
   PetscCall(RigidFitFind(model, u, body, distance, &fit));
   PetscCall(RigidFitDescribe(&fit, distance, motion, sizeof(motion), &turns));
   PetscCall(ReportReason(report, PETSC_FALSE, "%s; body \"%s\" %s: %s%s", report->reason,
