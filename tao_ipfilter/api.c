@@ -301,9 +301,8 @@ PetscErrorCode TaoIPFilterSetPrimalMass(Tao tao, Vec mass)
 
   Notes:
   Where unknowns are added to much larger numbers, such as displacements to coordinates, violations of the constraints
-  have rounding errors that do not vanish with the unknowns. Violations of this size, and forces that a displacement of
-  this size causes if the objective is not quadratic, count as zero. Without it a solution that vanishes is never
-  accurate enough.
+  have rounding errors that do not vanish with the unknowns. Violations of this size count as zero, as do forces that
+  a change of the unknowns by this size causes. Without it a solution that vanishes is never accurate enough.
 
 .seealso: `TAOIPFILTER`, `TaoSetTolerances()`
 @*/

@@ -186,7 +186,7 @@ static PetscErrorCode ErrorBoundRounding(Tao tao, PetscReal *energy)
   PetscReal       stiffness, forces = 0.0;
 
   PetscFunctionBegin;
-  if (rounding == 0.0 || ip->method->constant) PetscFunctionReturn(0);
+  if (rounding == 0.0) PetscFunctionReturn(0);
   PetscCall(VecNorm(ip->stiff->hdiag, NORM_1, &stiffness));
   if (ip->mi) PetscCall(ErrorBoundProduct(ip->at.lambda, ip->pair[IP_SLACK].w, &forces));
   *energy =

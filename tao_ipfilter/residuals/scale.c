@@ -98,7 +98,7 @@ static PetscErrorCode DualScale(Tao tao)
   PetscCall(VecNorm(ip->stiff->hdiag, NORM_2, &stiffness));
   ip->scale->dual = Within(first, IP_AMPLE * PetscMax(terms, IP_VANISHING * ip->first->x * stiffness));
   if (limited) ip->scale->dual = PetscMax(ip->scale->dual, norm);
-  if (!ip->method->constant) terms = PetscMax(terms, ip->given->rounding * stiffness / rounding);
+  terms           = PetscMax(terms, ip->given->rounding * stiffness / rounding);
   ip->scale->dual = PetscMax(ip->scale->dual, PetscMax(rounding * terms, least * ip->first->gradient) / ip->tol);
   PetscFunctionReturn(0);
 }

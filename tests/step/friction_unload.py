@@ -88,6 +88,9 @@ def check_run(file, name):
     say(f"{file}: the same force when pressed again", done
         and abs(normal_force(steps[AGAIN[name]]) / normal_force(steps[0]) - 1) < 5e-3,
         [normal_force(step) for step in steps])
+    if name == "die":
+        iterations = [step["ip_iterations"] for step in steps]
+        say(f"{file}: to zero load in few iterations", max(iterations) <= 30, iterations)
 
 
 if __name__ == "__main__":

@@ -40,21 +40,21 @@ static PetscErrorCode OptimizerSetTolerance(StepProblem *p, PetscBool ours, Tao 
 }
 
 /*
-   Tells the optimizer how large the rounding errors of a gap are, which are those of coordinates. Elastic bodies of
-   small strain may move by less.
+   Tells the optimizer how large the rounding errors of a gap are. They are a trace of the largest motion of the load
+   path: a load step that returns to zero has no size of its own. They are at least those of coordinates, except for
+   elastic bodies of small strain, which may move by less.
 */
-static PetscErrorCode OptimizerSetRounding(Model model, Tao tao)
+static PetscErrorCode OptimizerSetRounding(Model model, const LoadPath *path, Tao tao)
 {
-  const PetscReal relative = 4.0 * PETSC_MACHINE_EPSILON;
-  PetscReal       place;
+  const PetscReal relative = 4.0 * PETSC_MACHINE_EPSILON, trace = 1e-13;
+  PetscReal       place   = 0.0;
   PetscBool       elastic = PETSC_FALSE;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < model->scene->nbodies; ++b)
     elastic = (PetscBool)(elastic || model->scene->bodies[b].material.type != MATERIAL_RIGID);
-  if (model->quadratic && elastic) PetscFunctionReturn(0);
-  PetscCall(VecNorm(model->places.x, NORM_INFINITY, &place));
-  PetscCall(TaoIPFilterSetRounding(tao, relative * place));
+  if (!model->quadratic || !elastic) PetscCall(VecNorm(model->places.x, NORM_INFINITY, &place));
+  PetscCall(TaoIPFilterSetRounding(tao, PetscMax(relative * place, trace * path->largest_increment)));
   PetscFunctionReturn(0);
 }
 
@@ -122,7 +122,7 @@ PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
     "contact_stiffness needs -tao_type ipfilter; other optimizers do not support it");
   PetscCheck(*ours || !p->friction.T, p->model->comm, PETSC_ERR_SUP,
     "friction needs -tao_type ipfilter; other optimizers do not support it");
-  PetscCall(OptimizerSetRounding(p->model, *tao));
+  PetscCall(OptimizerSetRounding(p->model, p->state->path, *tao));
   PetscCall(TaoIPFilterSetDefinite(*tao, (PetscBool)(p->quadratic && ModelIsDynamic(p->model)))); /* by inertia */
   PetscCall(TaoMonitorSet(*tao, InterruptMonitor, sim, NULL));
   PetscCall(TaoIPFilterSetInterrupt(*tao, InterruptCaught, NULL));
