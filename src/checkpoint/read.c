@@ -1,6 +1,7 @@
 /* Restores a checkpoint on the mesh for which it was written, or on another mesh of the same bodies. */
 #include "checkpointimpl.h"
 #include <mesh.h>
+#include <petsclayouthdf5.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -169,15 +170,13 @@ static PetscErrorCode RestartReadNumbers(Restart *r, Checkpoint checkpoint)
 static PetscErrorCode RestartIsSame(Restart *r, PetscBool *same)
 {
   const PetscInt     n = r->output->nowned;
-  PetscInt           size;
   Vec                stored;
   const PetscScalar *s;
 
   PetscFunctionBegin;
-  PetscCall(RestartLoad(r, "vertices", PETSC_DECIDE, 3, &stored));
-  PetscCall(VecGetSize(stored, &size));
-  PetscCall(VecDestroy(&stored));
-  *same = (PetscBool)(size == 3 * r->output->nvertices);
+  PetscCall(PetscViewerHDF5ReadSizes(r->viewer, "vertices", NULL, &r->mesh.nvertices));
+  r->mesh.nvertices /= 3;
+  *same = (PetscBool)(r->mesh.nvertices == r->output->nvertices);
   if (!*same) PetscFunctionReturn(0);
   PetscCall(RestartLoad(r, "vertices", n, 3, &stored));
   PetscCall(VecGetArrayRead(stored, &s));
@@ -241,8 +240,6 @@ static PetscErrorCode RestartLoadMesh(Restart *r)
   PetscCall(RestartLoadIndices(r, mixed ? "mixed_cells" : "cells", &mesh->cells));
   PetscCall(RestartLoadIndices(r, "body", &mesh->body));
   PetscCall(ISGetLocalSize(mesh->body, &mesh->ncells));
-  PetscCall(VecGetLocalSize(mesh->vertices, &mesh->nvertices));
-  mesh->nvertices /= 3;
   PetscCall(VecGetArrayRead(mesh->vertices, &mesh->x));
   PetscCall(ISGetIndices(mesh->cells, &mesh->c));
   PetscCall(ISGetIndices(mesh->body, &mesh->b));
@@ -298,12 +295,12 @@ static PetscErrorCode RestartReadField(Restart *r, const char name[], PetscInt c
 
   PetscFunctionBegin;
   PetscCall(CheckpointAddField(checkpoint, name, components, r->output->nowned, &values));
+  PetscCall(PetscViewerHDF5ReadSizes(r->viewer, name, NULL, &size));
+  PetscCheck(size == components * r->mesh.nvertices, r->comm, PETSC_ERR_FILE_UNEXPECTED,
+    "it is damaged: its %s has %" PetscInt_FMT " values for %" PetscInt_FMT " vertices", name, size, r->mesh.nvertices);
   if (r->locator) PetscCall(RestartLoadAll(r, name, components, &stored));
   else PetscCall(RestartLoad(r, name, r->output->nowned, components, &stored));
   PetscCall(RestartCheckNumbers(r, name, stored));
-  PetscCall(VecGetSize(stored, &size));
-  PetscCheck(!r->locator || size == components * r->mesh.nvertices, r->comm, PETSC_ERR_FILE_UNEXPECTED,
-    "it is damaged: its %s has %" PetscInt_FMT " values for %" PetscInt_FMT " vertices", name, size, r->mesh.nvertices);
   PetscCall(VecGetArrayRead(stored, &s));
   if (r->locator) {
     PetscCall(MeshLocatorGetPlaces(r->locator, &places));

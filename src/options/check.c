@@ -20,7 +20,8 @@ static PetscErrorCode OptionsGuess(const char name[], size_t length, char guess[
   PetscFunctionReturn(0);
 }
 
-/* Finds whether PETSc can read the value as one of this kind */
+/* Finds whether PETSc can read the value as one of this kind. NaN is no number: PETSc 3.25 refuses it without the name
+   of the option. */
 static PetscErrorCode OptionValueIsGood(OptionKind kind, const char value[], PetscBool *good)
 {
   PetscErrorCode ierr = 0;
@@ -34,7 +35,7 @@ static PetscErrorCode OptionValueIsGood(OptionKind kind, const char value[], Pet
   if (kind == OPTION_COUNT) ierr = PetscOptionsStringToInt(value, &count);
   if (kind == OPTION_NUMBER) ierr = PetscOptionsStringToReal(value, &number);
   PetscCall(PetscPopErrorHandler());
-  *good = ierr ? PETSC_FALSE : PETSC_TRUE;
+  *good = (PetscBool)(!ierr && !(kind == OPTION_NUMBER && PetscIsNanReal(number)));
   PetscFunctionReturn(0);
 }
 

@@ -122,7 +122,7 @@ try press.yaml -restart whole.h5
 try press.yaml -restart press.yaml
 try press.yaml -restart nowhere.h5
 head -c 3000 press.h5 > torn.h5
-try press.yaml -restart torn.h5 | sed "s/of its $(stat -c %s press.h5) bytes/of all its bytes/"
+try press.yaml -restart torn.h5 | sed "s/instead of $(stat -c %s press.h5)$/instead of all of them/"
 try press.yaml -restart press.h5 -accuracy 0.1
 try press.yaml -checkpoint_every 1 -checkpoint nowhere/press.h5
 # Numbers and sizes of a file that is damaged, on the mesh that it is of and on a refined one
@@ -178,7 +178,9 @@ whole[root:root + 8] = bytes(8 * [255])
 with open("bad_root.h5", "wb") as file:
     file.write(whole)
 PY
-for name in root earlier step time previous_time increment work field value; do
+# Which call of HDF5 fails is PETSc's affair
+try press.yaml -restart bad_root.h5 | sed 's/Error in HDF5 call .*/Error in HDF5 call .../'
+for name in earlier step time previous_time increment work field value; do
   try press.yaml -restart bad_$name.h5; done
 for name in cells body vertex field value place; do
   try press.yaml -restart bad_$name.h5 -refine 1
@@ -197,7 +199,7 @@ refuse() {
 }
 refuse press.yaml -restart nowhere.h5
 refuse other.yaml -restart press.h5
-refuse press.yaml -restart torn.h5 | sed "s/of its $(stat -c %s press.h5) bytes/of all its bytes/"
+refuse press.yaml -restart torn.h5 | sed "s/instead of $(stat -c %s press.h5)$/instead of all of them/"
 refuse press.yaml -load_steps 3 -restart press.h5
 refuse press.yaml -restart earlier_state.h5
 refuse press.yaml -restart press.h5 -refin 1

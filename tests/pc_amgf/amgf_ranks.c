@@ -188,6 +188,6 @@ int main(int argc, char **argv)
       suffix: view
       nsize: 3
       args: -view
-      filter: grep -E "parent_size|package used|type: telescope"
+      filter: grep -oE "type: telescope|parent_size.*|package used.*"
 
 TEST*/
