@@ -338,11 +338,11 @@ static PetscErrorCode SubspaceAddDirection(Tao tao, IPRecycle *recycle, Vec r, P
 
 /*
    Computes r = -ip->rx, set to zero on W. *exact: false if the reduced problem was not solved exactly, that is, r was
-   not small on W, works on a given motion, or the constraints are violated. The cause is rounding, or a problem that is
-   not quadratic. Violations that remain after the problem was centred again are ignored: a body that rests on a rigid
-   one does not move before there are directions, so that its violations have no scale.
+   not small on W, or the constraints are violated. The cause is rounding, or a problem that is not quadratic.
+   Violations that remain after the problem was centred again are ignored: a body that rests on a rigid one does not
+   move before there are directions, so that its violations have no scale.
 */
-static PetscErrorCode SubspaceResidual(Tao tao, const IPBasis *basis, Vec r, PetscBool *exact)
+static PetscErrorCode SubspaceResidual(Tao tao, Vec r, PetscBool *exact)
 {
   TAO_IPFILTER     *ip       = (TAO_IPFILTER *)tao->data;
   const IPSubspace *f        = IPSubspaceOf(tao);
@@ -357,7 +357,6 @@ static PetscErrorCode SubspaceResidual(Tao tao, const IPBasis *basis, Vec r, Pet
   *exact = (PetscBool)(off > 0.5 * all && (f->ncentred || PetscMax(ip->kkt->primal, ip->kkt->complementarity) <=
                                                             PetscMax(ip->tol, ip->kkt->dual)));
   if (f->nfutile && f->nfutile % for_long == 0) *exact = PETSC_FALSE;
-  if (*exact && !f->ncentred) PetscCall(IPModesAreBalanced(tao, basis, r, exact));
   PetscFunctionReturn(0);
 }
 
@@ -381,7 +380,7 @@ static PetscErrorCode SubspaceStep(Tao tao, PetscBool *done)
   *done = (PetscBool)(IPSubspaceProgresses(f, IPBothErrors(ip), patience) && *done);
   PetscCall(IPRecycleGet(tao, &recycle));
   PetscCall(IPGetWork(tao, IP_UNKNOWNS, &r));
-  PetscCall(SubspaceResidual(tao, &recycle->basis, r, &exact));
+  PetscCall(SubspaceResidual(tao, r, &exact));
   if (*done && exact) PetscCall(SubspaceAddDirection(tao, recycle, r, done));
   f->ncentred = exact ? 0 : f->ncentred + 1;
   if (f->ncentred > in_a_row) *done = PETSC_FALSE;

@@ -62,36 +62,3 @@ PetscErrorCode IPModesAppend(Tao tao, IPRecycle *recycle)
   basis->has_modes = PETSC_TRUE;
   PetscFunctionReturn(0);
 }
-
-/*
-   Finds whether the residual r does no work on the motions, compared with their lengths and its own. It does none if
-   the reduced problem was solved exactly.
-*/
-PetscErrorCode IPModesAreBalanced(Tao tao, const IPBasis *basis, Vec r, PetscBool *balanced)
-{
-  const PetscReal most  = 0.1;
-  const Mat       modes = ModesGet(tao);
-  PetscReal      *length, norm, largest = 0.0;
-  PetscScalar    *w;
-  PetscInt        n, start, end;
-  Vec             work;
-
-  PetscFunctionBegin;
-  *balanced = PETSC_TRUE;
-  if (!modes || !basis->has_modes) PetscFunctionReturn(0);
-  PetscCall(MatGetSize(modes, NULL, &n));
-  PetscCall(MatCreateVecs(modes, &work, NULL));
-  PetscCall(PetscMalloc1(n, &length));
-  PetscCall(MatGetColumnNorms(modes, NORM_2, length));
-  PetscCall(MatMultTranspose(modes, r, work));
-  PetscCall(VecGetOwnershipRange(work, &start, &end));
-  PetscCall(VecGetArray(work, &w));
-  for (PetscInt j = start; j < end; j++) w[j - start] = length[j] > 0.0 ? w[j - start] / length[j] : 0.0;
-  PetscCall(VecRestoreArray(work, &w));
-  PetscCall(VecNorm(work, NORM_INFINITY, &largest));
-  PetscCall(VecNorm(r, NORM_2, &norm));
-  PetscCall(VecDestroy(&work));
-  PetscCall(PetscFree(length));
-  *balanced = (PetscBool)(largest <= most * norm);
-  PetscFunctionReturn(0);
-}

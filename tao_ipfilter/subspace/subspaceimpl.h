@@ -191,7 +191,6 @@ PETSC_INTERN PetscErrorCode IPCompanionsDestroy(IPCompanions *);
 /* modes.c */
 PETSC_INTERN PetscErrorCode IPModesGetNumber(Tao, PetscInt *);
 PETSC_INTERN PetscErrorCode IPModesAppend(Tao, IPRecycle *);
-PETSC_INTERN PetscErrorCode IPModesAreBalanced(Tao, const IPBasis *, Vec r, PetscBool *balanced);
 
 /* active_set.c */
 PETSC_INTERN PetscErrorCode IPActiveSetCreate(PetscInt m, IPActiveSet *);
