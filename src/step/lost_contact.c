@@ -83,75 +83,133 @@ static PetscErrorCode LostContactFind(const StepProblem *p, const FreeMotions *m
   PetscFunctionReturn(0);
 }
 
-/* Computes the displacement w in the unheld motions that brings u nearest to the last state in the mean */
-static PetscErrorCode LostContactFit(Model model, State state, const FreeMotions *m, Vec unheld, Vec u, Vec w)
+/*
+   The position of bodies by their unheld motions c that is nearest to the last state: the minimum of c^T G c / 2 -
+   b^T c with gap + rates c >= 0
+*/
+typedef struct {
+  Mat G, rates;
+  Vec b, gap, gap_now; /* gap: at c = 0; NULL: bodies may penetrate */
+} NearestPlace;
+
+static PetscErrorCode NearestPlaceObjective(Tao tao, Vec c, PetscReal *f, Vec g, void *data)
 {
-  Mat Z, weighted, G;
-  Vec c, b;
-  KSP ksp;
-  PC  pc;
+  const NearestPlace *n = (NearestPlace *)data;
+  PetscScalar         cGc, bc;
+
+  PetscFunctionBegin;
+  (void)tao;
+  PetscCall(MatMult(n->G, c, g));
+  PetscCall(VecDot(g, c, &cGc));
+  PetscCall(VecDot(n->b, c, &bc));
+  PetscCall(VecAXPY(g, -1.0, n->b));
+  *f = PetscRealPart(0.5 * cGc - bc);
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode NearestPlaceGaps(Tao tao, Vec c, Vec gaps, void *data)
+{
+  const NearestPlace *n = (NearestPlace *)data;
+
+  PetscFunctionBegin;
+  (void)tao;
+  PetscCall(MatMultAdd(n->rates, c, n->gap, gaps));
+  PetscFunctionReturn(0);
+}
+
+/* Hessian and Jacobian do not depend on c */
+static PetscErrorCode NearestPlaceConstant(Tao tao, Vec c, Mat A, Mat P, void *data)
+{
+  PetscFunctionBegin;
+  (void)tao;
+  (void)c;
+  (void)A;
+  (void)P;
+  (void)data;
+  PetscFunctionReturn(0);
+}
+
+/* Solves for c. solved: whether the minimum was found. Options: those of TAOIPFILTER with the prefix lost_contact_ */
+static PetscErrorCode NearestPlaceSolve(NearestPlace *n, Vec c, PetscBool *solved)
+{
+  Tao                tao;
+  TaoConvergedReason reason;
+
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(c));
+  PetscCall(TaoCreate(PetscObjectComm((PetscObject)c), &tao));
+  PetscCall(TaoSetOptionsPrefix(tao, "lost_contact_"));
+  PetscCall(TaoSetType(tao, TAOIPFILTER));
+  PetscCall(TaoSetSolution(tao, c));
+  PetscCall(TaoSetObjectiveAndGradient(tao, NULL, NearestPlaceObjective, n));
+  PetscCall(TaoSetHessian(tao, n->G, n->G, NearestPlaceConstant, n));
+  if (n->gap) {
+    PetscCall(TaoSetInequalityConstraintsRoutine(tao, n->gap_now, NearestPlaceGaps, n));
+    PetscCall(TaoSetJacobianInequalityRoutine(tao, n->rates, n->rates, NearestPlaceConstant, n));
+  }
+  PetscCall(TaoSetFromOptions(tao));
+  PetscCall(TaoSolve(tao));
+  PetscCall(TaoGetConvergedReason(tao, &reason));
+  *solved = (PetscBool)(reason > 0);
+  PetscCall(TaoDestroy(&tao));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Computes the displacement w in the unheld motions that brings u nearest to the last state in the mean; zero if there
+   is none. gap: at u, which w must not make negative; NULL: bodies may penetrate
+*/
+static PetscErrorCode LostContactFit(Model model, State state, const FreeMotions *m, Vec unheld, Vec u, Vec gap, Vec w)
+{
+  NearestPlace n = {.gap = gap};
+  Mat          Z, weighted;
+  Vec          c;
+  PetscBool    solved = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(MatDuplicate(m->Z, MAT_COPY_VALUES, &Z));
   PetscCall(MatDiagonalScale(Z, NULL, unheld));
   PetscCall(MatDuplicate(Z, MAT_COPY_VALUES, &weighted));
   PetscCall(MatDiagonalScale(weighted, model->mass, NULL));
-  PetscCall(MatTransposeMatMult(Z, weighted, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &G));
-  PetscCall(MatCreateVecs(G, &c, &b));
+  PetscCall(MatTransposeMatMult(Z, weighted, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &n.G));
+  PetscCall(MatMatMult(state->solved->linearization->J, Z, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &n.rates));
+  PetscCall(MatCreateVecs(n.G, &c, &n.b));
   PetscCall(VecWAXPY(w, -1.0, u, state->path->u));
-  PetscCall(MatMultTranspose(weighted, w, b));
-  PetscCall(KSPCreate(model->comm, &ksp));
-  PetscCall(KSPSetOperators(ksp, G, G));
-  PetscCall(KSPSetType(ksp, KSPCG)); /* rows of motions that are held are zero, as are the entries of b and c there */
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCSetType(pc, PCJACOBI));
-  PetscCall(KSPSetTolerances(ksp, 1e-14, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
-  PetscCall(KSPSolve(ksp, b, c));
+  PetscCall(MatMultTranspose(weighted, w, n.b));
+  PetscCall(VecSet(c, 1.0));
+  PetscCall(VecAXPY(c, -1.0, unheld));
+  PetscCall(MatDiagonalSet(n.G, c, ADD_VALUES)); /* motions that are held remain as they are */
+  if (gap) PetscCall(VecDuplicate(gap, &n.gap_now));
+  PetscCall(NearestPlaceSolve(&n, c, &solved));
   PetscCall(MatMult(Z, c, w));
-  PetscCall(KSPDestroy(&ksp));
+  if (!solved) PetscCall(VecZeroEntries(w));
+  PetscCall(VecDestroy(&n.gap_now));
+  PetscCall(VecDestroy(&n.b));
   PetscCall(VecDestroy(&c));
-  PetscCall(VecDestroy(&b));
-  PetscCall(MatDestroy(&G));
+  PetscCall(MatDestroy(&n.rates));
+  PetscCall(MatDestroy(&n.G));
   PetscCall(MatDestroy(&weighted));
   PetscCall(MatDestroy(&Z));
   PetscFunctionReturn(0);
 }
 
-/*
-   Adds to u as much of w as contact allows: no gap becomes negative. At finite strain a large rotation w would strain
-   the bodies; u then remains.
-*/
+/* Adds w to u. At finite strain a large rotation w would strain the bodies; u then remains. */
 static PetscErrorCode LostContactMove(Model model, State state, Vec w, Vec u, ContactSolution *sol)
 {
-  const PetscScalar *g, *a;
-  PetscReal          part = 1.0, before, after, size;
-  PetscInt           n;
-  Vec                rates, moved;
+  PetscReal before, after, size;
+  Vec       moved;
 
   PetscFunctionBegin;
-  PetscCall(VecDuplicate(sol->gap, &rates));
   PetscCall(VecDuplicate(u, &moved));
-  PetscCall(MatMult(state->solved->linearization->J, w, rates));
-  PetscCall(VecGetLocalSize(rates, &n));
-  PetscCall(VecGetArrayRead(rates, &a));
-  PetscCall(VecGetArrayRead(sol->gap, &g));
-  for (PetscInt r = 0; r < n; ++r) {
-    if (PetscRealPart(g[r] + a[r]) < 0.0 && PetscRealPart(a[r]) < 0.0)
-      part = PetscMin(part, PetscMax(PetscRealPart(g[r]), 0.0) / -PetscRealPart(a[r]));
-  }
-  PetscCall(VecRestoreArrayRead(sol->gap, &g));
-  PetscCall(VecRestoreArrayRead(rates, &a));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &part, 1, MPIU_REAL, MPIU_MIN, model->comm));
-  PetscCall(VecWAXPY(moved, part, w, u));
+  PetscCall(VecWAXPY(moved, 1.0, w, u));
   PetscCall(ElasticityEnergy(model->elasticity, u, &before));
   PetscCall(ElasticityEnergy(model->elasticity, moved, &after));
   PetscCall(VecNorm(w, NORM_INFINITY, &size));
-  if (after <= before + no_force * model->stiffness * PetscSqr(part * size)) {
+  if (after <= before + no_force * model->stiffness * PetscSqr(size)) {
     PetscCall(VecCopy(moved, u));
-    PetscCall(VecAXPY(sol->gap, part, rates));
+    PetscCall(MatMultAdd(state->solved->linearization->J, w, sol->gap, sol->gap));
   }
   PetscCall(VecDestroy(&moved));
-  PetscCall(VecDestroy(&rates));
   PetscFunctionReturn(0);
 }
 
@@ -177,10 +235,10 @@ static PetscErrorCode LostContactFindTouched(Model model, State state, ContactLi
 }
 
 /*
-   Reports bodies that have lost contact, whose motion w is arbitrary. Warns, once in a run, if contact forces acted on
-   such a body before, or if w is larger than the motions of all other bodies. Rejects the solution u if such a body is
-   farther away from its last position than the bodies are large, and than all bodies in contact have moved: its next
-   position would be as arbitrary. last: linearization of the last state
+   Reports bodies that have lost contact, whose motion w, the way back to the last state, is arbitrary. Warns, once in a
+   run, if contact forces acted on such a body before, or if w is larger than the motions of all other bodies. Rejects
+   the solution u if such a body is farther away from its last position than the bodies are large, and than all bodies
+   in contact have moved: its next position would be as arbitrary. last: linearization of the last state
 */
 static PetscErrorCode LostContactReport(Model model, State state, RunReport *run, ContactLinearization last, Vec w,
   Vec u, StepReport *report)
@@ -233,7 +291,7 @@ PetscErrorCode LostContactSettle(const StepProblem *p, ContactLinearization last
 {
   FreeMotions m;
   PetscBool   any = PETSC_FALSE;
-  Vec         unheld, w;
+  Vec         unheld, w, back;
 
   PetscFunctionBegin;
   if (!report->converged || ModelIsDynamic(p->model)) PetscFunctionReturn(0);
@@ -241,9 +299,12 @@ PetscErrorCode LostContactSettle(const StepProblem *p, ContactLinearization last
   PetscCall(MatCreateVecs(m.Z, &unheld, &w));
   if (m.n) PetscCall(LostContactFind(p, &m, u, sol, unheld, &any));
   if (any) {
-    PetscCall(LostContactFit(p->model, p->state, &m, unheld, u, w));
+    PetscCall(VecDuplicate(w, &back));
+    PetscCall(LostContactFit(p->model, p->state, &m, unheld, u, NULL, back));
+    PetscCall(LostContactFit(p->model, p->state, &m, unheld, u, sol->gap, w));
     PetscCall(LostContactMove(p->model, p->state, w, u, sol));
-    PetscCall(LostContactReport(p->model, p->state, &p->sim->report, last, w, u, report));
+    PetscCall(LostContactReport(p->model, p->state, &p->sim->report, last, back, u, report));
+    PetscCall(VecDestroy(&back));
     PetscCall(ContactLinearizationDestroy(at_u));
     PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, at_u));
   }

@@ -5,5 +5,7 @@
 for scene in block die ball key; do
   "$AMGF_DIR/bin/contact" $scene.yaml -quiet -error_estimate 0 -summary $scene.json 2> $scene.err
 done
-mpiexec -n 2 "$AMGF_DIR/bin/contact" die.yaml -quiet -error_estimate 0 -summary die_2.json 2> die_2.err
+for scene in block die; do
+  mpiexec -n 2 "$AMGF_DIR/bin/contact" $scene.yaml -quiet -error_estimate 0 -summary ${scene}_2.json 2> ${scene}_2.err
+done
 "$PYTHON" "$AMGF_DIR/tests/step/friction_unload.py" check
