@@ -170,17 +170,20 @@ static PetscErrorCode PlasticTakeAll(MPI_Comm comm, int part, Checkpoint checkpo
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   for (PetscInt i = 0; i < index->n; ++i) index->square[i] = PETSC_INFINITY;
   for (PetscMPIInt r = 0; r < size; ++r) {
-    PetscInt   n = places->n;
-    PetscReal *at, *from;
+    PetscInt    n = places->n;
+    PetscMPIInt count[2];
+    PetscReal  *at, *from;
 
     PetscCallMPI(MPI_Bcast(&n, 1, MPIU_INT, r, comm));
+    PetscCall(PetscMPIIntCast(4 * n, &count[0]));
+    PetscCall(PetscMPIIntCast(width * n, &count[1]));
     PetscCall(PetscMalloc2(4 * n, &at, width * n, &from));
     if (r == rank) {
       PetscCall(PetscArraycpy(at, places->values, 4 * n));
       PetscCall(PetscArraycpy(from, field->values, width * n));
     }
-    PetscCallMPI(MPI_Bcast(at, (PetscMPIInt)(4 * n), MPIU_REAL, r, comm));
-    PetscCallMPI(MPI_Bcast(from, (PetscMPIInt)(width * n), MPIU_REAL, r, comm));
+    PetscCallMPI(MPI_Bcast(at, count[0], MPIU_REAL, r, comm));
+    PetscCallMPI(MPI_Bcast(from, count[1], MPIU_REAL, r, comm));
     if (nearest) PetscCall(PlasticTakeNearest(index, part, n, at, from, nearest, history));
     else PlasticTake(index, part, n, at, from, history);
     PetscCall(PetscFree2(at, from));

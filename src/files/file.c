@@ -190,6 +190,8 @@ PetscErrorCode FileBroadcastText(MPI_Comm comm, PetscInt64 *length, char **text)
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_rank(comm, &rank));
   PetscCallMPI(MPI_Bcast(length, 1, MPIU_INT64, 0, comm));
+  PetscCheck(*length < PETSC_MPI_INT_MAX, comm, PETSC_ERR_SUP,
+    "A text of %" PetscInt64_FMT " bytes is too long: at most %d are read", *length, PETSC_MPI_INT_MAX);
   if (rank) PetscCall(PetscCalloc1(*length + 1, text));
   PetscCallMPI(MPI_Bcast(*text, (PetscMPIInt)*length, MPI_CHAR, 0, comm));
   PetscFunctionReturn(0);

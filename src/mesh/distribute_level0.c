@@ -315,21 +315,31 @@ static PetscErrorCode DistributeUseOwnPart(PetscInt nbodies, const DistributePar
   PetscFunctionReturn(0);
 }
 
+/* Returns the numbers of sizes, integers and reals of a part as those of messages; an error if MPI cannot send them */
+static PetscErrorCode DistributeCounts(PetscInt nbodies, const PetscInt counts[2], PetscMPIInt n[3])
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMPIIntCast(PART_SIZES * nbodies, &n[0]));
+  for (PetscInt k = 0; k < 2; ++k) PetscCall(PetscMPIIntCast(counts[k], &n[1 + k]));
+  PetscFunctionReturn(0);
+}
+
 /* Sends a part from the first rank to rank `to`, which first reports whether it could allocate the memory. A part
    without sizes means that the transfer has failed. */
 static PetscErrorCode DistributeSend(MPI_Comm comm, PetscInt nbodies, const DistributePart *part, PetscMPIInt to)
 {
   PetscInt    counts[2] = {part->sizes ? part->nints : PETSC_DECIDE, part->nreals};
-  PetscMPIInt has_memory;
+  PetscMPIInt has_memory, n[3];
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Send(counts, 2, MPIU_INT, to, 0, comm));
   if (!part->sizes) PetscFunctionReturn(0);
   PetscCallMPI(MPI_Recv(&has_memory, 1, MPI_INT, to, 0, comm, MPI_STATUS_IGNORE));
   if (!has_memory) PetscFunctionReturn(0);
-  PetscCallMPI(MPI_Send(part->sizes, (PetscMPIInt)(PART_SIZES * nbodies), MPIU_INT, to, 0, comm));
-  PetscCallMPI(MPI_Send(part->ints, (PetscMPIInt)counts[0], MPIU_INT, to, 0, comm));
-  PetscCallMPI(MPI_Send(part->reals, (PetscMPIInt)counts[1], MPIU_REAL, to, 0, comm));
+  PetscCall(DistributeCounts(nbodies, counts, n));
+  PetscCallMPI(MPI_Send(part->sizes, n[0], MPIU_INT, to, 0, comm));
+  PetscCallMPI(MPI_Send(part->ints, n[1], MPIU_INT, to, 0, comm));
+  PetscCallMPI(MPI_Send(part->reals, n[2], MPIU_REAL, to, 0, comm));
   PetscFunctionReturn(0);
 }
 
@@ -338,7 +348,7 @@ static PetscErrorCode DistributeReceive(MPI_Comm comm, PetscInt nbodies, Distrib
 {
   PetscErrorCode ierr;
   PetscInt       counts[2];
-  PetscMPIInt    has_memory;
+  PetscMPIInt    has_memory, n[3];
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Recv(counts, 2, MPIU_INT, 0, 0, comm, MPI_STATUS_IGNORE));
@@ -349,9 +359,10 @@ static PetscErrorCode DistributeReceive(MPI_Comm comm, PetscInt nbodies, Distrib
   has_memory   = !ierr;
   PetscCallMPI(MPI_Send(&has_memory, 1, MPI_INT, 0, 0, comm));
   PetscCall(ierr);
-  PetscCallMPI(MPI_Recv(part->sizes, (PetscMPIInt)(PART_SIZES * nbodies), MPIU_INT, 0, 0, comm, MPI_STATUS_IGNORE));
-  PetscCallMPI(MPI_Recv(part->ints, (PetscMPIInt)counts[0], MPIU_INT, 0, 0, comm, MPI_STATUS_IGNORE));
-  PetscCallMPI(MPI_Recv(part->reals, (PetscMPIInt)counts[1], MPIU_REAL, 0, 0, comm, MPI_STATUS_IGNORE));
+  PetscCall(DistributeCounts(nbodies, counts, n));
+  PetscCallMPI(MPI_Recv(part->sizes, n[0], MPIU_INT, 0, 0, comm, MPI_STATUS_IGNORE));
+  PetscCallMPI(MPI_Recv(part->ints, n[1], MPIU_INT, 0, 0, comm, MPI_STATUS_IGNORE));
+  PetscCallMPI(MPI_Recv(part->reals, n[2], MPIU_REAL, 0, 0, comm, MPI_STATUS_IGNORE));
   PetscFunctionReturn(0);
 }
 

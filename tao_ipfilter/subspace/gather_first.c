@@ -56,13 +56,15 @@ static PetscErrorCode GatherMatrix(Mat A, const Gather *g, PetscInt rows, PetscI
 {
   const MPI_Comm comm = PetscObjectComm((PetscObject)A);
   PetscInt      *counts, *column, start;
+  PetscMPIInt    nrows;
   PetscScalar   *entry;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc3(g->M, &counts, g->nw, &column, g->nw, &entry));
   if (g->half) PetscCall(MatGetRowUpperTriangular(A));
   for (PetscInt r = 0; r < g->nrows; r++) PetscCall(GatherRow(A, g, r, column, entry, counts, NULL));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, (PetscMPIInt)g->M, MPIU_INT, MPI_SUM, comm));
+  PetscCall(PetscMPIIntCast(g->M, &nrows));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, nrows, MPIU_INT, MPI_SUM, comm));
   PetscCallMPI(MPI_Scan(&rows, &start, 1, MPIU_INT, MPI_SUM, comm));
   PetscCall(IPMatrixCreate(comm, rows, columns, counts + start - rows, S));
   for (PetscInt r = 0; r < g->nrows; r++) PetscCall(GatherRow(A, g, r, column, entry, counts, *S));
