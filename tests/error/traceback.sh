@@ -11,7 +11,7 @@ try() {
   code=$?
   if [ $code -ge 124 ]; then code=hang; elif [ $code -gt 0 ]; then code='not 0'; fi
   echo "  exit $code, traceback to main: $(grep -c 'PETSC ERROR: #[0-9]* AppRun()' out)"
-  grep -ao 'contact: error.*' out | sed -e "s|$AMGF_DIR/||" -e 's/ (do not.*//' -e 's/^/  /'
+  grep -ao 'contact: error.*' out | sed -e "s|$AMGF_DIR/||" -e 's/ (do not.*//; s/"wide"/wide/' -e 's/^/  /'
 }
 
 for traceback in '' ' -traceback'; do
