@@ -1,5 +1,8 @@
 """What the checks of contact's summaries share."""
 import json
+import os
+import re
+import subprocess
 
 
 def load(name):
@@ -21,6 +24,13 @@ def mean(values):
 
 def each(run, key):
     return [step[key] for step in run["steps"]]
+
+
+def petsc_release():
+    """(major, minor) of the PETSc that contact was compiled with"""
+    program = os.path.join(os.environ["AMGF_DIR"], "bin", "contact")
+    version = subprocess.run([program, "-version"], capture_output=True, text=True, check=True).stdout
+    return tuple(int(number) for number in re.search(r"with PETSc (\d+)\.(\d+)", version).groups())
 
 
 def say_same_steps(what, run, whole, keys, limit):

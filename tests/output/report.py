@@ -43,7 +43,8 @@ print("other files:", re.findall(r"(?:src|href)=\"(?!data:)[^\"]*|@import|url\("
 last = run["steps"][-1]
 wanted = [run["problem"], f"{run['dofs']:,} unknowns", *run["warnings"], *(step["reason"] for step in run["steps"])]
 wanted += [item["name"] for key in ("pairs", "faces", "bodies") for item in last[key]]
-wanted += [f"{pair['normal_force']:.5g}" for pair in last["pairs"]] + [f"{last['energy']:.5g}", "Petsc"]
+wanted += [f"{pair['normal_force']:.5g}" for pair in last["pairs"]] + [f"{last['energy']:.5g}"]
+wanted += re.findall("petsc", words, re.IGNORECASE)[:1] or ["the release of PETSc"]
 moved = [figure for figure in run["figures"] if figure["quantity"] == "displacement"]
 if moved:
     wanted.append(f"Displacement, load step {max(moved, key=lambda figure: figure['value'])['step']}")

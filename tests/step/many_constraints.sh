@@ -16,9 +16,10 @@ done
 sed 's/zmin}$/zmin, stick: true}/' many.yaml > stick.yaml
 "$AMGF_DIR/bin/contact" stick.yaml -quiet -summary stick_1.json || echo "exit code $?"
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'CHECK'
-from summaries import load, say, within
+from summaries import load, petsc_release, say, within
 
-for name, most in ("many_1", 4000), ("many_2", 4000), ("stick_1", 10000):
+many = 4000 if petsc_release() < (3, 20) else 4900  # tests/run/memory_peak.sh says why
+for name, most in ("many_1", many), ("many_2", many), ("stick_1", 10000):
     run = load(name)
     force = run["steps"][-1]["pairs"][0]["normal_force"]
     each = (run["peak_memory_bytes"] - run["memory"]["start"]) / run["dofs"]
