@@ -39,6 +39,30 @@ static PetscErrorCode GuardClearHypre(void)
 }
 
 /*
+   Records how often the events of PCSetUp() are open or paused, or closes and resumes those that an error has left so.
+   With -log_sync ranks wait for one another at events that are neither open nor paused. A paused event is one that is
+   open once more.
+*/
+static PetscErrorCode GuardSetUpEvents(AMGFGuard *guard, PetscBool restore)
+{
+  static const char *const names[AMGF_GUARD_EVENTS] = {"PCSetUp", "PCSetUpOnBlocks", "PCApply", "KSPSetUp", "KSPSolve"};
+  PetscBool                logs;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogIsActive(&logs));
+  for (int k = 0; logs && k < AMGF_GUARD_EVENTS; k++) {
+    PetscLogEvent      event;
+    PetscEventPerfInfo now;
+
+    PetscCall(PetscLogEventGetId(names[k], &event));
+    PetscCall(PetscLogEventGetPerfInfo(PETSC_DETERMINE, event, &now));
+    if (!restore) guard->depths[k] = now.depth;
+    for (; now.depth > guard->depths[k]; now.depth--) PetscCall(PetscLogEventDeactivatePop(event));
+  }
+  PetscFunctionReturn(0);
+}
+
+/*
    PCAMGFGuardBegin_Private - catches library errors from here to PCAMGFGuardEnd_Private()
 
    Input Parameter:
@@ -50,6 +74,7 @@ PetscErrorCode PCAMGFGuardBegin_Private(AMGFGuard *guard, Vec b)
   guard->why[0] = '\0';
   guard->b      = b;
   if (b) PetscCall(VecLockGet(b, &guard->nlocks));
+  else PetscCall(GuardSetUpEvents(guard, PETSC_FALSE));
   PetscCall(PetscPushErrorHandler(GuardHandleError, guard));
   PetscFunctionReturn(0);
 }
@@ -79,10 +104,12 @@ PetscErrorCode PCAMGFGuardEnd_Private(AMGFGuard *guard, PetscErrorCode error, Pe
     PetscFunctionReturn(0);
   }
   PetscCall(GuardClearHypre());
-  /* PETSc has not ended its event. With -log_sync, ranks wait for one another only at events that are not open */
-  PetscCall(PetscLogEventGetId(guard->b ? "PCApply" : "PCSetUp", &event));
+  if (!guard->b) {
+    PetscCall(GuardSetUpEvents(guard, PETSC_TRUE));
+    PetscFunctionReturn(0);
+  }
+  PetscCall(PetscLogEventGetId("PCApply", &event));
   PetscCall(PetscLogEventEnd(event, NULL, NULL, NULL, NULL));
-  if (!guard->b) PetscFunctionReturn(0);
   PetscCall(VecLockGet(guard->b, &nlocks));
   for (; nlocks > guard->nlocks; nlocks--) PetscCall(VecLockReadPop(guard->b));
   PetscFunctionReturn(0);

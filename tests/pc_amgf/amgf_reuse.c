@@ -365,4 +365,11 @@ int main(int argc, char **argv)
       suffix: 1
       nsize: {{1 2 3 5}}
 
+   # ranks wait for one another at the events of PETSc's log
+   test:
+      suffix: log_sync
+      nsize: 2
+      args: -log_sync
+      output_file: output/amgf_reuse_1.out
+
 TEST*/
