@@ -245,6 +245,7 @@ contact:
   - touch: {mortar: plate.surface, nonmortar: ring.outer}
 load: {steps: 4}
 """
+RUBBED = ANNULUS.replace("SSNP501", "SSNP502").replace("ring.outer}", "ring.outer, friction: 0.4}")
 # EI = 1e6, radius 100, 215 degrees, thickness 3.46
 ARCH = """problem: deep arch
 bodies:
@@ -502,6 +503,10 @@ CASES = [
                  "plane strain here, plane stress there; the published forces are on a straight line, and "
                  "Code_Aster allows 15 %" if k == 4 else "")
            for k in (1, 2, 3, 4))),
+    Case("annulus_friction", "Thick ring crushed between plates, friction 0.4", "Code_Aster SSNP502, its own results", RUBBED,
+         *(Value(f"force at {1.1125 * k:g} cm [N]", published, pair("normal_force", step=k - 1), 15,
+                 "plane strain here, plane stress there" if k == 4 else "")
+           for k, published in ((1, 8.6597), (2, 16.4603), (3, 23.9815), (4, 32.3151)))),
     Case("arch", "Deep arch, clamped and hinged", "DaDeppo and Schmidt 1975", ARCH,
          Value("largest force", 897, largest_push, 2)),
     Case("ironing", "Shallow ironing, friction 0.3",
