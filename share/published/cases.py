@@ -503,7 +503,8 @@ CASES = [
                  "plane strain here, plane stress there; the published forces are on a straight line, and "
                  "Code_Aster allows 15 %" if k == 4 else "")
            for k in (1, 2, 3, 4))),
-    Case("annulus_friction", "Thick ring crushed between plates, friction 0.4", "Code_Aster SSNP502, its own results", RUBBED,
+    Case("annulus_friction", "Thick ring crushed between plates, friction 0.4", "Code_Aster SSNP502, its own results",
+         RUBBED,
          *(Value(f"force at {1.1125 * k:g} cm [N]", published, pair("normal_force", step=k - 1), 15,
                  "plane strain here, plane stress there" if k == 4 else "")
            for k, published in ((1, 8.6597), (2, 16.4603), (3, 23.9815), (4, 32.3151)))),
