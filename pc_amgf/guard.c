@@ -39,9 +39,9 @@ static PetscErrorCode GuardClearHypre(void)
 }
 
 /*
-   Records how often the events of PCSetUp() are open or paused, or closes and resumes those that an error has left so.
-   With -log_sync ranks wait for one another at events that are neither open nor paused. A paused event is one that is
-   open once more.
+   Records the depths of the events of PCSetUp(), or restores them after an error. PETSc adds one to the depth of an
+   event where the event begins, and where it is paused. With -log_sync all ranks wait for one another at events of
+   depth zero: a rank with another depth would not join them.
 */
 static PetscErrorCode GuardSetUpEvents(AMGFGuard *guard, PetscBool restore)
 {

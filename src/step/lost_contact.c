@@ -84,13 +84,50 @@ static PetscErrorCode LostContactFind(const StepProblem *p, const FreeMotions *m
 }
 
 /*
-   The position of bodies by their unheld motions c that is nearest to the last state: the minimum of c^T G c / 2 -
-   b^T c with gap + rates c >= 0
+   The position of bodies by their unheld motions c that is nearest to the last state in the mean: the minimum of
+   c^T G c / 2 - b^T c with gap + rates c >= 0
 */
 typedef struct {
-  Mat G, rates;
-  Vec b, gap, gap_now; /* gap: at c = 0; NULL: bodies may penetrate */
+  Mat Z, G, rates; /* Z: one column for each motion, the displacements of the nodes; zero if it is held */
+  Vec c, b, gap;   /* gap: at c = 0, not owned */
 } NearestPlace;
+
+static PetscErrorCode NearestPlaceCreate(Model model, State state, const FreeMotions *m, Vec unheld, Vec u, Vec gap,
+  NearestPlace *n)
+{
+  Mat weighted;
+  Vec back;
+
+  PetscFunctionBegin;
+  n->gap = gap;
+  PetscCall(MatDuplicate(m->Z, MAT_COPY_VALUES, &n->Z));
+  PetscCall(MatDiagonalScale(n->Z, NULL, unheld));
+  PetscCall(MatDuplicate(n->Z, MAT_COPY_VALUES, &weighted));
+  PetscCall(MatDiagonalScale(weighted, model->mass, NULL));
+  PetscCall(MatTransposeMatMult(n->Z, weighted, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &n->G));
+  PetscCall(MatMatMult(state->solved->linearization->J, n->Z, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &n->rates));
+  PetscCall(MatCreateVecs(n->G, &n->c, &n->b));
+  PetscCall(VecDuplicate(u, &back));
+  PetscCall(VecWAXPY(back, -1.0, u, state->path->u));
+  PetscCall(MatMultTranspose(weighted, back, n->b));
+  PetscCall(VecSet(n->c, 1.0));
+  PetscCall(VecAXPY(n->c, -1.0, unheld));
+  PetscCall(MatDiagonalSet(n->G, n->c, ADD_VALUES)); /* motions that are held remain as they are */
+  PetscCall(VecDestroy(&back));
+  PetscCall(MatDestroy(&weighted));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode NearestPlaceDestroy(NearestPlace *n)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&n->c));
+  PetscCall(VecDestroy(&n->b));
+  PetscCall(MatDestroy(&n->rates));
+  PetscCall(MatDestroy(&n->G));
+  PetscCall(MatDestroy(&n->Z));
+  PetscFunctionReturn(0);
+}
 
 static PetscErrorCode NearestPlaceObjective(Tao tao, Vec c, PetscReal *f, Vec g, void *data)
 {
@@ -117,7 +154,7 @@ static PetscErrorCode NearestPlaceGaps(Tao tao, Vec c, Vec gaps, void *data)
   PetscFunctionReturn(0);
 }
 
-/* Hessian and Jacobian do not depend on c */
+/* Does nothing: the Hessian G and the Jacobian `rates` are constant */
 static PetscErrorCode NearestPlaceConstant(Tao tao, Vec c, Mat A, Mat P, void *data)
 {
   PetscFunctionBegin;
@@ -129,67 +166,36 @@ static PetscErrorCode NearestPlaceConstant(Tao tao, Vec c, Mat A, Mat P, void *d
   PetscFunctionReturn(0);
 }
 
-/* Solves for c. solved: whether the minimum was found. Options: those of TAOIPFILTER with the prefix lost_contact_ */
-static PetscErrorCode NearestPlaceSolve(NearestPlace *n, Vec c, PetscBool *solved)
+/*
+   Computes the displacement w to the nearest place; zero if it is not found. penetrates: whether gaps may become
+   negative. Options: those of TAOIPFILTER with the prefix lost_contact_
+*/
+static PetscErrorCode NearestPlaceSolve(NearestPlace *n, PetscBool penetrates, Vec w)
 {
   Tao                tao;
+  Vec                gaps;
   TaoConvergedReason reason;
 
   PetscFunctionBegin;
-  PetscCall(VecZeroEntries(c));
-  PetscCall(TaoCreate(PetscObjectComm((PetscObject)c), &tao));
+  PetscCall(VecZeroEntries(n->c));
+  PetscCall(VecDuplicate(n->gap, &gaps));
+  PetscCall(TaoCreate(PetscObjectComm((PetscObject)w), &tao));
   PetscCall(TaoSetOptionsPrefix(tao, "lost_contact_"));
   PetscCall(TaoSetType(tao, TAOIPFILTER));
-  PetscCall(TaoSetSolution(tao, c));
+  PetscCall(TaoSetSolution(tao, n->c));
   PetscCall(TaoSetObjectiveAndGradient(tao, NULL, NearestPlaceObjective, n));
   PetscCall(TaoSetHessian(tao, n->G, n->G, NearestPlaceConstant, n));
-  if (n->gap) {
-    PetscCall(TaoSetInequalityConstraintsRoutine(tao, n->gap_now, NearestPlaceGaps, n));
+  if (!penetrates) {
+    PetscCall(TaoSetInequalityConstraintsRoutine(tao, gaps, NearestPlaceGaps, n));
     PetscCall(TaoSetJacobianInequalityRoutine(tao, n->rates, n->rates, NearestPlaceConstant, n));
   }
   PetscCall(TaoSetFromOptions(tao));
   PetscCall(TaoSolve(tao));
   PetscCall(TaoGetConvergedReason(tao, &reason));
-  *solved = (PetscBool)(reason > 0);
+  if (reason > 0) PetscCall(MatMult(n->Z, n->c, w));
+  else PetscCall(VecZeroEntries(w));
   PetscCall(TaoDestroy(&tao));
-  PetscFunctionReturn(0);
-}
-
-/*
-   Computes the displacement w in the unheld motions that brings u nearest to the last state in the mean; zero if there
-   is none. gap: at u, which w must not make negative; NULL: bodies may penetrate
-*/
-static PetscErrorCode LostContactFit(Model model, State state, const FreeMotions *m, Vec unheld, Vec u, Vec gap, Vec w)
-{
-  NearestPlace n = {.gap = gap};
-  Mat          Z, weighted;
-  Vec          c;
-  PetscBool    solved = PETSC_FALSE;
-
-  PetscFunctionBegin;
-  PetscCall(MatDuplicate(m->Z, MAT_COPY_VALUES, &Z));
-  PetscCall(MatDiagonalScale(Z, NULL, unheld));
-  PetscCall(MatDuplicate(Z, MAT_COPY_VALUES, &weighted));
-  PetscCall(MatDiagonalScale(weighted, model->mass, NULL));
-  PetscCall(MatTransposeMatMult(Z, weighted, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &n.G));
-  PetscCall(MatMatMult(state->solved->linearization->J, Z, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &n.rates));
-  PetscCall(MatCreateVecs(n.G, &c, &n.b));
-  PetscCall(VecWAXPY(w, -1.0, u, state->path->u));
-  PetscCall(MatMultTranspose(weighted, w, n.b));
-  PetscCall(VecSet(c, 1.0));
-  PetscCall(VecAXPY(c, -1.0, unheld));
-  PetscCall(MatDiagonalSet(n.G, c, ADD_VALUES)); /* motions that are held remain as they are */
-  if (gap) PetscCall(VecDuplicate(gap, &n.gap_now));
-  PetscCall(NearestPlaceSolve(&n, c, &solved));
-  PetscCall(MatMult(Z, c, w));
-  if (!solved) PetscCall(VecZeroEntries(w));
-  PetscCall(VecDestroy(&n.gap_now));
-  PetscCall(VecDestroy(&n.b));
-  PetscCall(VecDestroy(&c));
-  PetscCall(MatDestroy(&n.rates));
-  PetscCall(MatDestroy(&n.G));
-  PetscCall(MatDestroy(&weighted));
-  PetscCall(MatDestroy(&Z));
+  PetscCall(VecDestroy(&gaps));
   PetscFunctionReturn(0);
 }
 
@@ -289,9 +295,10 @@ static PetscErrorCode LostContactReport(Model model, State state, RunReport *run
 PetscErrorCode LostContactSettle(const StepProblem *p, ContactLinearization last, Vec u, ContactSolution *sol,
   ContactLinearization *at_u, StepReport *report)
 {
-  FreeMotions m;
-  PetscBool   any = PETSC_FALSE;
-  Vec         unheld, w, back;
+  FreeMotions  m;
+  NearestPlace place;
+  PetscBool    any = PETSC_FALSE;
+  Vec          unheld, w, back;
 
   PetscFunctionBegin;
   if (!report->converged || ModelIsDynamic(p->model)) PetscFunctionReturn(0);
@@ -300,8 +307,10 @@ PetscErrorCode LostContactSettle(const StepProblem *p, ContactLinearization last
   if (m.n) PetscCall(LostContactFind(p, &m, u, sol, unheld, &any));
   if (any) {
     PetscCall(VecDuplicate(w, &back));
-    PetscCall(LostContactFit(p->model, p->state, &m, unheld, u, NULL, back));
-    PetscCall(LostContactFit(p->model, p->state, &m, unheld, u, sol->gap, w));
+    PetscCall(NearestPlaceCreate(p->model, p->state, &m, unheld, u, sol->gap, &place));
+    PetscCall(NearestPlaceSolve(&place, PETSC_TRUE, back));
+    PetscCall(NearestPlaceSolve(&place, PETSC_FALSE, w));
+    PetscCall(NearestPlaceDestroy(&place));
     PetscCall(LostContactMove(p->model, p->state, w, u, sol));
     PetscCall(LostContactReport(p->model, p->state, &p->sim->report, last, back, u, report));
     PetscCall(VecDestroy(&back));

@@ -747,8 +747,8 @@ static PetscErrorCode TestOptionRanges(void)
   PetscFunctionReturn(0);
 }
 
-/* A tolerance that is infinite or not a number, and constraints by a function that the solver does not use: no solve
-   begins */
+/* Tests that no solve begins with a tolerance that is infinite or not a number, or with constraints of
+   TaoSetConstraintsRoutine(), which the solver does not use */
 static PetscErrorCode TestRefusedProblems(void)
 {
   const char *const nans[] = {"-tao_gatol", "-tao_catol"};

@@ -226,7 +226,7 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
 
 /*
    Removes from `way`, the displacement from the centre, a motion of body b, unless the force of the proximal term that
-   resists it is more than `most` of the forces `all` on the body
+   resists it is more than the fraction `most` of the forces `all` on the body
 */
 static PetscErrorCode ProximalRelease(StepProblem *p, PetscInt b, const BodyMotion *motion, PetscReal most, Vec all,
   Vec way)
