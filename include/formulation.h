@@ -14,8 +14,9 @@
 #define ELEMENT_TYPES(ELEMENT) \
   ELEMENT(FULL, Full, "full") /* full integration; too stiff (locking) in bending, and near Poisson's ratio 1/2 */ \
   ELEMENT(BBAR, Bbar, "bbar") /* mean dilatation (B-bar, F-bar): the change of volume is constant in a cell */ \
-  ELEMENT(INCOMPATIBLE, Incompatible, "incompatible") /* incompatible modes: no locking in bending or near Poisson's
-                                                         ratio 1/2; small strain only */
+  ELEMENT(INCOMPATIBLE, Incompatible, "incompatible") /* incompatible modes: no locking in bending or near Poisson's \
+                                                         ratio 1/2; small strain only */ \
+  ELEMENT(REDUCED, Reduced, "reduced") /* 2 x 2 x 2 points in hexahedra of order 2, as C3D20R of Abaqus and CalculiX */
 
 #define ELEMENT_TYPE(name, element, text) ELEMENT_##name,
 /* ELEMENT_AUTO stands for the element that SceneChooseElements() selects. */

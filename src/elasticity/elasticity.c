@@ -21,20 +21,31 @@ static PetscErrorCode ElasticityReadOptions(Elasticity e)
   PetscFunctionReturn(0);
 }
 
-/* Sets the basis of cells with `nnodes` nodes, and the body's element */
-static PetscErrorCode ElasticitySetBasis(Elasticity e, PetscInt nnodes, Body *body)
+/* Gets the basis of cells with `nnodes` nodes. reduced: with 2 points per axis */
+static PetscErrorCode ElasticityGetBasis(Elasticity e, PetscInt nnodes, PetscBool reduced, const CellBasis **basis)
 {
   const PetscInt order = MeshOrder(nnodes);
-  CellBasis    **basis = &e->basis[order - 1 + (MeshIsTetrahedron(nnodes) ? 2 : 0)];
+  CellBasis    **mine  = &e->basis[reduced ? 4 : order - 1 + (MeshIsTetrahedron(nnodes) ? 2 : 0)];
 
   PetscFunctionBegin;
-  if (!*basis) {
-    PetscCall(PetscNew(basis));
-    PetscCall(CellBasisCreate(nnodes, order == 1 ? e->quadrature : 3, *basis));
+  if (!*mine) {
+    PetscCall(PetscNew(mine));
+    PetscCall(CellBasisCreate(nnodes, reduced ? 2 : order == 1 ? e->quadrature : 3, *mine));
   }
-  PetscCheck(!body->basis || body->basis == *basis, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
+  *basis = *mine;
+  PetscFunctionReturn(0);
+}
+
+/* Sets the bases of cells with `nnodes` nodes, and the body's element */
+static PetscErrorCode ElasticitySetBasis(Elasticity e, PetscInt nnodes, Body *body)
+{
+  const CellBasis *before = body->mass;
+
+  PetscFunctionBegin;
+  PetscCall(ElasticityGetBasis(e, nnodes, PETSC_FALSE, &body->mass));
+  PetscCheck(!before || body->mass == before, PETSC_COMM_SELF, PETSC_ERR_ARG_WRONG,
     "A body has cells with different numbers of nodes, one with %" PetscInt_FMT, nnodes);
-  body->basis = *basis;
+  PetscCall(ElasticityGetBasis(e, nnodes, (PetscBool)(body->type == ELEMENT_REDUCED), &body->basis));
   PetscCall(ElementGet(body->type, nnodes, &body->element));
   PetscFunctionReturn(0);
 }
@@ -269,7 +280,7 @@ PetscErrorCode ElasticityDestroy(Elasticity *e)
   PetscCall(PetscFree((*e)->bodies));
   PetscCall(PetscFree2((*e)->cellstart, (*e)->cellbody));
   PetscCall(PetscFree((*e)->cellnodes));
-  for (PetscInt k = 0; k < 4; ++k) PetscCall(PetscFree((*e)->basis[k]));
+  for (PetscInt k = 0; k < 5; ++k) PetscCall(PetscFree((*e)->basis[k]));
   PetscCall(PetscFree((*e)->prescribed));
   PetscCall(PetscFree((*e)->temperature));
   PetscCall(PetscFree((*e)->sections));

@@ -10,7 +10,7 @@ static void CellMassLumped(Elasticity e, const CellState *cell, PetscScalar M[])
   const PetscInt n = cell->n, width        = 3 * n;
   PetscReal      mass[CELL_MAX_NODES], all = 0, heavy = 0;
 
-  CellMasses(cell->body->basis, (PetscReal(*)[CELL_MAX_NODES])cell->X, mass);
+  CellMasses(cell->body->mass, (PetscReal(*)[CELL_MAX_NODES])cell->X, mass);
   for (PetscInt a = 0; a < n; ++a) {
     all += mass[a];
     if (!e->light || !e->light[cell->nodes[a]]) heavy += mass[a];
@@ -28,7 +28,7 @@ static void CellMassLumped(Elasticity e, const CellState *cell, PetscScalar M[])
 */
 static void CellMassConsistent(const CellState *cell, PetscScalar M[])
 {
-  const CellBasis *basis = cell->body->basis;
+  const CellBasis *basis = cell->body->mass;
   const PetscInt   n = cell->n, width = 3 * n;
   PetscReal        sum[CELL_MAX_NODES * CELL_MAX_NODES] = {0}, G[3][CELL_MAX_NODES];
 

@@ -23,8 +23,8 @@ PetscErrorCode ContactHistoryCreate(DM dm, Scene scene, ContactHistory *m)
   PetscCall(VecGetOwnershipRange(u, &m->first, &last));
   PetscCall(DMRestoreGlobalVector(dm, &u));
   m->nowned = (last - m->first) / 3;
-  PetscCall(PetscCalloc4(npairs * m->nowned, &m->pressure, npairs * m->nowned, &m->slack, npairs * m->nowned, &m->open,
-    npairs * m->nowned, &m->released));
+  PetscCall(PetscCalloc5(npairs * m->nowned, &m->pressure, npairs * m->nowned, &m->slack, npairs * m->nowned, &m->yield,
+    npairs * m->nowned, &m->open, npairs * m->nowned, &m->released));
   for (PetscInt p = 0; p < npairs; ++p)
     m->frictional = (PetscBool)(m->frictional || SceneContactPairHasFriction(&scene->pairs[p]));
   if (m->frictional)
@@ -44,8 +44,8 @@ PetscInt ContactHistoryIndex(const ContactHistory *m, ContactLinearization lin, 
 }
 
 /*
-   Stores the pressures and slacks of a solve by vertex; slacks of soft pairs are negative where they yield. slack:
-   slacks of the rows of lin [length]; stiffness: stiffness of the bodies [force/length].
+   Stores the pressures and slacks of a solve by vertex. slack: slacks of the rows of lin [length]; stiffness: stiffness
+   of the bodies [force/length].
 */
 PetscErrorCode ContactHistoryStore(ContactHistory *m, ContactLinearization lin, const ContactSolution *sol, Vec slack,
   PetscReal stiffness)
@@ -54,6 +54,7 @@ PetscErrorCode ContactHistoryStore(ContactHistory *m, ContactLinearization lin, 
 
   PetscFunctionBegin;
   PetscCall(PetscArrayzero(m->pressure, m->npairs * m->nowned));
+  PetscCall(PetscArrayzero(m->yield, m->npairs * m->nowned));
   PetscCall(PetscArrayzero(m->open, m->npairs * m->nowned));
   PetscCall(VecGetArrayRead(lin->mass, &mass));
   PetscCall(VecGetArrayRead(sol->pressure, &z));
@@ -63,7 +64,8 @@ PetscErrorCode ContactHistoryStore(ContactHistory *m, ContactLinearization lin, 
     const PetscInt k = ContactHistoryIndex(m, lin, i);
 
     m->pressure[k] = PetscRealPart(z[i]);
-    m->slack[k]    = PetscRealPart(s[i]) - (yield ? PetscRealPart(yield[i]) : 0.0);
+    m->slack[k]    = PetscRealPart(s[i]);
+    m->yield[k]    = yield ? PetscRealPart(yield[i]) : 0.0;
     m->open[k]     = (PetscBool)(m->pressure[k] * PetscRealPart(mass[i]) <= open_share * stiffness * m->slack[k]);
   }
   if (sol->yield) PetscCall(VecRestoreArrayRead(sol->yield, &yield));
@@ -127,8 +129,8 @@ static PetscErrorCode ContactHistoryLargest(const ContactHistory *m, MPI_Comm co
 
 /*
    Measures how much the gap changed since the last solve. *change: the maximum over the rows of lin on all ranks
-   [length]. A row under pressure counts with |gap - slack stored for the vertex|. Any other row counts with its
-   penetration -gap, because open gaps do not matter.
+   [length]. A row under pressure counts with |gap + yield - slack|, where yield and slack are those of the vertex. Any
+   other row counts with -(gap + yield), because open gaps do not matter.
 */
 PetscErrorCode ContactHistoryChange(const ContactHistory *m, ContactLinearization lin, PetscReal *change)
 {
@@ -141,7 +143,7 @@ PetscErrorCode ContactHistoryChange(const ContactHistory *m, ContactLinearizatio
   PetscCall(VecGetArrayRead(lin->g, &g));
   for (PetscInt i = 0; i < lin->nlocal; ++i) {
     const PetscInt  k   = ContactHistoryIndex(m, lin, i);
-    const PetscReal gap = PetscRealPart(g[i]);
+    const PetscReal gap = PetscRealPart(g[i]) + m->yield[k];
 
     worst = PetscMax(worst,
       ContactHistoryPressure(m, k) > negligible_pressure * largest ? PetscAbsReal(gap - m->slack[k]) : -gap);
@@ -222,7 +224,7 @@ PetscErrorCode ContactHistoryLeastGap(const ContactHistory *m, const PetscBool l
 PetscErrorCode ContactHistoryDestroy(ContactHistory *m)
 {
   PetscFunctionBegin;
-  PetscCall(PetscFree4(m->pressure, m->slack, m->open, m->released));
+  PetscCall(PetscFree5(m->pressure, m->slack, m->yield, m->open, m->released));
   PetscCall(PetscFree7(m->shear, m->shift, m->settled, m->friction, m->bound, m->slip_path, m->dissipated));
   PetscFunctionReturn(0);
 }

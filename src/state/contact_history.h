@@ -11,24 +11,25 @@ struct _n_ContactHistory {
   PetscInt     first;            /* first global row of the displacement on this rank */
   PetscReal   *pressure, *slack; /* [npairs x nowned] pressure [force/length^2] and slack [length]; the pressure is 0
                                     if there was no row */
-  PetscBool   *open;             /* [npairs x nowned] true if the gap is open, so that the pressure comes from the
+  PetscReal   *yield;      /* [npairs x nowned] depth by which soft pairs yield; the gap is slack - yield [length] */
+  PetscBool   *open;       /* [npairs x nowned] true if the gap is open, so that the pressure comes from the
                                     barrier term only */
-  PetscBool   *released;         /* [npairs x nowned] true if a vertex that must stick has opened in this load step, so
+  PetscBool   *released;   /* [npairs x nowned] true if a vertex that must stick has opened in this load step, so
                                     that it is free until the end of the step */
-  PetscBool    frictional;       /* true if a pair has friction; also on a rank that owns no nodes */
-  PetscReal   *shear;            /* [3 npairs x nowned] friction force in global coordinates [force]; NULL without
+  PetscBool    frictional; /* true if a pair has friction; also on a rank that owns no nodes */
+  PetscReal   *shear;      /* [3 npairs x nowned] friction force in global coordinates [force]; NULL without
                                     friction */
-  PetscReal   *shift;            /* [3 npairs x nowned] slip of a vertex that must stick before it has stuck at another
+  PetscReal   *shift;      /* [3 npairs x nowned] slip of a vertex that must stick before it has stuck at another
                                     place in this load step [length]; NULL without friction */
-  PetscReal   *settled;          /* [3 npairs x nowned] friction force at the last state of equilibrium [force]; NULL
+  PetscReal   *settled;    /* [3 npairs x nowned] friction force at the last state of equilibrium [force]; NULL
                                     without friction */
-  PetscReal   *friction;         /* friction forces on the vertices of both faces at this state [force]; NULL without
+  PetscReal   *friction;   /* friction forces on the vertices of both faces at this state [force]; NULL without
                                     friction */
-  PetscReal   *bound;            /* [npairs x nowned] largest friction force that the pressure allowed at the last state
+  PetscReal   *bound;      /* [npairs x nowned] largest friction force that the pressure allowed at the last state
                                     of equilibrium [force]; NULL without friction */
-  PetscReal   *slip_path;        /* [npairs x nowned] length of the path along which the vertex slipped until this
+  PetscReal   *slip_path;  /* [npairs x nowned] length of the path along which the vertex slipped until this
                                     state [length]; NULL without friction */
-  PetscReal   *dissipated;       /* [npairs x nowned] work of the friction forces until this state [force length];
+  PetscReal   *dissipated; /* [npairs x nowned] work of the friction forces until this state [force length];
                                     NULL without friction */
 };
 

@@ -51,6 +51,20 @@ for keys in "" ", friction: 0.3"; do # a lid on half of the cube, whose edge is 
   run half 1
   mv half1.json "covered$((++halves)).json"
 done
+cat > unlike.yaml <<SCENE # a pair whose pressure is a millionth of the largest one
+bodies:
+  - cube: {lower: [0, 0, 0], upper: [2, 1, 1], cells: [4, 2, 2], young: 100, poisson: 0}
+  - hard: {lower: [0, 0, 1], upper: [1, 1, 2], cells: [2, 2, 2], young: 100, poisson: 0}
+  - soft: {lower: [1, 0, 1], upper: [2, 1, 2], cells: [2, 2, 2], young: 100, poisson: 0}
+displacements:
+  - top: {face: hard.zmax, value: [0, 0, -0.04]}
+  - down: {face: soft.zmax, value: [0, 0, -0.04]}
+  - foot: {face: cube.zmin, value: [0, 0, 0]}
+contact:
+  - pressed: {mortar: hard.zmin, nonmortar: cube.zmax}
+  - touched: {mortar: soft.zmin, nonmortar: cube.zmax, contact_stiffness: 1e-4}
+SCENE
+run unlike 1
 for law in neohookean saint_venant; do
   blocks 50 $law -0.04 > $law.yaml
   blocks "50, friction: 0.3" $law -0.04 > ${law}_friction.yaml
@@ -87,6 +101,8 @@ for name in ("mortar", "dual", "mortar_friction", "dual_friction", "stick", "lim
     say(f"{name}: work", within(steps[0]["work"], 0.02, 1e-8), steps[0]["work"])
 step = load("stiff1")["steps"][-1]
 say("a stiffness of 1e9 is hard contact", within(step["pairs"][0]["normal_force"], 2, 1e-6), step["pairs"][0])
+step = load("unlike1")["steps"][-1]
+say("a pair with little pressure", 1e-6 < step["pairs"][1]["normal_force"] < 4e-6, step["pairs"][1])
 step = load("open1")["steps"][-1]
 say("no tension", step["pairs"][0]["normal_force"] == 0 and step["contact_energy"] == 0, step["pairs"][0])
 for name in ("covered1", "covered2"):

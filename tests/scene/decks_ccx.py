@@ -1,29 +1,37 @@
 """Decks of decks_ccx.sh, and what their results must be: python decks_ccx.py write|judge."""
 import sys
 
-from decks import DECKS, push
-from summaries import say
+from decks import DECKS, push, step
+from summaries import load, say
 
 # A cube: its corners, and the numbers of the corners of its edges, in the order of CalculiX's cell of 20 nodes
 CORNERS = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
 EDGES = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7))
 
 
-def order2():
-    """A cube of one cell of 20 nodes, numbered from 101. It is compressed by 0.02: 0.02 = s / 1000 + (s - 5) / 100"""
-    places = [*CORNERS, *(tuple((a + b) / 2 for a, b in zip(CORNERS[i], CORNERS[j])) for i, j in EDGES)]
-    lines = ["*NODE, NSET=Nall", *(f"{n}, {x}, {y}, {z}" for n, (x, y, z) in enumerate(places, 101))]
+PLACES = [*CORNERS, *(tuple((a + b) / 2 for a, b in zip(CORNERS[i], CORNERS[j])) for i, j in EDGES)]
+
+
+def cube(material, *steps):
+    """A cube of one cell of 20 nodes, numbered from 101, with reduced integration"""
+    lines = ["*NODE, NSET=Nall", *(f"{n}, {x}, {y}, {z}" for n, (x, y, z) in enumerate(PLACES, 101))]
     lines += [
         "*ELEMENT, TYPE=C3D20R, ELSET=Eall", "7, " + ", ".join(map(str, range(101, 116))) + ",",
         ", ".join(map(str, range(116, 121)))
     ]
     for name, z in (("foot", 0), ("top", 1)):
-        lines += [f"*NSET, NSET={name}", *(str(n) for n, place in enumerate(places, 101) if place[2] == z)]
-    lines += [
-        "*MATERIAL, NAME=EL", "*ELASTIC", "1000., 0.3", "*PLASTIC", "5., 0.", "15., 0.1",
-        "*SOLID SECTION, ELSET=Eall, MATERIAL=EL", "*BOUNDARY", "foot, 3", "101, 1, 2", "102, 2"
-    ]
-    return "\n".join(lines) + "\n" + push(-0.02) + "\n*STEP\n*FREQUENCY\n5\n*END STEP\n"
+        lines += [f"*NSET, NSET={name}", *(str(n) for n, place in enumerate(PLACES, 101) if place[2] == z)]
+    lines += ["*MATERIAL, NAME=EL", *material, "*SOLID SECTION, ELSET=Eall, MATERIAL=EL", *steps]
+    return "\n".join(lines) + "\n"
+
+
+# compressed by 0.02 = s / 1000 + (s - 5) / 100
+ORDER2 = cube(("*ELASTIC", "1000., 0.3", "*PLASTIC", "5., 0.", "15., 0.1"), "*BOUNDARY", "foot, 3", "101, 1, 2",
+              "102, 2", push(-0.02), "*STEP\n*FREQUENCY\n5\n*END STEP")
+# the displacement 0.01 x^2 y along x; 8 points integrate x^4, of the shear strain, to 7/36 instead of 1/5
+REDUCED = cube(("*ELASTIC", "1000., 0."), step("*BOUNDARY", "Nall, 2, 3",
+                                               *(f"{n}, 1, 1, {0.01 * x * x * y}"
+                                                 for n, (x, y, _) in enumerate(PLACES, 101))))
 
 
 def blocks(name):
@@ -57,6 +65,7 @@ def judge():
     close("order2: displacement in the middle of an edge", [found["DISP", 2][117][2]], [-0.01])
     close("order2: stress", found["STRESS", 2][110], [0, 0, -stress, 0, 0, 0])
     close("order2: plastic strain", found["PE", 2][110], [(stress - 5) / 100])
+    close("reduced: energy", [load("reduced_deck")["steps"][-1]["energy"]], [0.1 * (2 / 9 + 7 / 144)])
     with open("order2.dat") as file:
         rows = [line.split() for line in file if line[:10].strip().isdigit()]
     close("order2: displacement in the file .dat", [float(rows[-20][3]), float(rows[-1][3])], [0, -0.01])
@@ -64,7 +73,7 @@ def judge():
 
 if __name__ == "__main__":
     if sys.argv[1] == "write":
-        for key, text in (("pressure", DECKS["pressure"][0]), ("order2", order2())):
+        for key, text in (("pressure", DECKS["pressure"][0]), ("order2", ORDER2), ("reduced", REDUCED)):
             with open(key + ".inp", "w") as out:
                 out.write(text)
     else:

@@ -7,6 +7,7 @@ ccx() {
 "$PYTHON" -B "$AMGF_DIR/tests/scene/decks_ccx.py" write
 ccx -i pressure
 ccx order2.inp -deck_ignore FREQUENCY
+ccx -i reduced
 "$PYTHON" -B "$AMGF_DIR/tests/scene/decks_ccx.py" judge
 grep -E '^ (-4|-5|-3)|1PSTEP|100C|^    [23]C' order2.frd
 grep -vE '^ *[0-9]' order2.dat

@@ -289,6 +289,7 @@ typedef struct {
   ElementType      type;
   const Element   *element; /* element of the body's cells; NULL on ranks without such cells */
   const CellBasis *basis;
+  const CellBasis *mass;       /* basis with all points, for the mass */
   PetscBool        kept;       /* whether the body has a constant tangent and shares no vertex with a body that is
                                   assembled again */
   PetscInt         assemblies; /* number of assemblies of this body into any tangent */
@@ -318,8 +319,9 @@ struct _n_Elasticity {
   DM             dm;
   char           mattype[64];
   PetscBool      mattype_given; /* whether an option has set the type */
-  CellBasis     *basis[4];      /* bases of hexahedra of order 1 and 2, and of tetrahedra of order 1 and 2; NULL:
-                                     there are no such cells on this rank */
+  CellBasis     *basis[5];      /* bases of hexahedra of order 1 and 2, of tetrahedra of order 1 and 2, and of
+                                     hexahedra of order 2 with 2 points per axis; NULL: there are no such cells on this
+                                     rank */
   PetscInt       nbodies;
   Body          *bodies;
   PetscInt       quadrature;     /* Gauss points per axis for order 1 */

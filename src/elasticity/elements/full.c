@@ -1,4 +1,4 @@
-/* Element with full integration: E = int W(H) */
+/* Elements whose energy is integrated at the points of the basis: E = int W(H) */
 #include "elementsimpl.h"
 
 LANES_INLINE PetscReal FullEnergy(const int n, const CellBasis *basis, const BodyMaterial *m,
@@ -123,6 +123,15 @@ static void ElementStrains_Full(const CellBasis *basis, const BodyMaterial *m, P
 }
 
 const Element ElementFull = {
+  .energy    = ElementEnergy_Full,
+  .force     = ElementForce_Full,
+  .stiffness = ElementStiffness_Full,
+  .cauchy    = ElementCauchy_Full,
+  .strains   = ElementStrains_Full,
+};
+
+const Element ElementReduced = {
+  .nnodes    = 27,
   .energy    = ElementEnergy_Full,
   .force     = ElementForce_Full,
   .stiffness = ElementStiffness_Full,

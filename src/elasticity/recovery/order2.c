@@ -83,6 +83,12 @@ static void QuadraticWeights(const CellBasis *basis, PetscInt *n, PetscReal weig
     QuadraticTetrahedron(basis, weight);
     return;
   }
+  if (basis->npoints == SAMPLES) { /* the points are the samples */
+    for (int s = 0; s < SAMPLES; ++s) {
+      for (int q = 0; q < SAMPLES; ++q) weight[s][q] = s == q;
+    }
+    return;
+  }
   QuadraticLine(line);
   for (PetscInt q = 0; q < basis->npoints; ++q) {
     for (int s = 0; s < SAMPLES; ++s)

@@ -44,6 +44,8 @@ PetscErrorCode SceneFinishBody(SceneKeys keys, Scene scene, const char owner[], 
   if (listed && !body->order) PetscCall(SceneKeysError(keys, owner, NULL, "has order = 0, which must be 1 or 2"));
   if (body->serendipity && body->order != 2)
     PetscCall(SceneKeysError(keys, owner, NULL, "has serendipity: true, which needs order: 2"));
+  if (body->element == ELEMENT_REDUCED && !body->serendipity)
+    PetscCall(SceneKeysError(keys, owner, NULL, "has element: reduced, which needs serendipity: true"));
   PetscFunctionReturn(0);
 }
 

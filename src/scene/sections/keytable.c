@@ -88,7 +88,8 @@ static const SceneKey body_rows[] = {
     "strain, plasticity), `rigid`; or the name of a material. For its constants see below"),
   NAMED("element", "elastic", CHOICE, SceneBody, element, SHOWN, ElementTypes, "`auto`",
     "`full` (full integration), `bbar` (mean dilatation: does not lock as Poisson's ratio nears 1/2), `incompatible` "
-    "(modes for bending) or `auto`: the best of them for material and cells, see [which "
+    "(modes for bending), `reduced` (8 points in cells with `serendipity`, as C3D20R of decks) or `auto`: the best of "
+    "the others for material and cells, see [which "
     "element](../doc/modelling.md#which-element)"),
   INTS("order", "elastic", 1, SceneBody, order, OPTIONAL, "1 for hexahedra, 2 for tetrahedra",
     "polynomial order of the displacements in a cell, 1 or 2. Hexahedra of order 2 have 27 nodes, tetrahedra 10; they "

@@ -59,6 +59,8 @@ def body_entries(deck, bodies, mesh_file, names, laws):
         keys["order"] = max(KINDS[kind].order if kind in KINDS else 1 for kind in kinds)
         if "hexahedron20" in kinds:
             keys["serendipity"] = "true"
+            if deck.geometry.reduced.issuperset(bodies.cells[body]):
+                keys["element"] = "reduced"
         if body in velocity:
             keys["initial_velocity"] = velocity[body]
         found.append((name, keys))

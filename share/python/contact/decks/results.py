@@ -55,6 +55,8 @@ class Results:
                 raise MeshError(f"node {number} of the deck has no vertex in the results")
             self.vertex[nodes] = rows[found]
         self.nodes = np.flatnonzero(self.vertex >= 0)
+        elements = self.geometry.element_numbers  # those of the deck if they are unique
+        self.elements = elements if len(set(elements)) == len(elements) else range(1, len(elements) + 1)
 
     def numbers(self):
         """Numbers of nodes and elements in the files: those of the deck if they are unique"""
@@ -107,10 +109,10 @@ class Results:
             for number, node in zip(numbers, self.nodes):
                 file.write(f" -1{number:10d}" + reals(self.geometry.points[node]))
             file.write(f" -3\n    3C{'':18}{len(self.cells):12d}{'':37}1\n")
-            for number, cell in enumerate(self.cells, 1):
+            for cell in self.cells:
                 kind, nodes = self.geometry.elements[cell]
                 code, order = CELLS[kind]
-                file.write(f" -1{self.element_number(cell, number):10d}{code:5d}{0:5d}{1:5d}\n")
+                file.write(f" -1{self.elements[cell]:10d}{code:5d}{0:5d}{1:5d}\n")
                 words = [f"{number_of[nodes[place]]:10d}" for place in order]
                 file.write("".join(" -2" + "".join(words[i:i + 10]) + "\n" for i in range(0, len(words), 10)))
             file.write(" -3\n")
@@ -121,10 +123,6 @@ class Results:
                     count += 1
                     write_block(file, name, components, numbers, values, (count, at, k, step, time))
             file.write(" 9999\n")
-
-    def element_number(self, cell, otherwise):
-        numbers = self.geometry.element_numbers
-        return numbers[cell] if len(set(numbers)) == len(numbers) else otherwise
 
     def write_dat(self, path):
         times, number_of = self.times(), dict(zip(self.nodes.tolist(), self.numbers()))
