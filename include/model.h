@@ -333,6 +333,8 @@ typedef struct {
   PetscReal   interference;      /* largest intended initial overlap [length]; 0: none, PETSC_INFINITY: any */
   PetscInt    interference_ramp; /* ramp of the interference; PETSC_DECIDE: applied from the start */
   PetscReal   stiffness;         /* pressure per depth of penetration [force/length^3]; 0: no penetration */
+  PetscReal   exponential[2];    /* gap at which the pressure is a hundredth of that at no gap [length], and that
+                                    pressure [force/length^2]; 0: another law */
   PetscReal   friction;          /* friction coefficient; 0: none, PETSC_INFINITY: sticks under any force */
   PetscReal   shear_limit;       /* limit of the friction stress [force/length^2]; PETSC_INFINITY: none */
   PetscInt    friction_ramp;     /* ramp of the coefficient; PETSC_DECIDE: constant */
@@ -349,6 +351,12 @@ typedef struct {
 static inline PetscBool SceneContactPairHasFriction(const SceneContactPair *pair)
 {
   return (PetscBool)(pair->friction > 0.0 && pair->shear_limit > 0.0);
+}
+
+/* Returns whether the pressure of a pair depends on the depth of penetration */
+static inline PetscBool SceneContactPairIsSoft(const SceneContactPair *pair)
+{
+  return (PetscBool)(pair->stiffness > 0.0 || pair->exponential[1] > 0.0);
 }
 
 /* A tie: two faces that are joined in the undeformed state */

@@ -185,8 +185,8 @@ static PetscErrorCode MeasureContact(Model model, State state, PetscReal time, V
   PetscCall(VecDuplicate(sol->pressure, weighted));
   PetscCall(VecDuplicate(u, contact));
   PetscCall(RowsGetForces(state->solved->linearization, sol, *weighted, *contact));
-  if (sol->yield) PetscCall(VecDot(*weighted, sol->yield, &work));
-  report->contact_energy = 0.5 * PetscRealPart(work);
+  if (sol->stored) PetscCall(VecDot(*weighted, sol->stored, &work));
+  report->contact_energy = PetscRealPart(work);
   PetscCall(ForcesMeasurePairs(&at, u, *weighted, sol->shear, report));
   PetscCall(FrictionMeasure(model, state, time, u, sol, report, late));
   PetscCall(MeasureActionReaction(&at, *contact, report));

@@ -35,7 +35,7 @@ PetscErrorCode PenetrationMeasure(Model model, State state, StepReport *report)
 /* Returns whether a pair may penetrate at the end of a load step: it is soft, or its overlap's ramp has not ended */
 static PetscBool PenetrationIsMeant(const SceneContactPair *pair, const StepReport *report)
 {
-  return (PetscBool)(pair->stiffness > 0.0 ||
+  return (PetscBool)(SceneContactPairIsSoft(pair) ||
                      (pair->interference_ramp >= 0 && report->ramps[pair->interference_ramp].factor < 1.0));
 }
 

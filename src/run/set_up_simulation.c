@@ -73,11 +73,11 @@ static PetscErrorCode SimulationSetUpContact(Model model, State state)
   for (PetscInt p = 0; p < scene->npairs; ++p) {
     const SceneContactPair *pair = &scene->pairs[p];
 
-    SceneCheck(pair->stiffness == 0.0 || (!SchemeIsImpact(&scene->dynamics) && !scene->displacement_bounds),
+    SceneCheck(!SceneContactPairIsSoft(pair) || (!SchemeIsImpact(&scene->dynamics) && !scene->displacement_bounds),
       model->comm, PETSC_ERR_SUP, pair,
-      "contact pair \"%s\" has contact_stiffness, which cannot be combined with displacement_bounds or the scheme "
-      "impact of dynamics; use the scheme generalized_alpha",
-      pair->name);
+      "contact pair \"%s\" has %s, which cannot be combined with displacement_bounds or the scheme impact of dynamics; "
+      "use the scheme generalized_alpha",
+      pair->name, pair->stiffness > 0.0 ? "contact_stiffness" : "contact_exponential");
   }
   PetscCall(ContactHistoryCreate(model->dm, scene, state->history));
   PetscFunctionReturn(0);

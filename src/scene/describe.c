@@ -268,6 +268,9 @@ static PetscErrorCode DescribeLaw(Scene scene, const SceneContactPair *pair, Pet
     PetscCall(PetscViewerASCIIPrintf(viewer, ", at most %.6g per area", (double)pair->shear_limit));
   if (pair->stiffness > 0.0)
     PetscCall(PetscViewerASCIIPrintf(viewer, "; soft: pressure %.6g times depth", (double)pair->stiffness));
+  if (pair->exponential[1] > 0.0)
+    PetscCall(PetscViewerASCIIPrintf(viewer, "; soft: pressure %.6g at no gap, a hundredth at the gap %.6g",
+      (double)pair->exponential[1], (double)pair->exponential[0]));
   if (pair->interference == PETSC_INFINITY) PetscCall(PetscViewerASCIIPrintf(viewer, "; interference: any"));
   else if (pair->interference > 0.0)
     PetscCall(PetscViewerASCIIPrintf(viewer, "; interference of at most %.6g", (double)pair->interference));

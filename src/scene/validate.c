@@ -164,13 +164,18 @@ static PetscErrorCode SceneValidatePairEffects(MPI_Comm comm, Scene scene, const
   PetscFunctionBegin;
   SceneRequire(!SceneContactPairHasFriction(here) || !scene->displacement_bounds, here,
     "contact pair \"%s\" has friction, which cannot be combined with displacement_bounds: remove them", here->name);
+  SceneRequire(!(here->exponential[1] > 0.0) || here->stiffness == 0.0, here,
+    "contact pair \"%s\" has both contact_exponential and contact_stiffness", here->name);
+  SceneRequire(!(here->exponential[1] > 0.0) || scene->contact_updates > 1, here,
+    "contact pair \"%s\" has contact_exponential, whose pressure needs more than one contact update", here->name);
   for (PetscInt q = 0; q < scene->npressures; ++q)
     SceneRequire(!SceneContactPairHasFriction(here) || !scene->pressures[q].follows, here,
       "contact pair \"%s\" has friction, and pressure \"%s\" follows its face: the repeated solves that find the "
       "load of such a pressure do not always converge with friction; use a pressure that does not follow, or no "
       "friction",
       here->name, scene->pressures[q].name);
-  SceneRequire(!SceneIsDynamic(scene) || scene->dynamics.scheme != SCHEME_GENERALIZED_ALPHA || here->stiffness > 0.0 ||
+  SceneRequire(!SceneIsDynamic(scene) || scene->dynamics.scheme != SCHEME_GENERALIZED_ALPHA ||
+                 SceneContactPairIsSoft(here) ||
                  (scene->dynamics.mass == MASS_REDISTRIBUTED && !SceneContactPairHasFriction(here)),
     here,
     "contact pair \"%s\" has nodes with mass (mass lumped or consistent, or friction), for which scheme "

@@ -21,6 +21,7 @@ PetscErrorCode ContactSolutionDestroy(ContactSolution *sol)
   PetscCall(VecDestroy(&sol->pressure));
   PetscCall(VecDestroy(&sol->gap));
   PetscCall(VecDestroy(&sol->yield));
+  PetscCall(VecDestroy(&sol->stored));
   PetscCall(VecDestroy(&sol->shear));
   PetscCall(VecDestroy(&sol->slip));
   PetscFunctionReturn(0);

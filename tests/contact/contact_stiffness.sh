@@ -1,4 +1,5 @@
-# contact_stiffness: soft contact is a layer of springs between the faces, in series with the bodies
+# contact_stiffness: soft contact is a layer of springs between the faces, in series with the bodies.
+# contact_exponential: the pressure is 1 at the depth 0.02
 blocks() { # keys of the pair, material, displacement of the lid, further lines
   cat <<SCENE
 bodies:
@@ -65,6 +66,15 @@ contact:
   - touched: {mortar: soft.zmin, nonmortar: cube.zmax, contact_stiffness: 1e-4}
 SCENE
 run unlike 1
+exponential() { sed 's/contact_stiffness: 50/contact_exponential: [0.04, 0.1]/' "$1.yaml" > "exponential_$1.yaml"; }
+for name in mortar dual mortar_friction; do
+  exponential $name
+  for ranks in 1 3; do run exponential_$name $ranks; done
+done
+# starts with a gap of 0.02
+blocks 50 linear -0.06 | sed 's/, 1\]\(.*2, 2, 2\)/, 1.02]\1/; s/1, 2\]/1, 2.02]/' > apart.yaml
+exponential apart
+run exponential_apart 2
 for law in neohookean saint_venant; do
   blocks 50 $law -0.04 > $law.yaml
   blocks "50, friction: 0.3" $law -0.04 > ${law}_friction.yaml
@@ -99,6 +109,12 @@ for name in ("mortar", "dual", "mortar_friction", "dual_friction", "stick", "lim
         all(within(e, 0.01, 1e-8) for both in energies for e in both), energies)
     say(f"{name}: the depth is the gap", within(steps[0]["gap_min"], -0.02, 1e-8), steps[0]["gap_min"])
     say(f"{name}: work", within(steps[0]["work"], 0.02, 1e-8), steps[0]["work"])
+for name, ranks in (*((name, r) for name in ("mortar", "dual", "mortar_friction") for r in (1, 3)), ("apart", 2)):
+    step = load(f"exponential_{name}{ranks}")["steps"][-1]
+    force = step["pairs"][0]["normal_force"]
+    say(f"exponential, {name}: force on {ranks} ranks", within(force, 1, 1e-6), force)
+    say(f"exponential, {name}: energy of the layer",
+        within(step["contact_energy"], (1 - 0.0005) * 0.04 / 4.60517019, 1e-6), step["contact_energy"])
 step = load("stiff1")["steps"][-1]
 say("a stiffness of 1e9 is hard contact", within(step["pairs"][0]["normal_force"], 2, 1e-6), step["pairs"][0])
 step = load("unlike1")["steps"][-1]
@@ -145,3 +161,10 @@ sed 's/load: .*/dynamics: {time_step: 0.01, end_time: 1}/; s/poisson: 0}/poisson
 refuse impact.yaml
 blocks -1 linear -0.04 > negative.yaml
 refuse negative.yaml
+sed 's/contact_stiffness: 50/&, contact_exponential: [0.04, 0.1]/' refused.yaml > both.yaml
+refuse both.yaml
+exponential impact
+refuse exponential_impact.yaml
+exponential refused
+echo "contact_updates: 1" >> exponential_refused.yaml
+refuse exponential_refused.yaml

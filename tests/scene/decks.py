@@ -136,6 +136,11 @@ DECKS = {
     "nodes": (deck(step("*CLOAD\ntop, 3, -1.", "*CLOAD\ntop, 3, -1.5")), {"energy": 0.1, "reaction": 10}),
     # the layer between the cubes is as stiff as each of them
     "soft": (deck(push(-0.03), law=SOFT), {"reaction": 10, "energy": 0.1}),
+    # the pressure is 1 at no gap, a hundredth of that at a gap of 0.02, and 10 at a depth of 0.01
+    "exponential": (deck(push(-0.03), law="*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=EXPONENTIAL\n0.02, 1."), {
+        "reaction": 10,
+        "energy": 0.1
+    }),
     "push": (deck(push(-0.01), push(-0.02)), {"reactions": [5, 10]}),
     "increments": (deck(push(-0.02, procedure="*STATIC, DIRECT\n0.25, 1.")), {"reactions": [2.5, 5, 7.5, 10]}),
     "amplitude": (deck(step("*BOUNDARY, AMPLITUDE=A\ntop, 3, 3, -0.02", procedure="*STATIC, DIRECT\n0.5, 1."),

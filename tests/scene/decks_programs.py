@@ -306,13 +306,14 @@ def judge():
         found = blocks(name)
         last = max(step for _, step in found if step)
         fields = {field for field, step in found if step == last}
-        wanted = {"DISP", "STRESS"} | ({"CONTACT"} if name in ("freecad_soft", "prepomax_hard", "prepomax_soft") else
-                                       set())
+        wanted = {"DISP", "STRESS", "TOSTRAIN"} | ({"CONTACT"} if name in ("freecad_soft", "prepomax_hard",
+                                                                      "prepomax_soft") else set())
         say(f"{name}: fields", wanted <= fields, fields)
         say(f"{name}: nodes of the deck", sorted(found["DISP", last]) == sorted(NODES), len(found["DISP", last]))
         close(f"{name}: displacement of the top", [found["DISP", last][n][2] for n in TOP], [top] * len(TOP))
         if stress is not None:
             close(f"{name}: stress", [found["STRESS", last][n][2] for n in FOOT], [stress] * len(FOOT))
+            close(f"{name}: strain", [found["TOSTRAIN", last][n][2] for n in FOOT], [stress / 1000] * len(FOOT))
 
 
 if __name__ == "__main__":

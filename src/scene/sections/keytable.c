@@ -249,6 +249,10 @@ static const SceneKey contact_rows[] = {TEXT("mortar", NULL, SceneContactPair, m
     "penetrate",
     "soft contact: the pressure is this stiffness times the depth by which the faces penetrate, as if one of them had "
     "a thin elastic layer"),
+  REALS("contact_exponential", NULL, 2, SceneContactPair, exponential, OPTIONAL, ABOVE_0, "L, F/L²",
+    "none: faces do not penetrate",
+    "soft contact: [c, p] gives the pressure p at no gap, p/100 at the gap c, and grows by the same factor for each "
+    "further depth c"),
   REALS("friction", NULL, 1, SceneContactPair, friction, OPTIONAL, FROM_0, "", "0: none",
     "Coulomb's coefficient of friction"),
   NUMBER_OF("friction_ramp", RAMP, SceneContactPair, friction_ramp, "constant", "a ramp that the coefficient follows"),

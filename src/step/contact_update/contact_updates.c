@@ -36,7 +36,7 @@
 static PetscErrorCode ContactUpdatesMeasureGap(StepProblem *p, Vec u, const ContactSolution *sol,
   ContactLinearization at_u, StepReport *report, PetscBool *is_true)
 {
-  PetscReal size, extent, proximal;
+  PetscReal size, extent, proximal, law;
   PetscInt  nrows;
 
   PetscFunctionBegin;
@@ -45,6 +45,8 @@ static PetscErrorCode ContactUpdatesMeasureGap(StepProblem *p, Vec u, const Cont
   if (nrows) PetscCall(VecMin(at_u->g, NULL, &report->gap_true));
   PetscCall(ContactHistoryChange(p->state->history, at_u, &report->gap_change));
   PetscCall(ContactUpdateMeasureError(p->model, p->state, u, sol, at_u, report));
+  PetscCall(SoftMeasureError(p, p->state->solved->linearization, sol, &law));
+  report->update_error = PetscMax(report->update_error, law);
   PetscCall(VecNorm(u, NORM_INFINITY, &size));
   PetscCall(VecNorm(p->model->places.x, NORM_INFINITY, &extent));
   *is_true = (PetscBool)(report->update_error <=
@@ -117,7 +119,8 @@ static PetscErrorCode ContactUpdatesReportGapError(Model model, State state, con
       "contact did not converge: after %" PetscInt_FMT
       " contact updates %s still changes by %g, more than %g of the largest displacement%s",
       report->contact_updates,
-      report->update_error > report->gap_change ? "the slip or the rotation of the normals" : "the gap",
+      report->update_error > report->gap_change ? "the slip, the rotation of the normals or the pressure of a soft pair"
+                                                : "the gap",
       (double)report->update_error, (double)state->control->tolerances.gap_unconverged, place));
   PetscFunctionReturn(0);
 }

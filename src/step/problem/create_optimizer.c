@@ -98,7 +98,7 @@ PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
     PetscCall(TaoSetJacobianInequalityRoutine(*tao, p->J, p->J, StepProblemConstant, p));
     PetscCall(VecDestroy(&c));
     PetscCall(TaoIPFilterSetSlackMass(*tao, p->state->solved->linearization->mass));
-    PetscCall(TaoIPFilterSetCompliance(*tao, p->compliance));
+    PetscCall(TaoIPFilterSetCompliance(*tao, p->soft.compliance));
   }
   PetscCall(TaoIPFilterSetPrimalMass(*tao, p->model->mass));
   PetscCall(TaoSetTolerances(*tao, p->state->control->tolerances.optimizer, PETSC_DEFAULT, PETSC_DEFAULT));
@@ -118,8 +118,8 @@ PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCall(StiffnessSetModes(p->model, ksp, p->K));
   PetscCall(StiffnessGiveMotions(p->model, p->state, *tao));
   if (*ours && p->state->solved->subspace) PetscCall(TaoIPFilterSetSubspace(*tao, p->state->solved->subspace));
-  PetscCheck(*ours || !p->compliance, p->model->comm, PETSC_ERR_SUP,
-    "contact_stiffness needs -tao_type ipfilter; other optimizers do not support it");
+  PetscCheck(*ours || !p->soft.compliance, p->model->comm, PETSC_ERR_SUP,
+    "soft contact needs -tao_type ipfilter; other optimizers do not support it");
   PetscCheck(*ours || !p->friction.T, p->model->comm, PETSC_ERR_SUP,
     "friction needs -tao_type ipfilter; other optimizers do not support it");
   PetscCall(OptimizerSetRounding(p->model, p->state->path, *tao));

@@ -87,12 +87,9 @@ static PetscErrorCode OptimizerKeepContact(StepProblem *p, Tao tao, PetscBool ou
     "the optimizer of -tao_type gives no multipliers, so contact pressures are unknown");
   PetscCall(VecQuotient_AMGF(sol->pressure, multipliers, lin->mass));
   PetscCall(VecScale(sol->pressure, StepProblemShare(p)));
+  PetscCall(SoftKeep(p, lin, sol));
   PetscCall(FrictionKeep(p, tao, u, sol));
   if (ours) PetscCall(TaoIPFilterGetSlack(tao, &slack));
-  if (p->compliance) {
-    PetscCall(VecDuplicate(sol->pressure, &sol->yield));
-    PetscCall(VecPointwiseMult(sol->yield, sol->pressure, p->compliance));
-  }
   PetscCall(ContactHistoryStore(p->state->history, lin, sol, slack ? slack : sol->gap,
     p->model->stiffness)); /* `slack` is NULL if there are no rows, or for another optimizer than TAOIPFILTER */
   PetscFunctionReturn(0);

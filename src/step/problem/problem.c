@@ -139,37 +139,9 @@ PetscErrorCode StepProblemAdvanceBolts(StepProblem *p, Vec u, StepReport *report
 }
 
 /*
-   Sets the compliance of the rows of a linearization. A row of which the mortar face covers a share a has the gap of
-   this part times a, and its force on the bodies is a times its multiplier. So the compliance is a / stiffness.
-*/
-static PetscErrorCode StepProblemSetCompliance(StepProblem *p, ContactLinearization lin)
-{
-  const SceneContactPair *pairs = p->model->scene->pairs;
-  PetscReal              *size;
-  PetscScalar            *a;
-
-  PetscFunctionBegin;
-  PetscCall(VecDestroy(&p->compliance));
-  PetscCall(PetscMalloc1(lin->nlocal, &size));
-  for (PetscInt k = 0; k < p->model->scene->npairs; ++k) {
-    if (!(pairs[k].stiffness > 0.0)) continue;
-    if (!p->compliance) {
-      PetscCall(VecDuplicate(lin->g, &p->compliance));
-      PetscCall(VecZeroEntries(p->compliance));
-    }
-    PetscCall(InterferenceGetCover(p->model, p->base, k, lin, size));
-    PetscCall(VecGetArray(p->compliance, &a));
-    for (PetscInt r = 0; r < lin->nlocal; ++r)
-      if (lin->pair[r] == k) a[r] = size[r] / pairs[k].stiffness;
-    PetscCall(VecRestoreArray(p->compliance, &a));
-  }
-  PetscCall(PetscFree(size));
-  PetscFunctionReturn(0);
-}
-
-/*
    Sets gap and matrix of the linearized contact: c(u) = g + J_full (u - u_linearized) = p->g + p->J (u - base) with
-   p->g = g + J_full (base - u_linearized). p->J is J_full with zero columns for prescribed displacements.
+   p->g = g + J_full (base - u_linearized), where g includes the depth of soft rows. p->J is J_full with zero columns
+   for prescribed displacements.
 */
 PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, Vec u_linearized)
 {
@@ -179,9 +151,10 @@ PetscErrorCode StepProblemSetContact(StepProblem *p, ContactLinearization lin, V
   PetscCall(VecDestroy(&p->g));
   PetscCall(MatDestroy(&p->J));
   PetscCall(VecDuplicate(lin->g, &p->g));
-  PetscCall(StepProblemSetCompliance(p, lin));
+  PetscCall(SoftSetUp(p, lin));
   PetscCall(VecWAXPY(p->w, -1.0, u_linearized, p->base));
   PetscCall(MatMultAdd(lin->J, p->w, lin->g, p->g));
+  if (p->soft.depth) PetscCall(VecAXPY(p->g, 1.0, p->soft.depth));
   if (p->model->ties.C) PetscCall(MatMatMult(lin->J, p->model->ties.C, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &p->J));
   else PetscCall(MatDuplicate(lin->J, MAT_COPY_VALUES, &p->J));
   PetscCall(VecDuplicate(p->base, &mask));
@@ -232,7 +205,7 @@ PetscErrorCode StepProblemDestroy(StepProblem *p)
   PetscCall(MatDestroy(&p->K));
   PetscCall(MatDestroy(&p->J));
   PetscCall(VecDestroy(&p->g));
-  PetscCall(VecDestroy(&p->compliance));
+  PetscCall(SoftDestroy(&p->soft));
   PetscCall(VecDestroy(&p->base));
   PetscCall(ProximalEnd(p));
   PetscCall(VecDestroy(&p->followed));

@@ -47,6 +47,12 @@ typedef struct {
   Vec limit, coefficient; /* largest friction force [force] and friction coefficient of each row of J */
 } StepFriction;
 
+/* Rows of soft pairs yield by depth + compliance x pressure. All vectors are NULL if no pair is soft. */
+typedef struct {
+  Vec compliance, depth; /* 0 in rows that do not yield [length^3/force], [length] */
+  Vec cover;             /* share of each row of a soft pair that the mortar face covers */
+} SoftRows;
+
 typedef struct {
   Simulation sim;
   Model      model; /* that of the simulation */
@@ -60,8 +66,7 @@ typedef struct {
   PetscReal  energy; /* objective at base for the quadratic model [force length] */
   Mat        J;      /* NULL without contact; columns of prescribed rows are zero */
   Vec        g;
-  Vec        compliance;       /* of each row, the covered part of its area / stiffness of its pair, 0 if rigid
-                                  [length^3/force]; NULL if no pair is soft */
+  SoftRows   soft;
   Vec        lower, upper;     /* NULL if there are no bounds */
   Anderson   secants;          /* secants of the follower loads */
   Vec        followed;         /* centre at which follower loads are linearized [length]; NULL: no follower
@@ -182,6 +187,13 @@ static inline PetscBool EnergyIsFinite(PetscReal energy)
 PETSC_INTERN PetscErrorCode InterferenceGetCover(Model, Vec like, PetscInt pair, ContactLinearization,
   PetscReal size[]);
 PETSC_INTERN PetscErrorCode InterferenceAdd(Model, State, PetscReal time, PetscReal times, ContactLinearization);
+
+/* soft.c: laws of soft contact pairs */
+PETSC_INTERN PetscErrorCode SoftSetUp(StepProblem *, ContactLinearization);
+PETSC_INTERN PetscErrorCode SoftKeep(StepProblem *, ContactLinearization, ContactSolution *);
+PETSC_INTERN PetscErrorCode SoftMeasureError(StepProblem *, ContactLinearization, const ContactSolution *,
+  PetscReal *error);
+PETSC_INTERN PetscErrorCode SoftDestroy(SoftRows *);
 
 /* check_weak_springs.c: rejects solutions in which weak springs carry the loads */
 PETSC_INTERN PetscErrorCode WeakSpringsTest(const StepProblem *, Vec u, StepReport *);

@@ -10,7 +10,8 @@
 /*
    Finds whether u = 0 may be the solution. vanishes: true if a solve has led to u = 0 up to rounding. *due: true if
    loads, temperatures and prescribed displacements are zero at this time, the last state is deformed, no metal has
-   yielded, and no bolt is shortened. If a pair has friction, which may hold bodies in a deformed state, u must vanish.
+   yielded, no bolt is shortened, and no pair has pressure at no gap. If a pair has friction, which may hold bodies in a
+   deformed state, u must vanish.
 */
 PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool vanishes, PetscBool *due)
 {
@@ -34,6 +35,8 @@ PetscErrorCode ZeroLoadStepIsDue(const StepProblem *p, PetscBool vanishes, Petsc
   for (PetscInt b = 0; b < p->model->bolts.n; ++b) stays = (PetscBool)(stays || p->model->bolts.now[b] != 0.0);
   for (PetscInt k = 0; !vanishes && k < p->model->scene->npairs; ++k)
     stays = (PetscBool)(stays || SceneContactPairHasFriction(&p->model->scene->pairs[k]));
+  for (PetscInt k = 0; k < p->model->scene->npairs; ++k)
+    stays = (PetscBool)(stays || p->model->scene->pairs[k].exponential[1] > 0.0);
   *due =
     (PetscBool)(!stays && before > 0.0 && load == 0.0 && temperature == 0.0 && displacement == 0.0 && moved == 0.0);
   PetscFunctionReturn(0);

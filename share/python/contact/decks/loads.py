@@ -280,8 +280,7 @@ def contact_entries(deck, bodies):
                     keys["gap"] = "node"
                 if adjusted:  # the smooth surface through nodes that were moved would overlap the other one
                     keys["smooth"] = False
-                if interaction.stiffness:
-                    keys["contact_stiffness"] = interaction.stiffness
+                keys.update(interaction.soft)
                 keys.update(friction_keys(deck, interaction))
                 keys.update(activity_keys(deck, bodies, (slave.upper(), master.upper())))
                 pairs.append((f"pair_{len(pairs) + 1}", keys))
@@ -352,8 +351,8 @@ def program(deck, found):
         times = [0.0, *step.times()]
         found["ramps"] = [(name, {"times": times, "values": list(factors)}) for name, factors in deck.ramps.factors]
         found["dynamics"] = [f"  time_step: {step.period / step.n:.12g}", f"  end_time: {step.period:.12g}"]
-        if any(interaction.stiffness for interaction in deck.interactions.values()):
-            found["dynamics"].append("  scheme: generalized_alpha")  # which contact_stiffness needs
+        if any(interaction.soft for interaction in deck.interactions.values()):
+            found["dynamics"].append("  scheme: generalized_alpha")  # which soft contact needs
         return
     found["load"] = [f"  steps: {steps}"]
     found["ramps"] = [(name, {"factors": list(factors[1:])}) for name, factors in deck.ramps.factors]

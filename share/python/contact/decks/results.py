@@ -6,6 +6,7 @@ import h5py
 import numpy as np
 
 from ..meshes.model import MeshError
+from .strains import node_strains
 
 # CalculiX' number of a kind of cell in .frd files, and its nodes as places in the deck's order
 CELLS = {
@@ -15,6 +16,7 @@ CELLS = {
 }
 DISPLACEMENT = [("D1", 2, 1, 0), ("D2", 2, 2, 0), ("D3", 2, 3, 0), ("ALL", 2, 0, 0)]
 STRESS = [("SXX", 4, 1, 1), ("SYY", 4, 2, 2), ("SZZ", 4, 3, 3), ("SXY", 4, 1, 2), ("SYZ", 4, 2, 3), ("SZX", 4, 3, 1)]
+STRAIN = [("E" + name[1:], *place) for name, *place in STRESS]
 CONTACT = [("COPEN", 4, 1, 1), ("CSLIP1", 4, 2, 2), ("CSLIP2", 4, 3, 3), ("CPRESS", 4, 1, 2), ("CSHEAR1", 4, 2, 3),
            ("CSHEAR2", 4, 3, 1)]
 PLASTIC = [("PE", 1, 0, 0)]
@@ -80,6 +82,10 @@ class Results:
             data = {name: values[:] for name, values in file.items()}
         found = [("DISP", DISPLACEMENT, data["displacement"][rows]),
                  ("STRESS", STRESS, data["nodal_stress"][rows][:, OURS_TO_STRESS])]
+        if self.deck.strains:
+            moved = np.where(self.vertex[:, None] >= 0, data["displacement"][self.vertex], 0.0)
+            strain = node_strains(self.geometry, self.cells, moved, self.deck.finite)
+            found.append(("TOSTRAIN", STRAIN, strain[self.nodes]))
         if "equivalent_plastic_strain" in data:
             found.append(("PE", PLASTIC, self.at_vertices(data["equivalent_plastic_strain"])[rows][:, None]))
         if "contact_pressure" in data and not np.isnan(data["contact_gap"]).all():

@@ -59,10 +59,10 @@ def numbers(where, data):
 
 
 class Interaction:
-    """A surface interaction: law of the pressure with its stiffness, coefficient of friction at each load step"""
+    """A surface interaction: law of the pressure with its key, coefficient of friction at each load step"""
 
     def __init__(self, where):
-        self.where, self.law, self.stiffness, self.friction = where, "HARD", 0.0, 0.0
+        self.where, self.law, self.friction, self.soft = where, "HARD", 0.0, {}
         self.frictions = []
 
 
@@ -70,16 +70,18 @@ class Translator:
 
     def __init__(self, path, ignored=()):
         self.path, self.notes = path, Notes(ignored)
-        self.geometry = geometry.Geometry(abaqus.Deck(path))
+        blocks = list(abaqus.keyword_blocks(path))
+        self.geometry = geometry.Geometry(abaqus.Deck(path, blocks))
         self.materials, self.orientations, self.amplitudes = {}, {}, {}
         self.interactions, self.pairs, self.ties, self.cyclic = {}, [], {}, []
         self.initial, self.velocities, self.transformed, self.temperature_steps = [], [], {}, []
         self.equations, self.removed, self.clearances = [], set(), {}
         self.displacements, self.forces, self.pressures, self.bodies_loads = (Histories() for _ in range(4))
         self.active, self.steps, self.prints, self.printed = {}, [], {}, {}
+        self.strains = False  # whether the file .frd has strains
         self.material = self.interaction = None
         self.part, self.starting = "", []
-        model, steps = self.split()
+        model, steps = self.split(blocks)
         self.finite = any("NLGEOM" in keys and keys["NLGEOM"].upper() != "NO" for _, keys, _ in steps)
         for block in model:
             self.read_model(*block)
@@ -90,10 +92,10 @@ class Translator:
                             f"DECK OUT.msh")
         self.ramps = Ramps(self.steps)
 
-    def split(self):
+    def split(self, blocks):
         """Keywords of the model, and [(where, parameters, keywords)] of the steps"""
         model, steps, inside = [], [], False
-        for block in abaqus.keyword_blocks(self.path):
+        for block in blocks:
             where, keyword, parameters, _ = block
             if keyword == "STEP":
                 steps.append((where, parameters, []))
@@ -170,7 +172,12 @@ class Translator:
             rows = numbers(where, data)
             if not rows or not rows[0][0] > 0.0:
                 raise MeshError(f"{where}: a linear pressure-overclosure law needs a stiffness")
-            self.interaction.stiffness = rows[0][0]
+            self.interaction.soft = {"contact_stiffness": rows[0][0]}
+        elif law == "EXPONENTIAL":
+            rows = numbers(where, data)
+            if not rows or len(rows[0]) < 2 or not min(rows[0][:2]) > 0.0:
+                raise MeshError(f"{where}: an exponential pressure-overclosure law needs a gap and a pressure")
+            self.interaction.soft = {"contact_exponential": rows[0][:2]}
         elif law not in ("HARD", "TIED"):
             self.notes.approximate(
                 "SURFACE BEHAVIOR", where, f"{law.lower()} pressure-overclosure: hard contact, so "
@@ -287,6 +294,8 @@ class Translator:
 
     def component(self, node, dof):
         """((node, coordinate axis, or a direction along none), sign) of a displacement component"""
+        if node not in self.transformed:
+            return (node, dof), 1.0
         axis = self.axis(node, dof)
         along = np.flatnonzero(axis)
         return ((node, int(along[0])), float(axis[along[0]])) if len(along) == 1 else ((node, tuple(axis)), 1.0)
@@ -367,8 +376,11 @@ class Translator:
                                                                                 for i in self.interactions.values())
 
     def read_in_step(self, step, given, where, keyword, parameters, data):
+        words = [word.strip().upper() for text in data for word in text.split(",")]
         if keyword == "NODE PRINT":
-            self.request(where, parameters, data)
+            self.request(where, parameters, words)
+        elif keyword in ("EL FILE", "ELEMENT OUTPUT"):
+            self.strains = self.strains or "E" in words
         if keyword in PROCEDURES | HARMLESS | MESH:
             return
         self.check_parameters(where, keyword, parameters)
@@ -393,9 +405,8 @@ class Translator:
             return
         self.notes.translate(keyword, where)
 
-    def request(self, where, parameters, data):
+    def request(self, where, parameters, words):
         """Sets of nodes whose displacements the file .dat has, until a later step asks for others"""
-        words = [word.strip().upper() for text in data for word in text.split(",")]
         if "NSET" in parameters and "U" in words:
             self.printed[parameters["NSET"]] = self.geometry.nodes_of(where, parameters["NSET"])
 

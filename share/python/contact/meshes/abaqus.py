@@ -153,10 +153,11 @@ def read_surface(part, where, parameters, data):
 class Deck:
     """All parts, and the instances that an assembly makes of them"""
 
-    def __init__(self, path):
+    def __init__(self, path, blocks):
+        """blocks: those of keyword_blocks()"""
         self.path, self.parts, self.instances = path, {"": Part()}, []
         part, instance = self.parts[""], None
-        for where, keyword, parameters, data in keyword_blocks(path):
+        for where, keyword, parameters, data in blocks:
             if keyword == "PART":
                 part = self.parts.setdefault(parameters.get("NAME", ""), Part())
             elif keyword in ("END PART", "END INSTANCE"):
@@ -276,7 +277,7 @@ def add_surface(mesh, part, name, sides, place):
 
 def read(path):
     """The mesh, and the names of the sets of nodes that are no face"""
-    deck = Deck(path)
+    deck = Deck(path, keyword_blocks(path))
     mesh, left = Mesh(np.zeros((0, 3))), []
     alone = not deck.instances
     flat = deck.parts[""]
