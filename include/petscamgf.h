@@ -81,7 +81,6 @@ PETSC_EXTERN PetscErrorCode PetscAMGFFinalizePackage(void);
 PETSC_EXTERN PetscErrorCode PetscAMGFGetVersion(char[], size_t);
 
 PETSC_EXTERN PetscErrorCode PCAMGFSetCycle(PC, PCAMGFCycle);
-PETSC_EXTERN PetscErrorCode PCAMGFGetCycle(PC, PCAMGFCycle *);
 PETSC_EXTERN PetscErrorCode PCAMGFSetFilterIS(PC, IS);
 PETSC_EXTERN PetscErrorCode PCAMGFSetFilterInterpolation(PC, Mat);
 PETSC_EXTERN PetscErrorCode PCAMGFGetFilterSize(PC, PetscInt *);

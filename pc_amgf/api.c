@@ -19,13 +19,6 @@ static PetscErrorCode PCAMGFSetCycle_AMGF(PC pc, PCAMGFCycle cycle)
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode PCAMGFGetCycle_AMGF(PC pc, PCAMGFCycle *cycle)
-{
-  PetscFunctionBegin;
-  *cycle = ((PC_AMGF *)pc->data)->cycle;
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode PCAMGFSetFilterIS_AMGF(PC pc, IS is)
 {
   PC_AMGF *amgf = (PC_AMGF *)pc->data;
@@ -117,7 +110,6 @@ static PetscErrorCode PCAMGFGetCounts_AMGF(PC pc, PCAMGFCounts *counts)
 
 static const AMGFFunction functions[] = {
   AMGF_FUNCTION(PCAMGFSetCycle, AMGF),
-  AMGF_FUNCTION(PCAMGFGetCycle, AMGF),
   AMGF_FUNCTION(PCAMGFSetFilterIS, AMGF),
   AMGF_FUNCTION(PCAMGFSetFilterInterpolation, AMGF),
   AMGF_FUNCTION(PCAMGFGetFilterSize, AMGF),
@@ -161,7 +153,7 @@ PetscErrorCode PCAMGFComposeFunctions_Private(PC pc, PetscBool attach)
   `PC_AMGF_BFB` is positive definite only while A < 2 B^-1, which an AMG built from an older operator need not
   satisfy; see `PCAMGFSetAMGLag()`.
 
-.seealso: `PCAMGF`, `PCAMGFCycle`, `PCAMGFGetCycle()`
+.seealso: `PCAMGF`, `PCAMGFCycle`
 @*/
 PetscErrorCode PCAMGFSetCycle(PC pc, PCAMGFCycle cycle)
 {
@@ -169,30 +161,6 @@ PetscErrorCode PCAMGFSetCycle(PC pc, PCAMGFCycle cycle)
   PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
   PetscValidLogicalCollectiveEnum(pc, cycle, 2);
   PetscTryMethod(pc, "PCAMGFSetCycle_C", (PC, PCAMGFCycle), (pc, cycle));
-  PetscFunctionReturn(0);
-}
-
-/*@
-  PCAMGFGetCycle - Gets the order in which the AMG and the subspace solve are combined
-
-  Not Collective
-
-  Input Parameter:
-. pc - the preconditioner, of type `PCAMGF`
-
-  Output Parameter:
-. cycle - the cycle
-
-  Level: intermediate
-
-.seealso: `PCAMGF`, `PCAMGFCycle`, `PCAMGFSetCycle()`
-@*/
-PetscErrorCode PCAMGFGetCycle(PC pc, PCAMGFCycle *cycle)
-{
-  PetscFunctionBegin;
-  PetscValidHeaderSpecific(pc, PC_CLASSID, 1);
-  PetscAssertPointer(cycle, 2);
-  PetscUseMethod(pc, "PCAMGFGetCycle_C", (PC, PCAMGFCycle *), (pc, cycle));
   PetscFunctionReturn(0);
 }
 

@@ -132,21 +132,6 @@ static PetscErrorCode BodiesCreateBlocks(Mat R, PetscInt n, Mat *D)
   PetscFunctionReturn(0);
 }
 
-/* Creates the matrix with the rows of `top` above those of `bottom` on each rank. Both have the same columns. */
-static PetscErrorCode BodiesStack(Mat top, Mat bottom, Mat *stack)
-{
-  PetscInt m, n, *source;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetLocalSize(top, &m, NULL));
-  PetscCall(MatGetLocalSize(bottom, &n, NULL));
-  PetscCall(PetscMalloc1(m + n, &source));
-  for (PetscInt i = 0; i < m + n; i++) source[i] = i;
-  PetscCall(BodiesCombineRows(top, bottom, m + n, source, stack));
-  PetscCall(PetscFree(source));
-  PetscFunctionReturn(0);
-}
-
 /* Creates the unit matrix on W */
 static PetscErrorCode BodiesCreateUnit(IS W, Mat *unit)
 {
@@ -179,8 +164,8 @@ static PetscErrorCode BodiesCreateMatrices(SubspaceBodies b, PetscInt n)
   PetscCall(BodiesCreateUnit(b->W, &unit));
   PetscCall(BodiesCreateBlocks(b->R, n, &b->D));
   PetscCall(MatMatMult(b->D, b->RW, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &b->DR));
-  PetscCall(BodiesStack(b->RW, unit, &b->RI));
-  PetscCall(BodiesStack(b->DR, KWW, &b->DRK));
+  PetscCall(IPMatrixStack(b->RW, unit, MAT_INITIAL_MATRIX, &b->RI));
+  PetscCall(IPMatrixStack(b->DR, KWW, MAT_INITIAL_MATRIX, &b->DRK));
   PetscCall(MatTransposeMatMult(b->RI, b->DRK, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &b->A));
   PetscCall(MatDestroy(&KWW));
   PetscCall(MatDestroy(&unit));

@@ -222,3 +222,14 @@ PetscErrorCode IPMatrixCreate(MPI_Comm comm, PetscInt rows, PetscInt columns, co
   PetscCall(PetscFree2(own, others));
   PetscFunctionReturn(0);
 }
+
+PetscErrorCode IPMatrixStack(Mat top, Mat bottom, MatReuse reuse, Mat *stack)
+{
+  Mat blocks[2] = {top, bottom}, nest;
+
+  PetscFunctionBegin;
+  PetscCall(MatCreateNest(PetscObjectComm((PetscObject)top), 2, NULL, 1, NULL, blocks, &nest));
+  PetscCall(MatConvert(nest, MATAIJ, reuse, stack));
+  PetscCall(MatDestroy(&nest));
+  PetscFunctionReturn(0);
+}

@@ -109,6 +109,9 @@ PETSC_INTERN PetscErrorCode IPRowScaleNorm(Tao, IPSpace, Vec, PetscReal *);
 PETSC_INTERN PetscErrorCode IPMatrixSamePattern(Mat, Mat, PetscBool *);
 PETSC_INTERN PetscErrorCode IPMatrixKeep(Mat *, Mat *);
 PETSC_INTERN PetscErrorCode IPMatrixConvert(Mat, Mat *);
+/* Creates the matrix of type AIJ with the rows of `top` above those of `bottom` on each rank, or with
+   MAT_REUSE_MATRIX computes its values anew. Both have the same columns. */
+PETSC_INTERN PetscErrorCode IPMatrixStack(Mat top, Mat bottom, MatReuse, Mat *stack);
 PETSC_INTERN PetscErrorCode IPMatrixCreate(MPI_Comm, PetscInt rows, PetscInt columns, const PetscInt counts[], Mat *);
 PETSC_INTERN PetscErrorCode IPMatricesCheck(Tao, PetscBool *changed);
 

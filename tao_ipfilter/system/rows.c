@@ -34,52 +34,6 @@ static PetscBool RowsSamePattern(const IPStamp *a, const IPStamp *b)
 }
 
 /*
-   Copies the rows of J to the stacked matrix, starting at row `first`. If dnz is not NULL, only counts the entries of
-   the rows, in columns of this rank (dnz) and others (onz); `first` is then a local row.
-*/
-static PetscErrorCode RowsCopy(Mat J, Mat stacked, PetscInt first, PetscInt dnz[], PetscInt onz[])
-{
-  PetscInt rstart, rend, cstart, cend;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetOwnershipRange(J, &rstart, &rend));
-  PetscCall(MatGetOwnershipRangeColumn(J, &cstart, &cend));
-  for (PetscInt i = rstart; i < rend; i++) {
-    const PetscInt    *c;
-    const PetscScalar *v;
-    PetscInt           n;
-    const PetscInt     row = first + i - rstart;
-
-    PetscCall(MatGetRow(J, i, &n, &c, &v));
-    if (dnz) {
-      dnz[row] = 0;
-      for (PetscInt k = 0; k < n; k++) dnz[row] += c[k] >= cstart && c[k] < cend;
-      onz[row] = n - dnz[row];
-    } else PetscCall(MatSetValues(stacked, 1, &row, n, c, v, INSERT_VALUES));
-    PetscCall(MatRestoreRow(J, i, &n, &c, &v));
-  }
-  PetscFunctionReturn(0);
-}
-
-/* Creates an empty matrix for the rows of `upper` followed by those of `lower` on each rank */
-static PetscErrorCode RowsCreateStacked(Mat upper, Mat lower, Mat *stacked)
-{
-  PetscInt m[2], n, N, *dnz, *onz;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetLocalSize(upper, &m[0], &n));
-  PetscCall(MatGetLocalSize(lower, &m[1], NULL));
-  PetscCall(MatGetSize(upper, NULL, &N));
-  PetscCall(PetscMalloc2(m[0] + m[1], &dnz, m[0] + m[1], &onz));
-  PetscCall(RowsCopy(upper, NULL, 0, dnz, onz));
-  PetscCall(RowsCopy(lower, NULL, m[0], dnz, onz));
-  PetscCall(
-    MatCreateAIJ(PetscObjectComm((PetscObject)upper), m[0] + m[1], n, PETSC_DETERMINE, N, 0, dnz, 0, onz, stacked));
-  PetscCall(PetscFree2(dnz, onz));
-  PetscFunctionReturn(0);
-}
-
-/*
    Computes rows->J, the Jacobian of c_I followed by `lower`. The matrix is created anew only if a pattern has changed.
    stamp: that of `lower`.
 */
@@ -88,22 +42,15 @@ static PetscErrorCode RowsStack(Tao tao, Mat lower, const IPStamp *stamp)
   TAO_IPFILTER     *ip   = (TAO_IPFILTER *)tao->data;
   IPRows           *rows = &ip->cond->rows;
   const IPJacobian *jac  = ip->jac;
-  PetscInt          rstart, m;
+  PetscBool         same;
 
   PetscFunctionBegin;
   if (rows->J && RowsSameValues(&rows->source[0], &jac->inequality_stamp) && RowsSameValues(&rows->source[1], stamp))
     PetscFunctionReturn(0);
-  if (!rows->J || !RowsSamePattern(&rows->source[0], &jac->inequality_stamp) ||
-      !RowsSamePattern(&rows->source[1], stamp)) {
-    PetscCall(MatDestroy(&rows->J));
-    PetscCall(RowsCreateStacked(jac->inequality, lower, &rows->J));
-  }
-  PetscCall(MatGetOwnershipRange(rows->J, &rstart, NULL));
-  PetscCall(MatGetLocalSize(jac->inequality, &m, NULL));
-  PetscCall(RowsCopy(jac->inequality, rows->J, rstart, NULL, NULL));
-  PetscCall(RowsCopy(lower, rows->J, rstart + m, NULL, NULL));
-  PetscCall(MatAssemblyBegin(rows->J, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(rows->J, MAT_FINAL_ASSEMBLY));
+  same = (PetscBool)(rows->J && RowsSamePattern(&rows->source[0], &jac->inequality_stamp) &&
+                     RowsSamePattern(&rows->source[1], stamp));
+  if (!same) PetscCall(MatDestroy(&rows->J));
+  PetscCall(IPMatrixStack(jac->inequality, lower, same ? MAT_REUSE_MATRIX : MAT_INITIAL_MATRIX, &rows->J));
   rows->source[0]      = jac->inequality_stamp;
   rows->source[1]      = *stamp;
   rows->stamp.value_id = rows->stamp.pattern_id = ((PetscObject)rows->J)->id;

@@ -226,10 +226,9 @@ PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBo
 
 /*
    Removes from `way`, the displacement from the centre, a motion of body b, unless the force of the proximal term that
-   resists it is more than the fraction `most` of the forces `all` on the body
+   resists it is more than `most` [force]
 */
-static PetscErrorCode ProximalRelease(StepProblem *p, PetscInt b, const BodyMotion *motion, PetscReal most, Vec all,
-  Vec way)
+static PetscErrorCode ProximalRelease(StepProblem *p, PetscInt b, const BodyMotion *motion, PetscReal most, Vec way)
 {
   const PetscInt nbodies = p->model->scene->nbodies;
   BodyMotion    *motions;
@@ -238,7 +237,7 @@ static PetscErrorCode ProximalRelease(StepProblem *p, PetscInt b, const BodyMoti
   Vec            moved, force;
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc2(nbodies, &motions, 8 * nbodies, &sums));
+  PetscCall(PetscCalloc2(nbodies, &motions, 4 * nbodies, &sums));
   motions[b] = *motion;
   PetscCall(VecDuplicate(way, &moved));
   PetscCall(VecDuplicate(way, &force));
@@ -247,9 +246,8 @@ static PetscErrorCode ProximalRelease(StepProblem *p, PetscInt b, const BodyMoti
   PetscCall(VecDot(way, force, &work));
   PetscCall(VecDot(moved, force, &stiffness));
   PetscCall(VertexPlacesSumForces(&p->model->places, force, force, nbodies, sums));
-  PetscCall(VertexPlacesSumForces(&p->model->places, all, all, nbodies, sums + 4 * nbodies));
   part = PetscRealPart(stiffness) > 0.0 ? work / stiffness : 0.0;
-  if (PetscRealPart(stiffness) > 0.0 && PetscAbsScalar(part) * sums[4 * b + 3] <= most * sums[4 * (nbodies + b) + 3]) {
+  if (PetscRealPart(stiffness) > 0.0 && PetscAbsScalar(part) * sums[4 * b + 3] <= most) {
     PetscCall(VecAXPY(way, -part, moved));
     p->glides = PETSC_TRUE;
   }
@@ -268,24 +266,29 @@ static PetscErrorCode ProximalRelease(StepProblem *p, PetscInt b, const BodyMoti
 static PetscErrorCode ProximalReleaseGliding(StepProblem *p, Vec all, Vec way)
 {
   const MeshRotation *rotations = p->model->springs.rotations;
+  const PetscInt      nbodies   = p->model->scene->nbodies;
   const PetscReal     torque = 1e-2, axial = 1e-4;
+  PetscReal          *sums;
 
   PetscFunctionBegin;
   p->glides = PETSC_FALSE;
-  for (PetscInt b = 0; b < p->model->scene->nbodies; ++b) {
+  PetscCall(PetscMalloc1(4 * nbodies, &sums));
+  PetscCall(VertexPlacesSumForces(&p->model->places, all, all, nbodies, sums));
+  for (PetscInt b = 0; b < nbodies; ++b) {
     for (PetscInt k = 0; k < (rotations[b].any ? 3 : 1) && rotations[b].free; ++k) {
       BodyMotion turn = {.w = {k == 0, k == 1, k == 2}};
 
       if (!rotations[b].any) PetscCall(PetscArraycpy(turn.w, rotations[b].axis, 3));
       PetscCall(PetscArraycpy(turn.center, rotations[b].point, 3));
-      PetscCall(ProximalRelease(p, b, &turn, torque, all, way));
+      PetscCall(ProximalRelease(p, b, &turn, torque * sums[4 * b + 3], way));
     }
     if (rotations[b].free && rotations[b].slides) {
       BodyMotion slide = {.t = {rotations[b].axis[0], rotations[b].axis[1], rotations[b].axis[2]}};
 
-      PetscCall(ProximalRelease(p, b, &slide, axial, all, way));
+      PetscCall(ProximalRelease(p, b, &slide, axial * sums[4 * b + 3], way));
     }
   }
+  PetscCall(PetscFree(sums));
   PetscFunctionReturn(0);
 }
 
