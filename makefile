@@ -119,9 +119,9 @@ check-plugin: dependencies
 check-all: dependencies
 	@$(MAKE) --no-print-directory -f tests/makefile $(TESTS_PARALLEL) check LONG=1
 
-# STRESS=nlp, STRESS=grid, STRESS=control: nonlinear programs, obstacle problems on a grid, distributed control, which
-# need IPOPT; else parts and options of tests/stress/run.py
-stress: $(or $(filter nlp grid control,$(STRESS)),scene-stress)
+# STRESS=nlp, STRESS=grid: nonlinear programs, obstacle problems on a grid, which need IPOPT; else parts and options of
+# tests/stress/run.py
+stress: $(or $(filter nlp grid,$(STRESS)),scene-stress)
 
 scene-stress: dependencies
 	@$(MAKE) --no-print-directory $(PARALLEL) all
@@ -156,9 +156,7 @@ help:
 	@echo '    STRESS="units --only *hertz*"  runs only these; STRESS=--resume continues an interrupted run'
 	@echo '    STRESS=nlp                nonlinear programs, compared with IPOPT, 20 minutes; tests/stress/nlp*.md'
 	@echo '    STRESS=grid               obstacle problems, compared with TRON and IPOPT, an hour; tests/stress/grid.md'
-	@echo '    STRESS=control            distributed control, compared with IPOPT, a minute'
 	@echo 'make bench           measures time against accuracy, at most 45 minutes; pages in build/bench/pages'
-	@echo 'make bench-full      the same with larger meshes, three hours'
 	@echo 'make debug           runs quick tests with a PETSc that checks its arguments'
 	@echo 'make sanitize        runs small scenes with the address and undefined behaviour sanitizers'
 	@echo 'make memcheck        runs small scenes under valgrind'

@@ -27,7 +27,7 @@ small_scenes    = mkdir -p $(1)/scenes && cd $(1)/scenes && AMGF_DIR=$(CURDIR) O
 # Debian's PETSc with its own checks and no optimization: package libpetsc-real3.18-dbg
 DEBUG_PETSC ?= PETSC_DIR=$(PETSC_PREFIX)-debug PETSC_ARCH=
 
-.PHONY: format debug sanitize memcheck tidy fuzz nlp grid control
+.PHONY: format debug sanitize memcheck tidy fuzz nlp grid
 
 debug:
 	@$(call copied_tree,build/debug)
@@ -120,18 +120,3 @@ grid: all
 	gcc -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 $(shell pkg-config --cflags ipopt) tests/stress/grid_ipopt.c \
 	  -o build/grid/ipopt $(shell pkg-config --libs ipopt) -lm
 	$(PYTHON) -B tests/stress/grid.py --folder build/grid $(GRID)
-
-# Distributed control beside IPOPT, with and without a bound of the state, and ties between two blocks: objective, steps
-# and seconds of CPU
-control: all
-	@mkdir -p build/nlp
-	@$(MAKE) --no-print-directory -f tests/makefile $(addprefix build/tests/tests/ipfilter_,control tie)
-	$(CC) -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 $(PETSC_CFLAGS) $(shell pkg-config --cflags ipopt) \
-	  -c tests/stress/control_ipopt.c -o build/nlp/control.o
-	gcc build/nlp/control.o -o build/nlp/control $(shell pkg-config --libs ipopt) -lm
-	@for n in 128 256; do for bound in '' 0.05; do \
-	  echo "$$n x $$n, state below $${bound:-infinity}: TAOIPFILTER, IPOPT"; \
-	  build/tests/tests/ipfilter_control -n $$n $${bound:+-state_max $$bound} && \
-	    build/nlp/control $$n 1e-4 $$bound || exit 1; \
-	done; done
-	build/tests/tests/ipfilter_tie -nx 26 -nz 50

@@ -18,7 +18,7 @@ import sys
 
 import machine
 from runner import environment, read_summary, user_seconds
-from store import CONTACT, source_version
+from runs import CONTACT, source_version
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SCENE = os.path.join(TOP, "share", "scenes", "two_block.yaml")

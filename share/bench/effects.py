@@ -20,7 +20,7 @@ import sys
 import machine
 from problems import TOP
 from runner import execute, last_words, read_summary
-from store import CONTACT, source_version
+from runs import CONTACT, source_version
 
 PLAIN = """bodies:
   - lower: {shape: box, lower: [0, 0, 0], upper: [4, 4, 2], cells: [8, 8, 4], young: 1, poisson: 0.3,

@@ -11,12 +11,9 @@ import os
 import sys
 
 import machine
-import references
 from elements.choice import SCENES
-from plots import front
 from problems import PROBLEMS, TOP, two_block_zones
 from runs import Runs
-from studies import PAGES
 
 ORDER1 = {
     "default": (("element", "auto"), ), "full": (("element", "full"), ), "bbar": (("element", "bbar"), ),
@@ -45,6 +42,31 @@ def edges(n):
 
 
 EDGES = {edges(n): n for n in (1, 2, 3)}
+
+
+def richardson(sizes, values):
+    """Limit and order of values that differ from it by a constant times size^order, from three; the last value and no
+    order where the differences are not those of a power. By bisection: the ratio of the differences grows with the
+    order"""
+    (a, b, c), first, second = sizes, values[0] - values[1], values[1] - values[2]
+    ratio = lambda order: (a**order - b**order) / (b**order - c**order)  # noqa: E731
+    low, high = 0.05, 8.0
+    if second == 0 or not ratio(low) <= first / second <= ratio(high):
+        return values[2], math.nan
+    for _ in range(60):
+        order = (low + high) / 2
+        low, high = (order, high) if ratio(order) < first / second else (low, order)
+    return values[2] - second * c**order / (b**order - c**order), order
+
+
+def front(points):
+    """Those that no other beats in both time and error, by time"""
+    best, kept = math.inf, []
+    for point in sorted(points):
+        if point[1] < best:
+            best = point[1]
+            kept.append(point)
+    return kept
 
 
 class NoReference(Exception):
@@ -92,7 +114,7 @@ class Shipped:
 class Exact(Shipped):
 
     def reference(self, runs, name):
-        return self.problem.exact({})[self.quantity], None, "Hertz's formula"
+        return self.problem.solution.share * self.problem.solution.loaded()[0], None, "Hertz's formula"
 
 
 class TwoBlock(Shipped):
@@ -115,7 +137,7 @@ class TwoBlock(Shipped):
         force = lambda level, n: measured(self,
                                           runs.get(f"{name}, {level}, {edges(n)}", self.scene(level, edges(n)), self.
                                                    always, EDGE_LIMIT))  # noqa: E731
-        at_edge, _ = references.richardson((1, 1 / 2, 1 / 4), [force("2", n) for n in (1, 2, 3)])
+        at_edge, _ = richardson((1, 1 / 2, 1 / 4), [force("2", n) for n in (1, 2, 3)])
         rest = (force("4", 1) - force("2", 2)) / 3 * 4
         return at_edge + rest, abs(rest) / 4 / at_edge + abs(
             force("2", 3) - at_edge) / 2 / at_edge, "extrapolated from four meshes that are refined at the edges"
@@ -455,7 +477,6 @@ FURTHER = (
     ("elements/choice.md", "how good the element is that `auto` chooses, for eleven scenes"),
     ("elements/second.md", "the same for eleven other scenes: finite strain, friction, plasticity, torsion"),
     ("elements/third.md", "the same for five scenes that were chosen after the rule had changed"),
-    *((f"knobs/{name}.md", title) for name, (title, _) in PAGES.items()),
     ("calculix.md", "comparison with CalculiX: times, forces, and why they differ"),
     ("effects.md", "cost of effects that a scene does not use"),
 )
@@ -485,12 +506,6 @@ def main():
         return
     runs = Runs(os.path.join(arguments.folder, "kept", "front"), arguments.limit)
     found = {name: run(name, runs) for name in CASES if arguments.only in name}
-    references.save(
-        arguments.folder, {
-            name: {CASES[name].quantity: value}
-            for name, (_, _, (value, _, _)) in found.items()
-            if isinstance(CASES[name], Shipped) and math.isfinite(value)
-        })
     pages = os.path.join(arguments.folder, "pages")
     os.makedirs(pages, exist_ok=True)
     write_csv(found, os.path.join(pages, "front.csv"))

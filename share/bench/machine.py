@@ -7,7 +7,7 @@ import statistics
 import subprocess
 
 from problems import TOP
-from store import SOURCES, source_version
+from runs import SOURCES, source_version
 
 MACROS = {
     "PETSc": ("petscversion.h", ("PETSC_VERSION_MAJOR", "PETSC_VERSION_MINOR", "PETSC_VERSION_SUBMINOR")),

@@ -1,47 +1,26 @@
-"""Holds the arithmetic of share/bench against sequences with known answers, and its table against the runs' own
-summaries.
-
-python bench.py FOLDER, of a bench with the page `material`
-"""
+"""Holds the arithmetic of share/bench against sequences with known answers, and its records against runs."""
 import contextlib
-import csv
 import io
-import json
 import math
 import os
 import re
-import sys
 
 import calculix
-import growth
-import references
 import runs
-from plots import front
+from front import front, richardson
 from problems import PROBLEMS, TOP
 from runner import execute, last_words, read_summary
-from store import CONTACT
-from studies import BUILT_IN
+from runs import CONTACT
 from summaries import say
 
 
 def check_extrapolation():
     sizes = (1, 1 / 2, 1 / 3)
-    limit, order = references.richardson(sizes, [3 - 0.7 * h**1.5 for h in sizes])
+    limit, order = richardson(sizes, [3 - 0.7 * h**1.5 for h in sizes])
     say("Richardson: limit and order", abs(limit - 3) < 1e-12 and abs(order - 1.5) < 1e-12, (limit, order))
-    limit, order = references.richardson((1, 1 / 2, 1 / 4), (1.0, 1.1, 1.3))
+    limit, order = richardson((1, 1 / 2, 1 / 4), (1.0, 1.1, 1.3))
     say("Richardson: nothing is extrapolated from differences that grow", limit == 1.3 and math.isnan(order),
         (limit, order))
-
-
-def check_growth():
-    unknowns = [1000, 10000, 80000, 640000]
-    slope = growth.exponent(unknowns, [n**1.25 for n in unknowns])
-    say("exponent", abs(slope - 1.25) < 1e-12, slope)
-    ours, theirs = {n: 2.0 * n for n in unknowns}, {n: 2.0 * n * (n / 30000)**0.5 for n in unknowns}
-    say("crossover", abs(growth.crossover(ours, theirs) / 30000 - 1) < 1e-12, growth.crossover(ours, theirs))
-    say("crossover: never, always",
-        (growth.crossover(theirs, {n: 1.0
-                                   for n in unknowns}), growth.crossover({1: 1.0}, {1: 2.0})) == (math.inf, 0.0), None)
 
 
 def check_front():
@@ -64,31 +43,6 @@ def check_scenes():
         last_words("a\ncontact: error: no scene\n--\n") == "contact: error: no scene", None)
 
 
-def check_table(folder):
-    with open(os.path.join(folder, "pages", "knobs", "material.csv")) as file:
-        rows = list(csv.DictReader(file))
-    points = [row for row in rows if row["study"] == "quadrature"]
-    say("table: two rules on both problems", [row["value"] for row in points] == 2 * ["2", "3"], rows)
-    row = points[0]
-    with open(
-            os.path.join(folder, "runs",
-                         next(name for name in os.listdir(os.path.join(folder, "runs"))
-                              if name.startswith(row["key"])))) as file:
-        summary = json.load(file)["summary"]
-    say(
-        "table: what the summary says",
-        int(row["applications"]) == sum(s["amg_applications"] for s in summary["steps"])
-        and int(row["unknowns"]) == summary["dofs"] == 5397, row)
-    hertz = [row for row in points if row["problem"] == "hertz_sphere"]
-    say("table: the contact force of Hertz, to 6 %, his peak pressure, to 1 %",
-        all(float(row["error contact force"]) < 0.06 and float(row["error peak pressure"]) < 0.01 for row in hertz),
-        rows)
-    with open(os.path.join(folder, "pages", "knobs", "material.md")) as file:
-        text = file.read()
-    say("the page says where and when it was made",
-        all(f"| {key} | " in text for key in ("date", "sources", "machine", "libraries")), text)
-
-
 def check_kept():
     """A run that its limit ended, or that the program refused, is a record; what has been run with the same scene is
     not run again"""
@@ -103,17 +57,6 @@ def check_kept():
     say("kept: another scene under that name is run", other["energy"] != first["energy"], first)
     say("kept: a refused scene says why", wrong["failed"].startswith("refused: "), None)
     say("kept: a time limit is told", slow["failed"] == "time limit 0.05 s", None)
-
-
-def check_built_in():
-    """What the studies leave to the program is what they call it"""
-    scene = os.path.join(TOP, "share", "scenes", "two_block.yaml")
-    seen = []
-    for name, options in (("silent", []), ("told", [word for option in BUILT_IN.items() for word in option])):
-        execute([CONTACT, scene, "-refine", "0", "-quiet", "-summary", name + ".json", *options], 60)
-        summary = read_summary(name)
-        seen.append([(step["energy"], step["ip_iterations"], step["amg_applications"]) for step in summary["steps"]])
-    say("what the bench calls built in is", seen[0] == seen[1], seen)
 
 
 def check_calculix():
@@ -145,10 +88,7 @@ def check_memory():
 
 check_extrapolation()
 check_calculix()
-check_growth()
 check_front()
 check_scenes()
-check_built_in()
 check_memory()
 check_kept()
-check_table(sys.argv[1])

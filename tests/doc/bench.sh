@@ -1,18 +1,8 @@
-# The scripts of the bench, on one tiny page. They make the tables and the figure. They do not repeat a run that has a
-# record, and repeat only the run whose record is lost. bench.py imports their modules, and tests the extrapolation,
-# exponents and crossovers.
-bench() {
-  "$PYTHON" -B "$AMGF_DIR/share/bench/run.py" --size tiny --folder bench --only "$@"
-}
-
+# The scripts of the bench: extrapolation, scenes, and records of runs, which are not repeated (bench.py); a scene of
+# the front page, and the page itself without problems
+PYTHONPATH=$AMGF_DIR/share/bench:$AMGF_DIR/tests/lib "$PYTHON" -B "$AMGF_DIR/tests/doc/bench.py"
+"$PYTHON" -B "$AMGF_DIR/share/bench/front.py" --scene "cantilever, 0, order 2" > scene.yaml
+"$AMGF_DIR/bin/contact" scene.yaml -scene_check > /dev/null && echo 'a scene of the front page'
 rm -rf bench
-bench material > first.log || echo "exit code $?"
-grep -c 'converged, ' first.log
-for file in material.md material.csv material.png quadrature.png; do
-  [ -s bench/pages/knobs/$file ] && echo "$file" || echo "$file is missing"
-done
-bench material --plan | tail -n 1
-PYTHONPATH=$AMGF_DIR/share/bench:$AMGF_DIR/tests/lib "$PYTHON" "$AMGF_DIR/tests/doc/bench.py" bench
-rm "bench/runs/$(ls bench/runs | head -n 1)"
-bench material --plan | tail -n 1
-bench no-such-page 2>&1 | cut -d: -f2
+"$PYTHON" -B "$AMGF_DIR/share/bench/front.py" --only none --folder bench > front.log
+for file in README.md front.csv front.png; do [ -s bench/pages/$file ] && echo "$file" || echo "$file is missing"; done

@@ -1,12 +1,8 @@
 static char help[] =
   "Distributed control: min 1/2 |y - y_d|^2 + alpha/2 |u|^2 subject to -Laplace y = u + f in the unit square, y\n\
-= 0 around it, where asked y <= y_max.\n\
-  -n N              grid points in each direction\n\
-  -alpha A          cost of the control\n\
-  -state_max Y      bound of the state; none by default\n\n";
+= 0 around it, where asked y <= y_max.\n\n";
 
 #include <petscdmda.h>
-#include <time.h>
 #include "ipfilter_problem.h"
 
 /* Unknowns (y, u) at every point, interleaved; J (y, u) - g = 0 */
@@ -321,54 +317,14 @@ static PetscErrorCode TestBounds(PetscInt n, PetscReal alpha, PetscReal state_ma
   PetscFunctionReturn(0);
 }
 
-/* The run at size, to be compared with tests/stress/control_ipopt.c */
-static PetscErrorCode Measure(PetscInt n, PetscReal alpha, PetscReal state_max)
-{
-  Control     c;
-  Vec         x;
-  Tao         tao;
-  PetscReal   f;
-  PetscInt    its;
-  clock_t     begin;
-  double      seconds;
-  const char *sentence;
-
-  PetscFunctionBeginUser;
-  PetscCall(CreateControl(n, alpha, &c));
-  PetscCall(AssembleSource(&c, PETSC_FALSE));
-  PetscCall(VecDuplicate(c.q.b, &x));
-  begin = clock();
-  PetscCall(SolveControl(&c, state_max, x, &tao));
-  seconds = (double)(clock() - begin) / CLOCKS_PER_SEC;
-  PetscCall(TaoGetSolutionStatus(tao, &its, &f, NULL, NULL, NULL, NULL));
-  PetscCall(TaoIPFilterGetReason(tao, &sentence));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD,
-    "%" PetscInt_FMT " x %" PetscInt_FMT ": objective %.10e, %" PetscInt_FMT " steps, %.2f s of CPU; %s\n", n, n,
-    (double)f, its, seconds, sentence));
-  PetscCall(TaoDestroy(&tao));
-  PetscCall(VecDestroy(&x));
-  PetscCall(DestroyControl(&c));
-  PetscFunctionReturn(0);
-}
-
 int main(int argc, char **argv)
 {
-  PetscInt  n         = 0;
-  PetscReal alpha     = 1e-4;
-  PetscReal state_max = PETSC_INFINITY;
-
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscAMGFInitializePackage());
-  PetscCall(PetscOptionsGetInt(NULL, NULL, "-n", &n, NULL));
-  PetscCall(PetscOptionsGetReal(NULL, NULL, "-alpha", &alpha, NULL));
-  PetscCall(PetscOptionsGetReal(NULL, NULL, "-state_max", &state_max, NULL));
-  if (n) PetscCall(Measure(n, alpha, state_max));
-  else {
-    PetscCall(TestMode(32, 1e-2));
-    PetscCall(TestMode(32, 1e-6));
-    PetscCall(TestBounds(32, 1e-4, 0.05));
-  }
+  PetscCall(TestMode(32, 1e-2));
+  PetscCall(TestMode(32, 1e-6));
+  PetscCall(TestBounds(32, 1e-4, 0.05));
   PetscCall(PetscFinalize());
   return 0;
 }

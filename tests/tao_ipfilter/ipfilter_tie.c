@@ -1,10 +1,8 @@
 static char help[] =
   "Two elastic blocks, a vector Laplacian each, tied where they meet: every displacement of one block's face is\n\
-the mean of four of the other's.\n\
-  -nx N -nz N       points of a block across and along; 0: the test on small grids\n\n";
+the mean of four of the other's.\n\n";
 
 #include <petscdmda.h>
-#include <time.h>
 #include "ipfilter_problem.h"
 
 /* The blocks are the lower and the upper half of a grid whose middle bond is missing; both far ends are held */
@@ -320,64 +318,17 @@ static PetscErrorCode TestContradiction(void)
   PetscFunctionReturn(0);
 }
 
-/* The run at size */
-static PetscErrorCode Measure(PetscInt nx, PetscInt nz, PetscReal stiffer)
-{
-  Blocks               b = {.stiffer = stiffer, .times = 1};
-  Vec                  x;
-  Tao                  tao;
-  PetscInt             n, m, its;
-  PetscReal            opening;
-  TaoIPFilterFallbacks count;
-  const char          *sentence;
-
-  PetscFunctionBeginUser;
-  PetscCall(CreateBlocks(nx, nz, &b));
-  PetscCall(VecDuplicate(b.q.b, &x));
-  PetscCall(MatGetSize(b.q.J, &m, &n));
-  for (PetscInt tied = 0; tied < 2; tied++) {
-    clock_t  begin;
-    double   seconds;
-    PetscInt applications = 0;
-
-    begin = clock();
-    PetscCall(SolveBlocks(&b, (PetscBool)tied, x, &tao, &applications));
-    seconds = (double)(clock() - begin) / CLOCKS_PER_SEC;
-    PetscCall(TaoIPFilterGetReason(tao, &sentence));
-    PetscCall(TaoIPFilterGetFallbacks(tao, &count));
-    PetscCall(TaoGetSolutionStatus(tao, &its, NULL, NULL, NULL, NULL, NULL));
-    PetscCall(Opening(&b, x, &opening));
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD,
-      "%" PetscInt_FMT " unknowns, %" PetscInt_FMT " ties: %" PetscInt_FMT " steps, %" PetscInt_FMT
-      " AMG applications, %.2f s of CPU, ties open by %g, MUMPS %" PetscInt_FMT "; %s\n",
-      n, tied ? m : 0, its, applications, seconds, (double)opening, count.direct, sentence));
-    PetscCall(TaoDestroy(&tao));
-  }
-  PetscCall(VecDestroy(&x));
-  PetscCall(DestroyBlocks(&b));
-  PetscFunctionReturn(0);
-}
-
 int main(int argc, char **argv)
 {
-  PetscInt  nx = 0, nz = 50;
-  PetscReal stiffer = 10.0;
-
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscAMGFInitializePackage());
-  PetscCall(PetscOptionsGetInt(NULL, NULL, "-nx", &nx, NULL));
-  PetscCall(PetscOptionsGetInt(NULL, NULL, "-nz", &nz, NULL));
-  PetscCall(PetscOptionsGetReal(NULL, NULL, "-stiffer", &stiffer, NULL));
-  if (nx) PetscCall(Measure(nx, nz, stiffer));
-  else {
-    PetscCall(TestBlocks("two blocks", 10.0, 0.0, 1));
-    PetscCall(TestBlocks("a thousand times as stiff", 1000.0, 0.0, 1));
-    PetscCall(TestBlocks("convex on the ties alone", 0.1, 0.05, 1));
-    PetscCall(TestBlocks("every tie three times", 10.0, 0.0, 3));
-    PetscCall(TestWeak());
-    PetscCall(TestContradiction());
-  }
+  PetscCall(TestBlocks("two blocks", 10.0, 0.0, 1));
+  PetscCall(TestBlocks("a thousand times as stiff", 1000.0, 0.0, 1));
+  PetscCall(TestBlocks("convex on the ties alone", 0.1, 0.05, 1));
+  PetscCall(TestBlocks("every tie three times", 10.0, 0.0, 3));
+  PetscCall(TestWeak());
+  PetscCall(TestContradiction());
   PetscCall(PetscFinalize());
   return 0;
 }
