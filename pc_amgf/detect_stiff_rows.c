@@ -86,9 +86,9 @@ static PetscErrorCode ContrastFindCoupling(Mat A, Vec diagonal, Vec *coupling)
   PetscCall(VecGetOwnershipRange(x, &start, &end));
   PetscCall(VecGetArrayWrite(x, &entries));
   for (PetscInt i = start; i < end; i++) {
-    const PetscReal golden = 0.6180339887498949 * (PetscReal)i;
+    const PetscReal multiple = PETSC_PHI * (PetscReal)i;
 
-    entries[i - start] = 1.0 + golden - PetscFloorReal(golden);
+    entries[i - start] = 1.0 + multiple - PetscFloorReal(multiple);
   }
   PetscCall(VecRestoreArrayWrite(x, &entries));
   PetscCall(MatMult(A, x, *coupling));

@@ -36,15 +36,14 @@ PetscErrorCode IPHessianEvaluate(Tao tao)
 /* Fills v with 1 and -1 in an irregular pattern that differs from probe to probe */
 static PetscErrorCode HessianProbe(Vec v, PetscInt probe)
 {
-  const PetscReal golden = 0.6180339887498949;
-  PetscScalar    *a;
-  PetscInt        rstart, rend;
+  PetscScalar *a;
+  PetscInt     rstart, rend;
 
   PetscFunctionBegin;
   PetscCall(VecGetOwnershipRange(v, &rstart, &rend));
   PetscCall(VecGetArrayWrite(v, &a));
   for (PetscInt i = rstart; i < rend; i++)
-    a[i - rstart] = fmod(golden * (i + 1) * (i + 1 + 7 * probe), 1.0) < 0.5 ? 1.0 : -1.0;
+    a[i - rstart] = fmod(PETSC_PHI * (i + 1) * (i + 1 + 7 * probe), 1.0) < 0.5 ? 1.0 : -1.0;
   PetscCall(VecRestoreArrayWrite(v, &a));
   PetscFunctionReturn(0);
 }

@@ -90,7 +90,6 @@ PetscErrorCode IPConstrainedUpdate(Tao tao)
 */
 static PetscErrorCode SubspaceMark(IS set, Vec v)
 {
-  const PetscReal golden = 0.6180339887498949;
   const PetscInt *rows;
   PetscInt        n;
 
@@ -99,7 +98,7 @@ static PetscErrorCode SubspaceMark(IS set, Vec v)
   PetscCall(ISGetLocalSize(set, &n));
   PetscCall(ISGetIndices(set, &rows));
   for (PetscInt i = 0; i < n; i++)
-    PetscCall(VecSetValue(v, rows[i], 1.0 + fmod(golden * rows[i] * rows[i], 1.0), INSERT_VALUES));
+    PetscCall(VecSetValue(v, rows[i], 1.0 + fmod(PETSC_PHI * rows[i] * rows[i], 1.0), INSERT_VALUES));
   PetscCall(ISRestoreIndices(set, &rows));
   PetscCall(VecAssemblyBegin(v));
   PetscCall(VecAssemblyEnd(v));
