@@ -72,9 +72,25 @@ bolts:
 load: {steps: 2}
 """
 
+# A washer that only contact and weak springs hold
+WASHER = """bodies:
+  - base: {lower: [0, 0, 0], upper: [4, 4, 2], cells: [2, 2, 1], young: 2e5, poisson: 0.3}
+  - washer: {lower: [1, 1, 2], upper: [3, 3, 4], cells: [3, 3, 1], young: 2e5, poisson: 0.3}
+  - bolt: {lower: [0, 0, 4], upper: [4, 4, 6], cells: [2, 2, 1], young: 2e5, poisson: 0.3}
+displacements:
+  - ground: {face: base.zmin, value: [0, 0, 0]}
+  - top: {face: bolt.zmax, value: [0, 0, 0]}
+weak_springs: true
+contact:
+  - below: {mortar: base.zmax, nonmortar: washer.zmin}
+  - above: {mortar: bolt.zmin, nonmortar: washer.zmax}
+bolts:
+  - push: {body: bolt, point: [0, 0, 5], axis: [0, 0, 1], force: -1000}
+"""
+
 
 def write():
-    scenes = {"bars": BARS, "four": FOUR, "rubber": RUBBER}
+    scenes = {"bars": BARS, "four": FOUR, "rubber": RUBBER, "washer": WASHER}
     scenes["short"] = BARS.replace("force: 1000, lock: 1, ramp: tighten", "shortening: 0.05")
     for name, text in scenes.items():
         with open(name + ".yaml", "w") as file:
@@ -119,6 +135,9 @@ def judge():
             max(abs(pairs["c" + b[1]]["normal_force"] / -forces[b] - 1) for b in forces), 1e-3)
         say(f"{name}: bodies are in equilibrium", step["balance"], 1e-7)
     say("four: ranks agree", load("four")[-1]["energy"] / load("four_3")[-1]["energy"] - 1, 1e-7)
+    washer = load("washer")[-1]
+    say("washer: both contacts transmit the force", max(abs(p["normal_force"] / 1000 - 1) for p in washer["pairs"]),
+        1e-6)
     rubber = load("rubber")[-1]
     band = bolts(rubber)["pull"]
     say("rubber: force", band["force"] / 0.9 - 1, 1e-9)

@@ -1,5 +1,6 @@
 # Pretension of bolts: bars in closed form (shortening, then a load shared by stiffness), with a restart; several bolts
-# of unlike elements that close clearances, on one rank and on three; finite strain; what is refused.
+# of unlike elements that close clearances, on one rank and on three; finite strain; a washer on weak springs; what is
+# refused.
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/loads/bolts.py" write
 for scene in bars four; do
@@ -9,6 +10,7 @@ for scene in bars four; do
     echo "$scene, three ranks: exit code $?"
 done
 "$contact" rubber.yaml -quiet -summary rubber.json || echo "rubber: exit code $?"
+"$contact" washer.yaml -quiet -summary washer.json || echo "washer: exit code $?"
 "$contact" short.yaml -quiet -summary short.json || echo "short: exit code $?"
 "$contact" bars.yaml -quiet -restart bars.state -summary again.json || echo "again: exit code $?"
 "$PYTHON" "$AMGF_DIR/tests/loads/bolts.py" judge

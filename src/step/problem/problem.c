@@ -58,6 +58,7 @@ PetscErrorCode StepProblemSetQuadratic(StepProblem *p, PetscBool anew)
   p->energy -= PetscRealPart(work);
   PetscCall(SchemeAddForce(&p->model->dynamics, p->base, &p->energy, p->force));
   PetscCall(TiesGather(&p->model->ties, p->force));
+  PetscCall(ProximalAdd(p, p->base, &p->energy, p->force));
   PetscCall(PrescribedSet(&p->model->prescribed, 0.0, p->force));
   PetscFunctionReturn(0);
 }
@@ -108,8 +109,8 @@ PetscErrorCode StepProblemTurn(StepProblem *p, Vec u)
   if (!p->model->rigid.turns) PetscFunctionReturn(0);
   PetscCall(StepProblemSetBase(p, u, &anew));
   PetscCall(FollowersTurn(p));
-  if (p->model->quadratic) PetscCall(StepProblemSetQuadratic(p, (PetscBool)(anew || ModelIsDynamic(p->model))));
   PetscCall(ProximalTurn(p, u));
+  if (p->model->quadratic) PetscCall(StepProblemSetQuadratic(p, (PetscBool)(anew || ModelIsDynamic(p->model))));
   PetscFunctionReturn(0);
 }
 
