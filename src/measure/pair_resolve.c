@@ -179,7 +179,7 @@ PetscErrorCode PairRowsResolve(const Measured *at, PetscInt pair, PairRows *rows
 {
   const Material   *material = &SceneFaceBody(at->scene, at->scene->pairs[pair].mortar)->material;
   const char *const mortar   = at->scene->pairs[pair].mortar;
-  PetscBool         any = PETSC_FALSE;
+  PetscBool         any      = PETSC_FALSE;
   Vec               size, *work;
 
   PetscFunctionBegin;

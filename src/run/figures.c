@@ -45,10 +45,11 @@ static void FigureSetUnit(const char kind[], const char units[], char unit[], si
   const char *size = UnitsFind(units, UNIT_LENGTH, NULL), *force = UnitsFind(units, UNIT_FORCE, NULL),
              *stress = UnitsFind(units, UNIT_STRESS, NULL), *power = kind[0] == 'L' && kind[1] ? "^2" : "";
 
+  unit[0] = '\0';
   if (kind[0] == '%') (void)snprintf(unit, length, "%%");
   else if (kind[0] == 'L') (void)snprintf(unit, length, "%s%s", size, size[0] ? power : "");
   else if (kind[0] == 'F' && !kind[1]) (void)snprintf(unit, length, "%s", force);
-  else if (kind[1] == ' ')
+  else if (kind[0] == 'F' && kind[1] == ' ')
     (void)snprintf(unit, length, "%s%s%s", force, force[0] && size[0] ? " " : "", force[0] ? size : "");
   else if (kind[0] == 'F' && (stress[0] || !force[0] || !size[0])) (void)snprintf(unit, length, "%s", stress);
   else if (kind[0] == 'F') (void)snprintf(unit, length, "%s/%s^2", force, size);
