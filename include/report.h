@@ -248,6 +248,7 @@ typedef struct {
   const StepReport   *report;
   Vec                 velocity;          /* only in dynamics; otherwise NULL [length/time] */
   Vec                 displacement;      /* global vector, 3 components per node [length] */
+  Vec                 reaction;          /* forces of prescribed displacements and symmetry planes [force] */
   const PetscReal    *stress;            /* 7 values per local cell, see ElasticityCellStress() */
   const PetscReal    *nodal;             /* STRESS_VALUES per owned vertex, in the order of global vectors */
   const PetscReal    *plastic;           /* 7 values per local cell, see ElasticityCellPlastic(); NULL: no law yields */

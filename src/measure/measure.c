@@ -233,7 +233,9 @@ static PetscErrorCode MeasureForces(Simulation sim, PetscReal time, Vec load, Ve
   PetscCall(PrescribedSum(&sim->model->prescribed, force, report->reaction));
   PetscCall(VecDestroy(&ties));
   PetscCall(VecDestroy(&rigid));
+  PetscCall(ResultsKeepReaction(sim->results, force));
   PetscCall(PrescribedSet(&sim->model->prescribed, 0.0, force));
+  if (sim->results->reaction) PetscCall(VecAXPY(sim->results->reaction, -1.0, force));
   PetscCall(VecNorm(force, NORM_2, &residual));
   report->equilibrium = *moves ? 0.0 : residual / size;
   PetscCall(MeasureAlgebraicError(u, force, sol, weighted, *moves, report));

@@ -110,6 +110,7 @@ PETSC_INTERN PetscErrorCode WorkAdd(Simulation, Vec load, Vec u, Vec unbalanced,
 
 /* results.c */
 PETSC_INTERN PetscErrorCode ResultsComplete(const PetscReal stress[6], PetscReal values[STRESS_VALUES]);
+PETSC_INTERN PetscErrorCode ResultsKeepReaction(Results *, Vec force);
 PETSC_INTERN PetscErrorCode ResultsRecover(Model, Results *, Vec u, PetscReal errors[], PetscReal *cells[],
   StepReport *);
 PETSC_INTERN PetscErrorCode ResultsMeasure(Simulation, StepReport *);

@@ -60,6 +60,16 @@ static PetscErrorCode ResultsReportBody(const Material *material, const LargestO
   PetscFunctionReturn(0);
 }
 
+/* Copies the forces on the nodes to results->reaction if fields are requested */
+PetscErrorCode ResultsKeepReaction(Results *results, Vec force)
+{
+  PetscFunctionBegin;
+  if (!results->nodes) PetscFunctionReturn(0);
+  if (!results->reaction) PetscCall(VecDuplicate(force, &results->reaction));
+  PetscCall(VecCopy(force, results->reaction));
+  PetscFunctionReturn(0);
+}
+
 /*
    Collective. Recovers the stress at the nodes, unless this was done, and reports the largest values of each body.
    errors, cells: see ElasticityRecoverStress(); NULL: no errors are estimated
@@ -108,5 +118,6 @@ PetscErrorCode ResultsFree(Results *results)
   PetscCall(PetscFree(results->density));
   PetscCall(PetscFree(results->places));
   PetscCall(PetscFree(results->point_stress));
+  PetscCall(VecDestroy(&results->reaction));
   PetscFunctionReturn(0);
 }

@@ -351,6 +351,7 @@ static PetscErrorCode FieldsWriteState(PetscViewer viewer, void *ctx)
   PetscCall(PetscViewerSetFromOptions(viewer));
   PetscCall(FieldsWriteGlobal(output, "displacement", state->displacement, viewer));
   if (state->velocity) PetscCall(FieldsWriteGlobal(output, "velocity", state->velocity, viewer));
+  if (state->reaction) PetscCall(FieldsWriteGlobal(output, "reaction", state->reaction, viewer));
   PetscCall(StressWriteCells(output, state, viewer));
   PetscCall(StressWriteNodes(output, state, viewer));
   PetscCall(StressWriteQuadrature(output, state, viewer));

@@ -144,7 +144,10 @@ static PetscErrorCode XDMFWriteDocument(FILE *stream, const void *ctx)
       XDMFWriteAttribute(stream, file, "plastic_strain", "Tensor6", "Cell", PETSC_FALSE, output->ncells, 6);
       XDMFWriteAttribute(stream, file, "equivalent_plastic_strain", "Scalar", "Cell", PETSC_FALSE, output->ncells, 1);
     }
-    if (output->nodes) XDMFWriteNodalStress(stream, output, file);
+    if (output->nodes) {
+      XDMFWriteNodalStress(stream, output, file);
+      XDMFWriteAttribute(stream, file, "reaction", "Vector", "Node", PETSC_FALSE, output->nvertices, 3);
+    }
     fputs("      </Grid>\n", stream);
   }
   fputs("    </Grid>\n  </Domain>\n</Xdmf>\n", stream);

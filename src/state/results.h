@@ -17,6 +17,7 @@ struct _n_Results {
   PetscReal *recovered;     /* recovered stress, 6 values per local node */
   PetscReal *plastic;       /* plastic strain, 7 values per cell of this rank; NULL if no material yields */
   PetscReal *nodal, *density, *places, *point_stress;
+  Vec        reaction; /* forces of supports on the nodes, if `nodes` is true [force] */
   PetscInt   npoints;
   PetscReal *stress; /* stress of the cells of this rank, 7 values per cell */
   Probes     probes;

@@ -57,6 +57,7 @@ static PetscErrorCode SimulationGetState(Simulation sim, StepReport *report, Ste
     .velocity          = sim->model->dynamics.velocity,
     .stress            = sim->results->stress,
     .nodal             = sim->results->nodal,
+    .reaction          = sim->results->reaction,
     .plastic           = sim->results->plastic,
     .density           = sim->results->density,
     .nquadrature       = sim->results->npoints,

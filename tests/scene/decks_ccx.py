@@ -59,10 +59,15 @@ def close(what, found, wanted):
 def judge():
     found = blocks("pressure")
     close("pressure: displacement", found["DISP", 1][13], [0, 0, -0.02])
+    close("pressure: reactions", [sum(values[axis] for values in found["FORC", 1].values()) for axis in range(3)],
+          [0, 0, 10])
+    close("pressure: reaction of a corner", found["FORC", 1][1], [0, 0, 2.5])
     close("pressure: stress", found["STRESS", 1][3], [0, 0, -10, 0, 0, 0])
     close("pressure: contact pressure", [found["CONTACT", 1][node][3] for node in (5, 9)], [10, 10])
     found, stress = blocks("order2"), 0.07 / 0.011
     close("order2: displacement in the middle of an edge", [found["DISP", 2][117][2]], [-0.01])
+    foot = [found["FORC", 2][n][2] for n, place in enumerate(PLACES, 101) if place[2] == 0]
+    close("order2: reaction, also of the node inside the face", [sum(foot)], [stress])
     close("order2: stress", found["STRESS", 2][110], [0, 0, -stress, 0, 0, 0])
     close("order2: plastic strain", found["PE", 2][110], [(stress - 5) / 100])
     # the line through x^2 at the points, of the shear strain, is 5/6 at the corner

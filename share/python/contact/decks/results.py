@@ -15,6 +15,7 @@ CELLS = {
     "hexahedron27": (4, [*range(12), *range(16, 20), *range(12, 16)])
 }
 DISPLACEMENT = [("D1", 2, 1, 0), ("D2", 2, 2, 0), ("D3", 2, 3, 0), ("ALL", 2, 0, 0)]
+FORCE = [("F1", 2, 1, 0), ("F2", 2, 2, 0), ("F3", 2, 3, 0), ("ALL", 2, 0, 0)]
 STRESS = [("SXX", 4, 1, 1), ("SYY", 4, 2, 2), ("SZZ", 4, 3, 3), ("SXY", 4, 1, 2), ("SYZ", 4, 2, 3), ("SZX", 4, 3, 1)]
 STRAIN = [("E" + name[1:], *place) for name, *place in STRESS]
 CONTACT = [("COPEN", 4, 1, 1), ("CSLIP1", 4, 2, 2), ("CSLIP2", 4, 3, 3), ("CPRESS", 4, 1, 2), ("CSHEAR1", 4, 2, 3),
@@ -80,7 +81,7 @@ class Results:
         rows = self.vertex[self.nodes]
         with h5py.File(self.run.files.files[step], "r") as file:
             data = {name: values[:] for name, values in file.items()}
-        found = [("DISP", DISPLACEMENT, data["displacement"][rows]),
+        found = [("DISP", DISPLACEMENT, data["displacement"][rows]), ("FORC", FORCE, self.reactions(data["reaction"])),
                  ("STRESS", STRESS, data["nodal_stress"][rows][:, OURS_TO_STRESS])]
         if self.deck.strains:
             moved = np.where(self.vertex[:, None] >= 0, data["displacement"][self.vertex], 0.0)
@@ -97,6 +98,19 @@ class Results:
                     table[:, column] = np.linalg.norm(values, axis=1) if values.ndim > 1 else values
             found.append(("CONTACT", CONTACT, table))
         return found
+
+    def reactions(self, values):
+        """Reactions at the nodes. That inside a side of 8 nodes is -1/4 on each corner and 1/2 on each other node"""
+        found = np.where(self.vertex[:, None] >= 0, values[self.vertex], 0.0)
+        inner = np.setdiff1d(np.flatnonzero(np.any(values, axis=1)), self.vertex)
+        cells = [cell for cell in self.cells if self.geometry.elements[cell][0] == "hexahedron20"]
+        if len(inner) and cells:
+            sides = np.array([self.geometry.side_nodes(cell, side) for cell in cells for side in range(6)])
+            weights = np.repeat([-0.25, 0.5], 4)
+            centres = np.einsum("k,skd->sd", weights, self.geometry.points[sides])
+            at = nearest(self.run.points[inner], centres, float(np.ptp(self.run.points, axis=0).max()))
+            np.add.at(found, sides[at[at >= 0]], weights[:, None] * values[inner[at >= 0]][:, None])
+        return found[self.nodes]
 
     def at_vertices(self, values):
         """Means of the values of the cells around each vertex"""
