@@ -110,9 +110,10 @@ static void ChoiceSetSprings(Contacts *c, PetscBool free[])
 
     free[i] =
       (PetscBool)(c->closed[i] && (c->law[i] == CONTACT_SMOOTH || slip <= CONTACT_WEAK * compliance[1] * bound));
-    for (PetscInt k = 0; k < 9; k++) c->D[9 * i + k] = 0.0;
+    for (PetscInt k = 0; k < 9; k++) c->D[9 * i + k] = c->S[9 * i + k] = 0.0;
     for (PetscInt a = 0; a < 3 && free[i]; a++)
-      if (!a || c->law[i] != CONTACT_SMOOTH) c->D[9 * i + 4 * a] = 1.0 / (CONTACT_WEAK * compliance[a > 0]);
+      if (!a || c->law[i] != CONTACT_SMOOTH)
+        c->D[9 * i + 4 * a] = c->S[9 * i + 4 * a] = 1.0 / (CONTACT_WEAK * compliance[a > 0]);
     ContactsFinishLaw(c, i);
   }
 }
@@ -153,7 +154,7 @@ static PetscErrorCode ChoiceIsNeeded(Contacts *c, const ContactBodies *bodies, c
     if (c->closed[i] && (sticks || c->law[i] == CONTACT_SMOOTH)) ChoiceRemove(c, i);
     ContactsFinishLaw(c, i);
   }
-  PetscCall(bodies->prepare(bodies->data, c->D, &solved));
+  PetscCall(bodies->prepare(bodies->data, c->D, c->S, &solved));
   for (PetscInt k = 0; k < most && solved; k++) PetscCall(ChoiceBalance(c, bodies, du, df, &solved));
   PetscCall(ChoiceDiffers(c, f, needed));
   *needed = (PetscBool)(*needed && solved);
@@ -174,7 +175,7 @@ PetscErrorCode ContactsChoose(Contacts *c, const ContactBodies *bodies, PetscBoo
   ChoiceReturn(c, f);
   if (*chosen) {
     ChoiceSetSprings(c, free);
-    PetscCall(bodies->prepare(bodies->data, c->D, chosen));
+    PetscCall(bodies->prepare(bodies->data, c->D, c->S, chosen));
   }
   for (PetscInt i = 0; i < c->n && *chosen; i++)
     if (free[i]) ChoiceRemove(c, i);

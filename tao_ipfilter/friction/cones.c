@@ -171,16 +171,16 @@ static void ConeSetTarget(Cone *k, PetscReal target, PetscBool corrector)
 
 /* Computes the linearized law of a Coulomb cone without limit, df = s - D du, from B du + W^2 df = W p + ry with
    B = [1 e; 0 I] */
-static void ConeCoulombLaw(const Cone *k, PetscReal D[9], PetscReal s[3])
+static void ConeCoulombLaw(const Cone *k, PetscReal D[9], PetscReal S[9], PetscReal s[3])
 {
-  PetscReal square[9], a[3], b[3];
+  PetscReal a[3], b[3];
 
-  ConeSquare(k->Wi, square);
+  ConeSquare(k->Wi, S);
   ConeMultiply(k->Wi, k->p, a);
-  ConeMultiply(square, k->ry, b);
+  ConeMultiply(S, k->ry, b);
   for (PetscInt r = 0; r < 3; r++) {
     s[r] = a[r] + b[r];
-    for (PetscInt c = 0; c < 3; c++) D[3 * r + c] = square[3 * r + c] + (c ? square[3 * r] * k->e[c - 1] : 0.0);
+    for (PetscInt c = 0; c < 3; c++) D[3 * r + c] = S[3 * r + c] + (c ? S[3 * r] * k->e[c - 1] : 0.0);
   }
 }
 
@@ -188,41 +188,43 @@ static void ConeCoulombLaw(const Cone *k, PetscReal D[9], PetscReal s[3])
    Computes the linearized law with a limit. du + C df = q is the sum of the compliances of the sliders. Without a
    Coulomb cone, only the tangential components take part. Returns whether C is regular.
 */
-static PetscBool ConeLimitedLaw(const Cone *k, PetscReal D[9], PetscReal s[3])
+static PetscBool ConeLimitedLaw(const Cone *k, PetscReal D[9], PetscReal S[9], PetscReal s[3])
 {
   const PetscInt n    = k->n == 3 ? 3 : 2;
-  PetscReal      C[9] = {0.0}, q[3], square[9], a[3] = {0.0, 0.0, 0.0}, b[3];
+  PetscReal      C[9] = {0.0}, symmetric[9], q[3], square[9], a[3] = {0.0, 0.0, 0.0}, b[3];
 
   if (n == 3) {
     ConeSquare(k->W, C);
     ConeMultiply(k->W, k->p, a);
-    for (PetscInt c = 0; c < 3; c++) C[c] -= k->e[0] * C[3 + c] + k->e[1] * C[6 + c];
     q[0] = a[0] - k->e[0] * a[1] - k->e[1] * a[2] + k->ry[0];
   } else q[0] = 0.0;
   ConeSquare(k->V, square);
   ConeMultiply(k->V, k->pz, b);
-  for (PetscInt r = 1; r < 3; r++) {
-    q[r] = a[r] + b[r] + k->rz[r - 1];
-    for (PetscInt c = 1; c < 3; c++) C[3 * r + c] += square[3 * r + c];
-  }
-  if (!ConeInvert(n, C, D)) return PETSC_FALSE;
+  for (PetscInt r = 1; r < 3; r++) q[r] = a[r] + b[r] + k->rz[r - 1];
+  for (PetscInt r = 0; r < 9; r++) symmetric[r] = C[r] + (r > 3 && r % 3 ? square[r] : 0.0);
+  for (PetscInt c = 0; c < 3 && n == 3; c++) C[c] -= k->e[0] * C[3 + c] + k->e[1] * C[6 + c];
+  for (PetscInt r = 4; r < 9; r++) C[r] += r % 3 ? square[r] : 0.0;
+  if (!ConeInvert(n, C, D) || !ConeInvert(n, symmetric, S)) return PETSC_FALSE;
   ConeMultiply(D, q, s);
   return PETSC_TRUE;
 }
 
 /* Computes the linearized law of a contact in unscaled components. Returns whether it exists. */
-static PetscBool ConeLaw(const Cone *k, PetscReal D[9], PetscReal s[3])
+static PetscBool ConeLaw(const Cone *k, PetscReal D[9], PetscReal S[9], PetscReal s[3])
 {
-  for (PetscInt r = 0; r < 9; r++) D[r] = s[r % 3] = 0.0;
-  if (k->limited && !ConeLimitedLaw(k, D, s)) return PETSC_FALSE;
-  if (k->n == 3 && !k->limited) ConeCoulombLaw(k, D, s);
+  for (PetscInt r = 0; r < 9; r++) D[r] = S[r] = s[r % 3] = 0.0;
+  if (k->limited && !ConeLimitedLaw(k, D, S, s)) return PETSC_FALSE;
+  if (k->n == 3 && !k->limited) ConeCoulombLaw(k, D, S, s);
   if (k->n == 1) {
-    D[0] = k->f[0] / k->y[0];
-    s[0] = k->p[0] / k->y[0] + D[0] * k->ry[0];
+    D[0] = S[0] = k->f[0] / k->y[0];
+    s[0]        = k->p[0] / k->y[0] + D[0] * k->ry[0];
   }
   for (PetscInt r = 0; r < 3; r++) {
     s[r] *= k->scale[r > 0];
-    for (PetscInt c = 0; c < 3; c++) D[3 * r + c] *= k->scale[r > 0] * k->scale[c > 0];
+    for (PetscInt c = 0; c < 3; c++) {
+      D[3 * r + c] *= k->scale[r > 0] * k->scale[c > 0];
+      S[3 * r + c] *= k->scale[r > 0] * k->scale[c > 0];
+    }
   }
   return PETSC_TRUE;
 }
@@ -283,12 +285,12 @@ static PetscErrorCode ConesSetLaws(Cones s, PetscBool matrix, PetscBool *ready)
   PetscFunctionBegin;
   *ready = PETSC_TRUE;
   for (PetscInt i = 0; i < s->c->n; i++) {
-    *ready = (PetscBool)(ConeLaw(&s->cone[i], &s->c->D[9 * i], &s->c->s[3 * i]) && *ready);
+    *ready = (PetscBool)(ConeLaw(&s->cone[i], &s->c->D[9 * i], &s->c->S[9 * i], &s->c->s[3 * i]) && *ready);
     if (s->c->held[i]) ContactsSetNoSlip(s->c, i);
     ContactsFinishLaw(s->c, i);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, ready, 1, MPI_PETSCBOOL, MPI_LAND, s->c->comm));
-  if (matrix && *ready) PetscCall(s->bodies->prepare(s->bodies->data, s->c->D, ready));
+  if (matrix && *ready) PetscCall(s->bodies->prepare(s->bodies->data, s->c->D, s->c->S, ready));
   PetscFunctionReturn(0);
 }
 
@@ -306,14 +308,15 @@ static PetscErrorCode ConesFindSizes(Cones s, PetscBool *found)
   PetscCall(PetscArrayzero(c->f, 3 * c->n));
   for (PetscInt i = 0; i < c->n; i++) {
     PetscCall(PetscArrayzero(&c->D[9 * i], 9));
+    PetscCall(PetscArrayzero(&c->S[9 * i], 9));
     for (PetscInt r = 0; r < 3; r++) {
-      c->D[9 * i + 4 * r] = PetscSqr(s->cone[i].scale[r > 0]);
-      c->s[3 * i + r]     = -c->D[9 * i + 4 * r] * c->u[3 * i + r];
+      c->D[9 * i + 4 * r] = c->S[9 * i + 4 * r] = PetscSqr(s->cone[i].scale[r > 0]);
+      c->s[3 * i + r]                           = -c->D[9 * i + 4 * r] * c->u[3 * i + r];
     }
     ContactsFinishLaw(c, i);
   }
   PetscCall(s->bodies->residual(s->bodies->data, c->f, &s->force));
-  PetscCall(s->bodies->prepare(s->bodies->data, c->D, found));
+  PetscCall(s->bodies->prepare(s->bodies->data, c->D, c->S, found));
   if (*found) PetscCall(ContactsStep(c, s->bodies, 0.01, 0.0, s->du, s->df, found));
   if (!*found) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < c->n; i++) {

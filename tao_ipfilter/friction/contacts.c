@@ -11,7 +11,7 @@ PetscErrorCode ContactsDestroy(Contacts *c)
   PetscCall(PetscFree5(c->law, c->normal, c->closed, c->held, c->released));
   PetscCall(PetscFree5(c->coefficient, c->limit, c->rigid, c->f_start, c->u_start));
   PetscCall(PetscFree7(c->compliance, c->f, c->u, c->shift, c->place, c->D, c->s));
-  PetscCall(PetscFree(c->own));
+  PetscCall(PetscFree2(c->own, c->S));
   PetscCall(PetscMemzero(c, sizeof(*c)));
   PetscFunctionReturn(0);
 }
@@ -26,7 +26,7 @@ PetscErrorCode ContactsCreate(MPI_Comm comm, PetscInt n, Contacts *c)
   PetscCall(PetscCalloc5(n, &c->coefficient, n, &c->limit, 2 * n, &c->rigid, 3 * n, &c->f_start, 3 * n, &c->u_start));
   PetscCall(PetscCalloc7(2 * n, &c->compliance, 3 * n, &c->f, 3 * n, &c->u, 2 * n, &c->shift, 2 * n, &c->place, 9 * n,
     &c->D, 3 * n, &c->s));
-  PetscCall(PetscCalloc1(n, &c->own));
+  PetscCall(PetscCalloc2(n, &c->own, 9 * n, &c->S));
   PetscFunctionReturn(0);
 }
 
@@ -65,10 +65,12 @@ void ContactsRemoveRigid(const Contacts *c, PetscInt i, PetscReal u[3])
 /* Sets the linearized law of tangential components without slip: v = 0, by springs */
 void ContactsSetNoSlip(const Contacts *c, PetscInt i)
 {
+  PetscReal *D = &c->D[9 * i], *S = &c->S[9 * i];
+
   for (PetscInt a = 1; a < 3; a++) {
-    for (PetscInt b = 0; b < 3; b++) c->D[9 * i + 3 * a + b] = 0.0;
-    c->D[9 * i + 4 * a] = 1.0 / (CONTACT_WEAK * c->compliance[2 * i + 1]);
-    c->s[3 * i + a]     = -c->u[3 * i + a] * c->D[9 * i + 4 * a];
+    for (PetscInt b = 0; b < 3; b++) D[3 * a + b] = S[3 * a + b] = S[3 * b + a] = 0.0;
+    D[4 * a] = S[4 * a] = 1.0 / (CONTACT_WEAK * c->compliance[2 * i + 1]);
+    c->s[3 * i + a]     = -c->u[3 * i + a] * D[4 * a];
   }
 }
 
@@ -79,14 +81,12 @@ void ContactsSetForce(const Contacts *c, PetscInt i, PetscReal normal_force)
   c->f[3 * i] = normal_force;
 }
 
-/* Projects D and s of a contact such that they leave out the direction in which it cannot slip */
-static void ContactsProjectLaw(const Contacts *c, PetscInt i)
+/* Projects the matrix of a contact's law such that it leaves out the direction in which the contact cannot slip */
+static void ContactsProject(const Contacts *c, PetscInt i, PetscReal D[9])
 {
   const PetscReal *rigid = &c->rigid[2 * i];
-  PetscReal       *D     = &c->D[9 * i];
 
   if (rigid[0] == 0.0 && rigid[1] == 0.0) return;
-  ContactsRemoveRigid(c, i, &c->s[3 * i]);
   for (PetscInt r = 0; r < 3; r++) ContactsRemoveRigid(c, i, D + 3 * r);
   for (PetscInt k = 0; k < 3; k++) {
     PetscReal column[3] = {D[k], D[3 + k], D[6 + k]};
@@ -104,15 +104,21 @@ static void ContactsProjectLaw(const Contacts *c, PetscInt i)
 */
 void ContactsFinishLaw(const Contacts *c, PetscInt i)
 {
-  PetscReal *D = &c->D[9 * i], *s = &c->s[3 * i], normal[3], force = s[0];
+  PetscReal *const matrices[] = {&c->D[9 * i], &c->S[9 * i]};
+  PetscReal       *s = &c->s[3 * i], normal[3], force = s[0];
 
-  ContactsProjectLaw(c, i);
-  for (PetscInt k = 0; k < 3; k++) normal[k] = D[k];
-  for (PetscInt r = 0; r < 3 && c->own[i] > 0.0; r++) {
-    const PetscReal part = c->own[i] * D[3 * r] / (1.0 + c->own[i] * normal[0]);
+  ContactsRemoveRigid(c, i, s);
+  for (PetscInt m = 0; m < 2; m++) {
+    PetscReal *D = matrices[m];
 
-    for (PetscInt k = 0; k < 3; k++) D[3 * r + k] -= part * normal[k];
-    s[r] -= part * force;
+    ContactsProject(c, i, D);
+    for (PetscInt k = 0; k < 3; k++) normal[k] = D[k];
+    for (PetscInt r = 0; r < 3 && c->own[i] > 0.0; r++) {
+      const PetscReal part = c->own[i] * D[3 * r] / (1.0 + c->own[i] * normal[0]);
+
+      for (PetscInt k = 0; k < 3; k++) D[3 * r + k] -= part * normal[k];
+      if (!m) s[r] -= part * force;
+    }
   }
 }
 

@@ -45,6 +45,7 @@ typedef struct {
   PetscReal *shift, *place; /* two per contact: by how much the place was moved from which the slip is measured; slip at
                                which the contact closed last */
   PetscReal *D, *s;         /* nine and three per contact: linearized laws df = s - D du */
+  PetscReal *S;             /* nine per contact: symmetric D, without the dependence of slip and normal force */
   PetscReal  rounding;      /* size of the rounding errors of a gap [length] */
   PetscReal  least;         /* normal force up to which a contact counts as open at the begin */
 } Contacts;
@@ -58,8 +59,8 @@ typedef struct {
   /* computes r. size: its largest entry, where each is divided by the square root of K's diagonal entry [square root of
      energy]; NULL: not computed */
   PetscErrorCode (*residual)(void *, const PetscReal f[], PetscReal *size);
-  /* sets the matrix K + R^T D R. *prepared: false if it is singular */
-  PetscErrorCode (*prepare)(void *, const PetscReal D[], PetscBool *prepared);
+  /* sets the matrix K + R^T D R. S: symmetric blocks near D. *prepared: false if K + R^T S R is singular */
+  PetscErrorCode (*prepare)(void *, const PetscReal D[], const PetscReal S[], PetscBool *prepared);
   /* solves (K + R^T D R) dx = R^T s - r until the residual is at most that fraction of the first one, or at most the
      target, in the measure of `size`; du = R dx */
   PetscErrorCode (

@@ -92,10 +92,11 @@ static void NewtonSlipLaw(const Contacts *c, PetscInt i, const PetscReal t[2], P
 PetscBool ContactsLinearize(const Contacts *c, PetscInt i)
 {
   const PetscReal *f = &c->f[3 * i], *u = &c->u[3 * i], compliance = c->compliance[2 * i + 1];
-  PetscReal       *D = &c->D[9 * i], *s = &c->s[3 * i], t[2], size;
+  PetscReal       *D = &c->D[9 * i], *S = &c->S[9 * i], *s = &c->s[3 * i], t[2], size;
 
-  for (PetscInt k = 0; k < 9; k++) D[k] = 0.0;
+  for (PetscInt k = 0; k < 9; k++) D[k] = S[k] = 0.0;
   NewtonNormalLaw(c, i, D, s);
+  S[0] = D[0];
   for (PetscInt a = 1; a < 3; a++) s[a] = -f[a];
   if (c->law[i] == CONTACT_STICKS) {
     if (c->held[i]) ContactsSetNoSlip(c, i);
@@ -106,6 +107,7 @@ PetscBool ContactsLinearize(const Contacts *c, PetscInt i)
   size = PetscSqrtReal(t[0] * t[0] + t[1] * t[1]);
   if (size > ContactsBound(c, i, f[0] - u[0] / c->compliance[2 * i])) {
     NewtonSlipLaw(c, i, t, size, D, s);
+    for (PetscInt k = 4; k < 9; k++) S[k] = k % 3 ? D[k] : 0.0;
     return PETSC_FALSE;
   }
   ContactsSetNoSlip(c, i);
@@ -162,7 +164,7 @@ PetscErrorCode ContactsNewtonStep(Contacts *c, const ContactBodies *bodies, Pets
     ContactsFinishLaw(c, i);
   }
   PetscCall(bodies->residual(bodies->data, c->f, NULL));
-  PetscCall(bodies->prepare(bodies->data, c->D, solved));
+  PetscCall(bodies->prepare(bodies->data, c->D, c->S, solved));
   if (*solved) PetscCall(ContactsStep(c, bodies, forcing, 0.0, du, df, solved));
   if (*solved) {
     PetscCall(bodies->work(bodies->data, &work));

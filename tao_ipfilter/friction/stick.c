@@ -151,7 +151,7 @@ static PetscErrorCode StickPredict(ContactStick *s)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &needed, 1, MPI_PETSCBOOL, MPI_LOR, c->comm));
   if (!needed) PetscFunctionReturn(0);
   PetscCall(s->bodies->residual(s->bodies->data, c->f, NULL));
-  PetscCall(s->bodies->prepare(s->bodies->data, c->D, &solved));
+  PetscCall(s->bodies->prepare(s->bodies->data, c->D, c->S, &solved));
   if (solved) PetscCall(ContactsStep(c, s->bodies, accuracy, 0.0, s->du, s->df, &solved));
   for (PetscInt i = 0; i < c->n && solved; i++) {
     const PetscReal *u = &c->u[3 * i], *du = &s->du[3 * i], *from = &s->from[3 * i], closes = from[0] - u[0] - du[0];

@@ -2,12 +2,15 @@
    Bodies with the equations K x + g = R^T f, whose systems with A = K + R^T D R are solved in a subspace: the
    unknowns W that contacts touch, and the directions P, which are zero on W. With x = w + P y and Q = K_WP
      [A_WW Q; Q^T P^T K P] (dw, dy) = (R^T s - r)
-   is solved by a factorization of A_WW and a dense Schur complement. The residual that is left is zero on W. A
-   direction is added for it until it is small. With a fixed D this is CG with the cycle `fbf` of PCAMGF. Later systems,
-   with other D, use the directions again.
+   is solved by a factorization and a dense Schur complement. The residual that is left is zero on W. A direction is
+   added for it until it is small. With a fixed D this is CG with the cycle `fbf` of PCAMGF. Later systems, with other
+   D, use the directions again.
+
+   Only the symmetric matrix A_WW = K_WW + R_W^T S R_W is factored. The rest D - S couples slip and normal force. Its
+   forces e = (D - S) R dx are found by GMRES, whose vectors have the size of R's rows.
 */
 #include "frictionimpl.h"
-#include "pc_amgf/mumps.h"
+#include "pc_amgf/sparse_factors.h"
 #include "tao_ipfilter/solver/condensed.h"
 #include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/matrices.h"
@@ -19,32 +22,35 @@
 #include <petscblaslapack.h>
 
 struct _p_SubspaceBodies {
-  Tao        tao;
-  IPRecycle *recycle; /* the preconditioner of K, and the directions */
-  Mat        K;
-  IS         W;
-  Mat        R, RW;                /* rows of the contacts: three for each contact of this rank; columns W of R */
-  Mat        D, DR;                /* D, and D R_W */
-  Mat        RI, DRK;              /* R_W above the unit matrix; D R_W above K_WW */
-  Mat        A, F;                 /* A_WW = RI^T DRK, and its factors */
-  Vec        x, dx, r, Kx, Kdx, g; /* K x is kept beside x, K dx beside dx */
-  Vec        kept_x, kept_Kx;
-  Vec        first;                 /* the residual of which a part is left out; NULL: none */
-  PetscReal  lacks;                 /* that part */
-  PetscReal  load_norm;             /* largest residual [2-norm] of the normal laws since the begin */
-  IPReduced  normal;                /* the problem of the normal laws, whose unknowns are those in W */
-  Mat        JW;                    /* normal rows of R_W */
-  IS         places;                /* all unknowns of W by their number in W */
-  Vec        base, rhs;             /* dx = base + what the subspace adds, for the right-hand side rhs of the latter */
-  Vec        on_W, dw0, load, rows; /* work vectors on W; one with the entries of contacts */
-  PetscReal *factored_D;            /* D of the factors F */
-  PetscReal *X, *S, *factors, *dy; /* A_WW^-1 Q: columns on W; Schur complement in columns of length max; its factors */
-  PetscReal *loads;                /* loads of the first nloads directions in this solve */
-  PetscInt   nloads;
-  PetscInt   nX, generation; /* number of columns of X; generation of the directions that it belongs to */
-  PetscReal  enough;         /* residual [2-norm] that any solve may leave */
+  Tao           tao;
+  IPRecycle    *recycle; /* the preconditioner of K, and the directions */
+  Mat           K;
+  IS            W;
+  Mat           R, RW;                /* rows of the contacts: three for each contact of this rank; columns W of R */
+  Mat           S, SR;                /* S, and S R_W */
+  Mat           RI, SRK;              /* R_W above the unit matrix; S R_W above K_WW */
+  Mat           A, F;                 /* A_WW = RI^T SRK, and its factors */
+  KSP           coupling;             /* GMRES for the forces e of D - S */
+  Vec           e, off;               /* e, scaled (BodiesScale), and what is missing to it */
+  PetscBool     coupled;              /* whether D differs from S */
+  Vec           x, dx, r, Kx, Kdx, g; /* K x is kept beside x, K dx beside dx */
+  Vec           kept_x, kept_Kx;
+  Vec           first;     /* the residual of which a part is left out; NULL: none */
+  PetscReal     lacks;     /* that part */
+  PetscReal     load_norm; /* largest residual [2-norm] of the normal laws since the begin */
+  IPReduced     normal;    /* the problem of the normal laws, whose unknowns are those in W */
+  Mat           JW;        /* normal rows of R_W */
+  IS            places;    /* all unknowns of W by their number in W */
+  Vec           base, rhs; /* dx = base + what the subspace adds, for the right-hand side rhs of the latter */
+  Vec           on_W, dw0, load, rows;    /* work vectors on W; one with the entries of contacts */
+  PetscReal    *factored, *rest;          /* S of the factors F, and D - S */
+  PetscReal    *X, *schur, *factors, *dy; /* A_WW^-1 Q: columns on W; Schur complement in columns of length max; its
+                                          factors */
+  PetscReal    *loads;                    /* loads of the first nloads directions in this solve */
+  PetscInt      nloads;
+  PetscInt      nX, generation; /* number of columns of X; generation of the directions that it belongs to */
+  PetscReal     enough;         /* residual [2-norm] that any solve may leave */
   PetscBLASInt *pivots;
-  PetscInt      relaxation; /* work space of MUMPS beyond its estimate [per cent] */
 };
 
 /* Copies a row of J or T to row 3 i + a of R, or counts its entries */
@@ -112,23 +118,23 @@ static PetscErrorCode BodiesCreateRows(Mat J, Mat T, PetscInt n, Mat *R)
   PetscFunctionReturn(0);
 }
 
-/* Creates D with a 3 x 3 block per contact, all of whose entries are stored */
-static PetscErrorCode BodiesCreateBlocks(Mat R, PetscInt n, Mat *D)
+/* Creates S with a 3 x 3 block per contact, all of whose entries are stored */
+static PetscErrorCode BodiesCreateBlocks(Mat R, PetscInt n, Mat *S)
 {
   PetscInt start;
 
   PetscFunctionBegin;
   PetscCall(
-    MatCreateAIJ(PetscObjectComm((PetscObject)R), 3 * n, 3 * n, PETSC_DETERMINE, PETSC_DETERMINE, 3, NULL, 0, NULL, D));
-  PetscCall(MatGetOwnershipRange(*D, &start, NULL));
+    MatCreateAIJ(PetscObjectComm((PetscObject)R), 3 * n, 3 * n, PETSC_DETERMINE, PETSC_DETERMINE, 3, NULL, 0, NULL, S));
+  PetscCall(MatGetOwnershipRange(*S, &start, NULL));
   for (PetscInt i = 0; i < n; i++) {
     const PetscScalar ones[9] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
     const PetscInt    r = start + 3 * i, rows[3] = {r, r + 1, r + 2};
 
-    PetscCall(MatSetValues(*D, 3, rows, 3, rows, ones, INSERT_VALUES));
+    PetscCall(MatSetValues(*S, 3, rows, 3, rows, ones, INSERT_VALUES));
   }
-  PetscCall(MatAssemblyBegin(*D, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(*D, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyBegin(*S, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(*S, MAT_FINAL_ASSEMBLY));
   PetscFunctionReturn(0);
 }
 
@@ -148,7 +154,7 @@ static PetscErrorCode BodiesCreateUnit(IS W, Mat *unit)
   PetscFunctionReturn(0);
 }
 
-/* Extracts R_W and K_WW, and creates the matrices whose product is A_WW = K_WW + R_W^T D R_W */
+/* Extracts R_W and K_WW, and creates the matrices whose product is A_WW = K_WW + R_W^T S R_W */
 static PetscErrorCode BodiesCreateMatrices(SubspaceBodies b, PetscInt n)
 {
   PetscInt start, end;
@@ -162,11 +168,11 @@ static PetscErrorCode BodiesCreateMatrices(SubspaceBodies b, PetscInt n)
   PetscCall(ISDestroy(&all));
   PetscCall(IPGatherStiffness(b->K, b->W, PETSC_FALSE, &KWW));
   PetscCall(BodiesCreateUnit(b->W, &unit));
-  PetscCall(BodiesCreateBlocks(b->R, n, &b->D));
-  PetscCall(MatMatMult(b->D, b->RW, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &b->DR));
+  PetscCall(BodiesCreateBlocks(b->R, n, &b->S));
+  PetscCall(MatMatMult(b->S, b->RW, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &b->SR));
   PetscCall(IPMatrixStack(b->RW, unit, MAT_INITIAL_MATRIX, &b->RI));
-  PetscCall(IPMatrixStack(b->DR, KWW, MAT_INITIAL_MATRIX, &b->DRK));
-  PetscCall(MatTransposeMatMult(b->RI, b->DRK, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &b->A));
+  PetscCall(IPMatrixStack(b->SR, KWW, MAT_INITIAL_MATRIX, &b->SRK));
+  PetscCall(MatTransposeMatMult(b->RI, b->SRK, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &b->A));
   PetscCall(MatDestroy(&KWW));
   PetscCall(MatDestroy(&unit));
   PetscFunctionReturn(0);
@@ -175,8 +181,8 @@ static PetscErrorCode BodiesCreateMatrices(SubspaceBodies b, PetscInt n)
 /* Destroys what depends on W */
 static PetscErrorCode BodiesDestroySpace(SubspaceBodies b)
 {
-  Mat *const matrices[] = {&b->RW, &b->D, &b->DR, &b->RI, &b->DRK, &b->A, &b->F, &b->JW};
-  Vec *const vectors[]  = {&b->on_W, &b->dw0, &b->load, &b->rows};
+  Mat *const matrices[] = {&b->RW, &b->S, &b->SR, &b->RI, &b->SRK, &b->A, &b->F, &b->JW};
+  Vec *const vectors[]  = {&b->on_W, &b->dw0, &b->load, &b->rows, &b->e, &b->off};
 
   PetscFunctionBegin;
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(matrices); k++) PetscCall(MatDestroy(matrices[k]));
@@ -184,7 +190,162 @@ static PetscErrorCode BodiesDestroySpace(SubspaceBodies b)
   PetscCall(ISDestroy(&b->W));
   PetscCall(ISDestroy(&b->places));
   PetscCall(IPReducedDestroy(&b->normal));
-  PetscCall(PetscFree6(b->X, b->S, b->factors, b->dy, b->loads, b->pivots));
+  PetscCall(KSPDestroy(&b->coupling));
+  PetscCall(PetscFree6(b->X, b->schur, b->factors, b->dy, b->loads, b->pivots));
+  PetscFunctionReturn(0);
+}
+
+/* Returns the product of two arrays with an entry per unknown of W on this rank */
+static PetscReal BodiesDot(PetscInt n, const PetscScalar a[], const PetscScalar b[])
+{
+  PetscReal sum = 0.0;
+
+  for (PetscInt i = 0; i < n; i++) sum += PetscRealPart(a[i] * b[i]);
+  return sum;
+}
+
+/* Adds the sum of the columns of an array on W, each times its factor, to v */
+static PetscErrorCode BodiesAddColumns(PetscInt k, const PetscReal factors[], const PetscScalar X[], Vec v)
+{
+  PetscScalar *a;
+  PetscInt     m;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(v, &m));
+  PetscCall(VecGetArray(v, &a));
+  for (PetscInt j = 0; j < k; j++)
+    for (PetscInt i = 0; i < m; i++) a[i] += factors[j] * X[i + (size_t)j * (size_t)m];
+  PetscCall(VecRestoreArray(v, &a));
+  PetscFunctionReturn(0);
+}
+
+/* Solves for the directions: S dy = dy with the Schur complement S, w -= A_WW^-1 Q dy */
+static PetscErrorCode BodiesSolveSchur(SubspaceBodies b, PetscReal dy[], Vec w)
+{
+  const PetscInt k = b->recycle->basis.n;
+  PetscReal     *minus;
+  PetscBLASInt   nk, ld, one = 1, info;
+
+  PetscFunctionBegin;
+  if (!k) PetscFunctionReturn(0);
+  PetscCall(PetscBLASIntCast(k, &nk));
+  PetscCall(PetscBLASIntCast(b->recycle->basis.max, &ld));
+  PetscCallBLAS("LAPACKgetrs", LAPACKgetrs_("N", &nk, &one, b->factors, &ld, b->pivots, dy, &nk, &info));
+  PetscCall(PetscMalloc1(k, &minus));
+  for (PetscInt j = 0; j < k; j++) minus[j] = -dy[j];
+  PetscCall(BodiesAddColumns(k, minus, b->X, w));
+  PetscCall(PetscFree(minus));
+  PetscFunctionReturn(0);
+}
+
+/* Returns the square root of the stiffness of a contact in the factors, by which its forces are scaled */
+static PetscReal BodiesScale(const SubspaceBodies b, PetscInt i)
+{
+  const PetscReal *S = &b->factored[9 * i];
+
+  return PetscSqrtReal(PetscMax(S[0], PetscMax(S[4], S[8])));
+}
+
+/* Divides the forces of contacts by their scales, or multiplies them */
+static PetscErrorCode BodiesScaleForces(SubspaceBodies b, PetscBool divide, Vec v)
+{
+  PetscScalar *a;
+  PetscInt     n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(v, &n));
+  PetscCall(VecGetArray(v, &a));
+  for (PetscInt r = 0; r < n; r++) {
+    const PetscReal scale = BodiesScale(b, r / 3);
+
+    a[r] = divide ? (scale > 0.0 ? a[r] / scale : 0.0) : a[r] * scale;
+  }
+  PetscCall(VecRestoreArray(v, &a));
+  PetscFunctionReturn(0);
+}
+
+/* Computes v = (D - S) v for a vector with the entries of contacts */
+static PetscErrorCode BodiesMultiplyRest(SubspaceBodies b, Vec v)
+{
+  PetscScalar *a;
+  PetscInt     n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(v, &n));
+  PetscCall(VecGetArray(v, &a));
+  for (PetscInt i = 0; i < n; i += 3) {
+    const PetscReal u[3] = {PetscRealPart(a[i]), PetscRealPart(a[i + 1]), PetscRealPart(a[i + 2])};
+    PetscReal       f[3];
+
+    ConeMultiply(&b->rest[3 * i], u, f);
+    for (PetscInt r = 0; r < 3; r++) a[i + r] = f[r];
+  }
+  PetscCall(VecRestoreArray(v, &a));
+  PetscFunctionReturn(0);
+}
+
+/* Computes the motion of W due to forces of contacts, by the symmetric matrix in the subspace */
+static PetscErrorCode BodiesRespond(SubspaceBodies b, Vec forces, Vec w)
+{
+  const IPBasis     *basis = &b->recycle->basis;
+  const PetscScalar *a;
+  PetscReal         *dy;
+  PetscInt           m;
+
+  PetscFunctionBegin;
+  PetscCall(MatMultTranspose(b->RW, forces, b->load));
+  PetscCall(MatSolve(b->F, b->load, w));
+  PetscCall(PetscCalloc1(basis->n, &dy));
+  PetscCall(VecGetLocalSize(w, &m));
+  PetscCall(VecGetArrayRead(w, &a));
+  for (PetscInt j = 0; j < basis->n; j++) dy[j] = -BodiesDot(m, basis->q[j], a);
+  PetscCall(VecRestoreArrayRead(w, &a));
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, dy, (PetscMPIInt)basis->n, MPIU_REAL, MPIU_SUM, PetscObjectComm((PetscObject)w)));
+  PetscCall(BodiesSolveSchur(b, dy, w));
+  PetscCall(PetscFree(dy));
+  PetscFunctionReturn(0);
+}
+
+/* Multiplies by the matrix of GMRES: y = e + (D - S) R w, where the forces e move W by w. Both e and y are scaled. */
+static PetscErrorCode BodiesCoupling(Mat matrix, Vec e, Vec y)
+{
+  SubspaceBodies b;
+
+  PetscFunctionBegin;
+  PetscCall(MatShellGetContext(matrix, &b));
+  PetscCall(VecCopy(e, y));
+  PetscCall(BodiesScaleForces(b, PETSC_FALSE, y));
+  PetscCall(BodiesRespond(b, y, b->on_W));
+  PetscCall(MatMult(b->RW, b->on_W, y));
+  PetscCall(BodiesMultiplyRest(b, y));
+  PetscCall(BodiesScaleForces(b, PETSC_TRUE, y));
+  PetscCall(VecAXPY(y, 1.0, e));
+  PetscFunctionReturn(0);
+}
+
+/* Creates GMRES for the forces e */
+static PetscErrorCode BodiesCreateCoupling(SubspaceBodies b)
+{
+  const PetscInt most = 60; /* iterations */
+  Mat            matrix;
+  PC             none;
+  PetscInt       n;
+
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(b->rows, &b->e));
+  PetscCall(VecDuplicate(b->rows, &b->off));
+  PetscCall(VecGetLocalSize(b->rows, &n));
+  PetscCall(MatCreateShell(PetscObjectComm((PetscObject)b->rows), n, n, PETSC_DETERMINE, PETSC_DETERMINE, b, &matrix));
+  PetscCall(MatShellSetOperation(matrix, MATOP_MULT, (void (*)(void))BodiesCoupling));
+  PetscCall(KSPCreate(PetscObjectComm((PetscObject)b->rows), &b->coupling));
+  PetscCall(KSPSetType(b->coupling, KSPGMRES));
+  PetscCall(KSPGMRESSetRestart(b->coupling, most));
+  PetscCall(KSPSetTolerances(b->coupling, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, most));
+  PetscCall(KSPGetPC(b->coupling, &none));
+  PetscCall(PCSetType(none, PCNONE));
+  PetscCall(KSPSetOperators(b->coupling, matrix, matrix));
+  PetscCall(MatDestroy(&matrix));
   PetscFunctionReturn(0);
 }
 
@@ -202,8 +363,9 @@ static PetscErrorCode BodiesCreateSpace(SubspaceBodies b, IS W, PetscInt n)
   PetscCall(VecDuplicate(b->on_W, &b->dw0));
   PetscCall(VecDuplicate(b->on_W, &b->load));
   PetscCall(VecGetLocalSize(b->on_W, &nw));
-  PetscCall(PetscMalloc6((size_t)nw * (size_t)max, &b->X, max * max, &b->S, max * max, &b->factors, max, &b->dy, max,
-    &b->loads, max, &b->pivots));
+  PetscCall(BodiesCreateCoupling(b));
+  PetscCall(PetscMalloc6((size_t)nw * (size_t)max, &b->X, max * max, &b->schur, max * max, &b->factors, max, &b->dy,
+    max, &b->loads, max, &b->pivots));
   PetscFunctionReturn(0);
 }
 
@@ -227,7 +389,7 @@ PetscErrorCode SubspaceBodiesDestroy(SubspaceBodies *bodies)
   PetscCall(BodiesDestroyVectors(b));
   PetscCall(BodiesDestroySpace(b));
   PetscCall(MatDestroy(&b->R));
-  PetscCall(PetscFree(b->factored_D));
+  PetscCall(PetscFree2(b->factored, b->rest));
   PetscCall(PetscFree(*bodies));
   PetscFunctionReturn(0);
 }
@@ -244,14 +406,13 @@ PetscErrorCode SubspaceBodiesCreate(Tao tao, IPRecycle *recycle, IS W, PetscInt 
 
   PetscFunctionBegin;
   PetscCall(PetscNew(bodies));
-  b             = *bodies;
-  b->tao        = tao;
-  b->recycle    = recycle;
-  b->relaxation = AMGF_MUMPS_RELAXATION;
-  b->K          = ip->hess->H;
+  b          = *bodies;
+  b->tao     = tao;
+  b->recycle = recycle;
+  b->K       = ip->hess->H;
   PetscCall(BodiesCreateRows(ip->jac->inequality, ip->terms->T, n, &b->R));
   PetscCall(BodiesCreateSpace(b, W, n));
-  PetscCall(PetscMalloc1(9 * n, &b->factored_D));
+  PetscCall(PetscMalloc2(9 * n, &b->factored, 9 * n, &b->rest));
   PetscCall(PetscArraycpy(like_x,
     ((Vec *[]){&b->x, &b->dx, &b->r, &b->Kx, &b->Kdx, &b->kept_x, &b->kept_Kx, &b->base, &b->rhs}), 9));
   for (PetscInt k = 0; k < 9; k++) PetscCall(VecDuplicate(tao->solution, like_x[k]));
@@ -378,33 +539,33 @@ static PetscErrorCode BodiesResidual(void *data, const PetscReal f[], PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Sets the values of D and A_WW */
-static PetscErrorCode BodiesAssemble(SubspaceBodies b, const PetscReal D[])
+/* Sets the values of S and A_WW */
+static PetscErrorCode BodiesAssemble(SubspaceBodies b, const PetscReal S[])
 {
   PetscInt start, end, first, count;
 
   PetscFunctionBegin;
-  PetscCall(MatGetOwnershipRange(b->D, &start, &end));
+  PetscCall(MatGetOwnershipRange(b->S, &start, &end));
   for (PetscInt r = start; r < end; r += 3) {
     const PetscInt rows[3] = {r, r + 1, r + 2};
 
-    PetscCall(MatSetValues(b->D, 3, rows, 3, rows, D + 3 * (r - start), INSERT_VALUES));
+    PetscCall(MatSetValues(b->S, 3, rows, 3, rows, S + 3 * (r - start), INSERT_VALUES));
   }
-  PetscCall(MatAssemblyBegin(b->D, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(b->D, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatMatMult(b->D, b->RW, MAT_REUSE_MATRIX, PETSC_DEFAULT, &b->DR));
-  PetscCall(MatGetOwnershipRange(b->DRK, &first, NULL));
-  for (PetscInt r = start; r < end; r++) PetscCall(BodiesCopyRow(b->DR, r, b->DRK, first + r - start, &count));
-  PetscCall(MatAssemblyBegin(b->DRK, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(b->DRK, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatTransposeMatMult(b->RI, b->DRK, MAT_REUSE_MATRIX, PETSC_DEFAULT, &b->A));
+  PetscCall(MatAssemblyBegin(b->S, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(b->S, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatMatMult(b->S, b->RW, MAT_REUSE_MATRIX, PETSC_DEFAULT, &b->SR));
+  PetscCall(MatGetOwnershipRange(b->SRK, &first, NULL));
+  for (PetscInt r = start; r < end; r++) PetscCall(BodiesCopyRow(b->SR, r, b->SRK, first + r - start, &count));
+  PetscCall(MatAssemblyBegin(b->SRK, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(b->SRK, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatTransposeMatMult(b->RI, b->SRK, MAT_REUSE_MATRIX, PETSC_DEFAULT, &b->A));
   PetscFunctionReturn(0);
 }
 
-/* Finds whether the factors are those of a D that differs from the given one by a small fraction in each contact */
-static PetscErrorCode BodiesAreFactored(const SubspaceBodies b, const PetscReal D[], PetscBool *factored)
+/* Finds whether the factors are those of an S that differs from the given one by a small fraction in each contact */
+static PetscErrorCode BodiesAreFactored(const SubspaceBodies b, const PetscReal S[], PetscBool *factored)
 {
-  const PetscReal small = 1e-2; /* by which a Newton step then reduces the error */
+  const PetscReal small = 1e-2; /* GMRES corrects the difference */
   PetscInt        n;
 
   PetscFunctionBegin;
@@ -414,8 +575,8 @@ static PetscErrorCode BodiesAreFactored(const SubspaceBodies b, const PetscReal 
     PetscReal change = 0.0, size = 0.0;
 
     for (PetscInt j = 9 * (k / 3) + k % 3; j < 9 * (k / 3) + 9; j += 3) {
-      change = PetscMax(change, PetscAbsReal(D[j] - b->factored_D[j]));
-      size   = PetscMax(size, PetscAbsReal(b->factored_D[j]));
+      change = PetscMax(change, PetscAbsReal(S[j] - b->factored[j]));
+      size   = PetscMax(size, PetscAbsReal(b->factored[j]));
     }
     *factored = (PetscBool)(change <= small * size);
   }
@@ -424,24 +585,42 @@ static PetscErrorCode BodiesAreFactored(const SubspaceBodies b, const PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Factors A_WW unless its factors are almost the present ones. Newton's method corrects what they are off. */
-static PetscErrorCode BodiesPrepare(void *data, const PetscReal D[], PetscBool *prepared)
+/* Factors A_WW */
+static PetscErrorCode BodiesFactor(SubspaceBodies b, const PetscReal S[], PetscBool *factored)
+{
+  MatFactorError error;
+  PetscInt       n, negative;
+
+  PetscFunctionBegin;
+  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
+  PetscCall(BodiesAssemble(b, S));
+  PetscCall(AMGFSymmetricFactor(b->A, NULL, &b->F, &negative, &error));
+  *factored = (PetscBool)(error == MAT_FACTOR_NOERROR);
+  if (!*factored) PetscCall(MatDestroy(&b->F));
+  PetscCall(VecGetLocalSize(b->rows, &n));
+  PetscCall(PetscArraycpy(b->factored, S, 3 * n));
+  b->nX = 0;
+  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
+  PetscFunctionReturn(0);
+}
+
+/* Sets D, and factors A_WW unless its factors are almost the present ones */
+static PetscErrorCode BodiesPrepare(void *data, const PetscReal D[], const PetscReal S[], PetscBool *prepared)
 {
   const SubspaceBodies b = (SubspaceBodies)data;
-  MatFactorError       error;
   PetscInt             n;
 
   PetscFunctionBegin;
-  PetscCall(BodiesAreFactored(b, D, prepared));
-  if (*prepared) PetscFunctionReturn(0);
-  PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
-  PetscCall(BodiesAssemble(b, D));
-  PetscCall(AMGFMumpsFactorLU(b->A, &b->relaxation, &b->F, &error));
-  *prepared = (PetscBool)(error == MAT_FACTOR_NOERROR);
+  PetscCall(BodiesAreFactored(b, S, prepared));
+  if (!*prepared) PetscCall(BodiesFactor(b, S, prepared));
   PetscCall(VecGetLocalSize(b->rows, &n));
-  PetscCall(PetscArraycpy(b->factored_D, D, 3 * n));
-  b->nX = 0;
-  PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
+  b->coupled = PETSC_FALSE;
+  for (PetscInt j = 0; j < 3 * n; j++) {
+    b->rest[j] = D[j] - b->factored[j];
+    b->coupled = (PetscBool)(b->coupled || b->rest[j] != 0.0);
+  }
+  PetscCallMPI(
+    MPI_Allreduce(MPI_IN_PLACE, &b->coupled, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)b->rows)));
   PetscFunctionReturn(0);
 }
 
@@ -482,15 +661,6 @@ static PetscErrorCode BodiesSolveDirections(SubspaceBodies b)
   PetscFunctionReturn(0);
 }
 
-/* Returns the product of two arrays with an entry per unknown of W on this rank */
-static PetscReal BodiesDot(PetscInt n, const PetscScalar a[], const PetscScalar b[])
-{
-  PetscReal sum = 0.0;
-
-  for (PetscInt i = 0; i < n; i++) sum += PetscRealPart(a[i] * b[i]);
-  return sum;
-}
-
 /* Computes the missing rows and columns of the Schur complement S = P^T K P - Q^T A_WW^-1 Q, and its factors */
 static PetscErrorCode BodiesFactorDirections(SubspaceBodies b, PetscBool *factored)
 {
@@ -513,30 +683,15 @@ static PetscErrorCode BodiesFactorDirections(SubspaceBodies b, PetscBool *factor
   count = 0;
   for (PetscInt j = 0; j < k; j++)
     for (PetscInt i = j < old ? old : 0; i < k; i++)
-      b->S[i + j * basis->max] = basis->gram[i + j * basis->max] - sums[count++];
+      b->schur[i + j * basis->max] = basis->gram[i + j * basis->max] - sums[count++];
   PetscCall(PetscFree(sums));
   b->nX = k;
   if (!k) PetscFunctionReturn(0);
-  for (PetscInt j = 0; j < k; j++) PetscCall(PetscArraycpy(b->factors + j * basis->max, b->S + j * basis->max, k));
+  for (PetscInt j = 0; j < k; j++) PetscCall(PetscArraycpy(b->factors + j * basis->max, b->schur + j * basis->max, k));
   PetscCall(PetscBLASIntCast(k, &nk));
   PetscCall(PetscBLASIntCast(basis->max, &ld));
   PetscCallBLAS("LAPACKgetrf", LAPACKgetrf_(&nk, &nk, b->factors, &ld, b->pivots, &info));
   *factored = (PetscBool)!info;
-  PetscFunctionReturn(0);
-}
-
-/* Adds the sum of the columns of an array on W, each times its factor, to v */
-static PetscErrorCode BodiesAddColumns(PetscInt k, const PetscReal factors[], const PetscScalar X[], Vec v)
-{
-  PetscScalar *a;
-  PetscInt     m;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(v, &m));
-  PetscCall(VecGetArray(v, &a));
-  for (PetscInt j = 0; j < k; j++)
-    for (PetscInt i = 0; i < m; i++) a[i] += factors[j] * X[i + (size_t)j * (size_t)m];
-  PetscCall(VecRestoreArray(v, &a));
   PetscFunctionReturn(0);
 }
 
@@ -571,26 +726,50 @@ static PetscErrorCode BodiesLoadDirections(SubspaceBodies b)
 static PetscErrorCode BodiesSolveInSubspace(SubspaceBodies b)
 {
   const IPBasis *basis = &b->recycle->basis;
-  const PetscInt k     = basis->n;
-  PetscReal     *minus;
-  PetscBLASInt   nk, ld, one = 1, info;
 
   PetscFunctionBegin;
   PetscCall(VecCopy(b->dw0, b->load));
   PetscCall(VecCopy(b->base, b->dx));
   PetscCall(BodiesLoadDirections(b));
-  if (k) {
-    PetscCall(PetscArraycpy(b->dy, b->loads, k));
-    PetscCall(PetscBLASIntCast(k, &nk));
-    PetscCall(PetscBLASIntCast(basis->max, &ld));
-    PetscCallBLAS("LAPACKgetrs", LAPACKgetrs_("N", &nk, &one, b->factors, &ld, b->pivots, b->dy, &nk, &info));
-    PetscCall(IPBasisAdd(basis, b->dy, b->dx));
-    PetscCall(PetscMalloc1(k, &minus));
-    for (PetscInt j = 0; j < k; j++) minus[j] = -b->dy[j];
-    PetscCall(BodiesAddColumns(k, minus, b->X, b->load));
-    PetscCall(PetscFree(minus));
-  }
+  PetscCall(PetscArraycpy(b->dy, b->loads, basis->n));
+  PetscCall(BodiesSolveSchur(b, b->dy, b->load));
+  PetscCall(IPBasisAdd(basis, b->dy, b->dx));
   PetscCall(VecISAXPY(b->dx, b->W, 1.0, b->load));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Solves in the subspace. With the forces e, dx is that of the symmetric matrix for the load without R^T e. Then e is
+   corrected until it is (D - S) R dx.
+*/
+static PetscErrorCode BodiesSolveCoupled(SubspaceBodies b, PetscBool *solved)
+{
+  const PetscReal exact = 1e-3 * CONTACT_WEAK, /* of e, which contains the forces of weak springs */
+    enough              = 1e-2; /* after many iterations: Newton's method and the cones correct what is left */
+  PetscReal size, off;
+
+  PetscFunctionBegin;
+  PetscCall(BodiesSolveInSubspace(b));
+  if (!b->coupled) PetscFunctionReturn(0);
+  PetscCall(MatMult(b->R, b->dx, b->rows));
+  PetscCall(BodiesMultiplyRest(b, b->rows));
+  PetscCall(BodiesScaleForces(b, PETSC_TRUE, b->rows));
+  PetscCall(VecNorm(b->rows, NORM_2, &size));
+  PetscCall(VecAXPY(b->rows, -1.0, b->e));
+  PetscCall(VecNorm(b->rows, NORM_2, &off));
+  *solved = (PetscBool)!PetscIsInfOrNanReal(off);
+  if (!*solved || off <= exact * size) PetscFunctionReturn(0);
+  PetscCall(KSPSetTolerances(b->coupling, PETSC_SMALL, exact * size, PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(KSPSolve(b->coupling, b->rows, b->off));
+  PetscCall(KSPGetResidualNorm(b->coupling, &off));
+  *solved = (PetscBool)(off <= enough * size);
+  PetscCall(VecAXPY(b->e, 1.0, b->off));
+  PetscCall(BodiesScaleForces(b, PETSC_FALSE, b->off));
+  PetscCall(MatMultTranspose(b->RW, b->off, b->load));
+  PetscCall(MatSolve(b->F, b->load, b->on_W));
+  PetscCall(VecAXPY(b->dw0, -1.0, b->on_W));
+  b->nloads = 0;
+  PetscCall(BodiesSolveInSubspace(b));
   PetscFunctionReturn(0);
 }
 
@@ -619,7 +798,7 @@ static PetscErrorCode BodiesMakeRoom(SubspaceBodies b, Vec left)
   PetscCall(PetscCalloc1(max * max, &E));
   for (PetscInt j = 0; j < basis->n; j++)
     for (PetscInt i = 0; i < basis->n; i++)
-      E[i + j * max] = basis->gram[i + j * max] - 0.5 * (b->S[i + j * max] + b->S[j + i * max]);
+      E[i + j * max] = basis->gram[i + j * max] - 0.5 * (b->schur[i + j * max] + b->schur[j + i * max]);
   PetscCall(IPSubspaceCompress(b->tao, basis, E));
   PetscCall(PetscFree(E));
   PetscCall(VecCopy(b->dx, b->base));
@@ -670,7 +849,7 @@ static PetscErrorCode BodiesWiden(SubspaceBodies b, PetscBool *prepared)
 {
   IPSubspace *f = IPSubspaceOf(b->tao);
   PetscInt    n;
-  PetscReal  *D;
+  PetscReal  *S;
 
   PetscFunctionBegin;
   PetscCall(PetscInfo(b->tao, "W is extended to all unknowns, since directions are slow\n"));
@@ -681,10 +860,10 @@ static PetscErrorCode BodiesWiden(SubspaceBodies b, PetscBool *prepared)
   PetscCall(IPBasisUpdate(&b->recycle->basis, b->K, PETSC_FALSE, ((TAO_IPFILTER *)b->tao->data)->fixed, f->W));
   PetscCall(BodiesDestroySpace(b));
   PetscCall(BodiesCreateSpace(b, f->W, n / 3));
-  PetscCall(PetscMalloc1(3 * n, &D));
-  PetscCall(PetscArraycpy(D, b->factored_D, 3 * n));
-  PetscCall(BodiesPrepare(b, D, prepared));
-  PetscCall(PetscFree(D));
+  PetscCall(PetscMalloc1(3 * n, &S));
+  PetscCall(PetscArraycpy(S, b->factored, 3 * n));
+  PetscCall(BodiesFactor(b, S, prepared));
+  PetscCall(PetscFree(S));
   PetscFunctionReturn(0);
 }
 
@@ -706,10 +885,11 @@ static PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fra
   PetscCall(VecISCopy(b->rhs, b->W, SCATTER_REVERSE, b->load));
   PetscCall(MatSolve(b->F, b->load, b->dw0));
   b->nloads = 0;
+  PetscCall(VecZeroEntries(b->e));
   for (PetscInt k = 0;; k++) {
     PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
     PetscCall(BodiesFactorDirections(b, solved));
-    if (*solved) PetscCall(BodiesSolveInSubspace(b));
+    if (*solved) PetscCall(BodiesSolveCoupled(b, solved));
     PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
     if (!*solved) break;
     PetscCall(BodiesLeft(b, left, &norm));

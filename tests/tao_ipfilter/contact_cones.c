@@ -52,10 +52,22 @@ static PetscErrorCode SpringsResidual(void *data, const PetscReal f[], PetscReal
   PetscFunctionReturn(0);
 }
 
-static PetscErrorCode SpringsPrepare(void *data, const PetscReal D[], PetscBool *prepared)
+static PetscErrorCode SpringsPrepare(void *data, const PetscReal D[], const PetscReal S[], PetscBool *prepared)
 {
   PetscFunctionBeginUser;
   *prepared = PETSC_TRUE;
+  for (PetscInt i = 0; i < N; i++)
+    for (PetscInt r = 0; r < 3; r++)
+      for (PetscInt c = 0; c < 3; c++) {
+        const PetscReal *block = &S[9 * i], size = PetscSqrtReal(PetscAbsReal(block[4 * r] * block[4 * c]));
+
+        PetscCheck(PetscAbsReal(block[3 * r + c] - block[3 * c + r]) <= 1e-10 * size, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+          "entry %" PetscInt_FMT ", %" PetscInt_FMT " of S is %g, the opposite one %g", r, c, (double)block[3 * r + c],
+          (double)block[3 * c + r]);
+        PetscCheck(PetscAbsReal(block[3 * r + c]) <= (1.0 + 1e-10) * size, PETSC_COMM_SELF, PETSC_ERR_PLIB,
+          "entry %" PetscInt_FMT ", %" PetscInt_FMT " of S is %g, more than a positive block has", r, c,
+          (double)block[3 * r + c]);
+      }
   PetscCall(PetscArraycpy(((Springs *)data)->D, D, 9 * N));
   PetscFunctionReturn(0);
 }
