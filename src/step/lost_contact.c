@@ -219,50 +219,65 @@ static PetscErrorCode LostContactMove(Model model, State state, Vec w, Vec u, Co
   PetscFunctionReturn(0);
 }
 
-/* Finds the bodies on which contact forces acted at the last state */
-static PetscErrorCode LostContactFindTouched(Model model, State state, ContactLinearization last, PetscBool touched[])
+/*
+   Finds the bodies on which contact forces above `least` act. at: linearization with the rows of the pressures; NULL:
+   no contact
+*/
+static PetscErrorCode LostContactFindTouched(Model model, ContactLinearization at, Vec pressure, PetscReal least,
+  PetscBool touched[])
 {
   const Scene        scene = model->scene;
-  const PetscScalar *z     = NULL;
+  const PetscScalar *z = NULL, *mass = NULL;
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < scene->nbodies; ++b) touched[b] = PETSC_FALSE;
-  if (last) PetscCall(VecGetArrayRead(state->solved->solution.pressure, &z));
-  for (PetscInt r = 0; last && r < last->nlocal; ++r) {
-    const SceneContactPair *pair = &scene->pairs[last->pair[r]];
+  if (at) {
+    PetscCall(VecGetArrayRead(pressure, &z));
+    PetscCall(VecGetArrayRead(at->mass, &mass));
+  }
+  for (PetscInt r = 0; at && r < at->nlocal; ++r) {
+    const SceneContactPair *pair = &scene->pairs[at->pair[r]];
 
-    if (!(PetscRealPart(z[r]) > 0.0) || pair->self) continue;
+    if (!(PetscRealPart(z[r] * mass[r]) > least) || pair->self) continue;
     touched[SceneFaceBody(scene, pair->mortar) - scene->bodies]    = PETSC_TRUE;
     touched[SceneFaceBody(scene, pair->nonmortar) - scene->bodies] = PETSC_TRUE;
   }
-  if (last) PetscCall(VecRestoreArrayRead(state->solved->solution.pressure, &z));
+  if (at) {
+    PetscCall(VecRestoreArrayRead(at->mass, &mass));
+    PetscCall(VecRestoreArrayRead(pressure, &z));
+  }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, touched, (PetscMPIInt)scene->nbodies, MPI_PETSCBOOL, MPI_LOR, model->comm));
   PetscFunctionReturn(0);
 }
 
 /*
-   Reports bodies that have lost contact, whose motion w, the way back to the last state, is arbitrary. Warns, once in a
-   run, if contact forces acted on such a body before, or if w is larger than the motions of all other bodies. Rejects
-   the solution u if such a body is farther away from its last position than the bodies are large, and than all bodies
-   in contact have moved: its next position would be as arbitrary. last: linearization of the last state
+   Reports bodies that have lost contact, whose motion w, the way back to the last state, is arbitrary. A body on which
+   contact forces act is none, though nothing may resist its slip. Warns, once in a run, if contact forces acted on such
+   a body before, or if w is larger than the motions of all other bodies. Rejects the solution u if such a body is
+   farther away from its last position than the bodies are large, and than all bodies in contact have moved: its next
+   position would be as arbitrary. last: linearization of the last state
 */
 static PetscErrorCode LostContactReport(Model model, State state, RunReport *run, ContactLinearization last, Vec w,
-  Vec u, StepReport *report)
+  Vec u, const ContactSolution *sol, StepReport *report)
 {
   const Scene scene = model->scene;
-  PetscReal  *moved, *lost, extent;
-  PetscBool  *touched;
+  PetscReal  *moved, *lost, extent, least;
+  PetscBool  *touched, *touches;
   Vec         increment;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc3(scene->nbodies, &moved, scene->nbodies, &lost, scene->nbodies, &touched));
+  PetscCall(
+    PetscMalloc4(scene->nbodies, &moved, scene->nbodies, &lost, scene->nbodies, &touched, scene->nbodies, &touches));
   PetscCall(VecDuplicate(u, &increment));
   PetscCall(VecWAXPY(increment, -1.0, state->path->u, u));
   PetscCall(VertexPlacesLargest(&model->places, increment, scene->nbodies, moved));
   PetscCall(VertexPlacesLargest(&model->places, w, scene->nbodies, lost));
   PetscCall(VecDestroy(&increment));
   PetscCall(VecNorm(model->places.x, NORM_INFINITY, &extent));
-  PetscCall(LostContactFindTouched(model, state, last, touched));
+  PetscCall(VecNorm(u, NORM_INFINITY, &least));
+  least *= no_force * model->stiffness;
+  PetscCall(LostContactFindTouched(model, last, state->solved->solution.pressure, least, touched));
+  PetscCall(LostContactFindTouched(model, state->solved->linearization, sol->pressure, least, touches));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     PetscReal others = 0.0, held = 0.0; /* motions of all other bodies, and of those that have not lost contact */
 
@@ -270,7 +285,7 @@ static PetscErrorCode LostContactReport(Model model, State state, RunReport *run
       if (c != b) others = PetscMax(others, moved[c]);
       if (!(lost[c] > 0.0)) held = PetscMax(held, moved[c]);
     }
-    if (!(lost[b] > 0.0)) continue;
+    if (!(lost[b] > 0.0) || touches[b]) continue;
     if (!state->control->lost_contact && (touched[b] || lost[b] > others)) {
       state->control->lost_contact = PETSC_TRUE;
       PetscCall(ReportWarn(model->comm, run, scene->bodies[b].place,
@@ -284,7 +299,7 @@ static PetscErrorCode LostContactReport(Model model, State state, RunReport *run
       ReportReason(report, PETSC_FALSE, "body \"%s\" slips away by %g: it has lost contact, and nothing else holds it",
         scene->bodies[b].name, (double)moved[b]));
   }
-  PetscCall(PetscFree3(moved, lost, touched));
+  PetscCall(PetscFree4(moved, lost, touched, touches));
   PetscFunctionReturn(0);
 }
 
@@ -312,7 +327,7 @@ PetscErrorCode LostContactSettle(const StepProblem *p, ContactLinearization last
     PetscCall(NearestPlaceSolve(&place, PETSC_FALSE, w));
     PetscCall(NearestPlaceDestroy(&place));
     PetscCall(LostContactMove(p->model, p->state, w, u, sol));
-    PetscCall(LostContactReport(p->model, p->state, &p->sim->report, last, back, u, report));
+    PetscCall(LostContactReport(p->model, p->state, &p->sim->report, last, back, u, sol, report));
     PetscCall(VecDestroy(&back));
     PetscCall(ContactLinearizationDestroy(at_u));
     PetscCall(ContactUpdateLinearize(p->model, p->state, p->time, u, at_u));

@@ -80,3 +80,24 @@ contact: [rub: {mortar: floor.surface, nonmortar: strip.zmin, friction: 0.4}]
 YAML
 "$contact" strip.yaml -quiet -error_estimate 0 > out 2>&1
 echo "pressed strip: exit $?, $(grep -o 'slips away in load step 1' out || echo no warning)"
+
+# A block that is heated between two planes is pressed, though nothing resists its slip: it has not lost contact
+cat > heated.yaml <<'YAML'
+bodies:
+  - block: {lower: [1, 1, 2], upper: [3, 3, 4], cells: [3, 3, 1], young: 2e5, poisson: 0.3, expansion: 1e-5}
+  - low: {shape: rigid_plane, point: [0, 0, 1.999], normal: [0, 0, 1]}
+  - top: {shape: rigid_plane, point: [0, 0, 4.001], normal: [0, 0, -1]}
+displacements: [stay: {body: low, value: [0, 0, 0]}, remain: {body: top, value: [0, 0, 0]}]
+temperatures: [heat: {value: 300}]
+weak_springs: true
+contact: [below: {mortar: low.surface, nonmortar: block.zmin}, above: {mortar: top.surface, nonmortar: block.zmax}]
+load: {steps: 2}
+YAML
+"$contact" heated.yaml -quiet -error_estimate 0 -summary heated.json > out 2>&1
+echo "heated block: exit $?, $(grep -o 'slips away' out || echo no warning)"
+"$PYTHON" - <<'PYTHON'
+from summaries import load, say
+for pair in load("heated")["steps"][-1]["pairs"]:  # strain 3e-3 without the clearance of 2e-3 of 2, on an area of 4
+    force = pair["normal_force"]
+    say("it is pressed by the strain that the planes take", abs(force - 1600) < 1e-3, force)
+PYTHON
