@@ -219,7 +219,7 @@ static PetscErrorCode BodiesAddColumns(PetscInt k, const PetscReal factors[], co
   PetscFunctionReturn(0);
 }
 
-/* Solves for the directions: S dy = dy with the Schur complement S, w -= A_WW^-1 Q dy */
+/* Solves for the directions: C dy = dy with the Schur complement C, w -= A_WW^-1 Q dy */
 static PetscErrorCode BodiesSolveSchur(SubspaceBodies b, PetscReal dy[], Vec w)
 {
   const PetscInt k = b->recycle->basis.n;
@@ -661,7 +661,7 @@ static PetscErrorCode BodiesSolveDirections(SubspaceBodies b)
   PetscFunctionReturn(0);
 }
 
-/* Computes the missing rows and columns of the Schur complement S = P^T K P - Q^T A_WW^-1 Q, and its factors */
+/* Computes the missing rows and columns of the Schur complement C = P^T K P - Q^T A_WW^-1 Q, and its factors */
 static PetscErrorCode BodiesFactorDirections(SubspaceBodies b, PetscBool *factored)
 {
   const IPBasis *basis = &b->recycle->basis;
@@ -721,7 +721,7 @@ static PetscErrorCode BodiesLoadDirections(SubspaceBodies b)
 }
 
 /*
-   Computes dx = base + (dw, dy) with dw0 = A_WW^-1 rhs_W, S dy = P^T rhs - Q^T dw0, dw = dw0 - A_WW^-1 Q dy
+   Computes dx = base + (dw, dy) with dw0 = A_WW^-1 rhs_W, C dy = P^T rhs - Q^T dw0, dw = dw0 - A_WW^-1 Q dy
 */
 static PetscErrorCode BodiesSolveInSubspace(SubspaceBodies b)
 {
