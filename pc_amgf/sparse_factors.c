@@ -169,8 +169,8 @@ static const AMGFSetting cholmod_settings[] = {{"mat_cholmod_factor", "supernoda
 
 /*
    Sets how deep OpenMP's threads nest, and gets the present depth. CHOLMOD divides small loops among four threads,
-   which wait for each other: a run with 5,041 contacts takes 46.7 s of processor time, and 33.8 s with the depth 0, which
-   leaves one thread. Without OpenMP in the process nothing happens.
+   which wait for each other: a run with 5,041 contacts takes 46.7 s of processor time, and 33.8 s with the depth 0,
+   which leaves one thread. Without OpenMP in the process nothing happens.
 */
 static PetscErrorCode FactorsSetThreadDepth(int depth, int *present)
 {
