@@ -60,7 +60,7 @@ def richardson(sizes, values):
 
 
 def front(points):
-    """Those that no other beats in both time and error, by time"""
+    """Points (time, error) that no other point beats in both, sorted by time"""
     best, kept = math.inf, []
     for point in sorted(points):
         if point[1] < best:

@@ -40,7 +40,7 @@ static PetscReal SoftPressure(const SceneContactPair *pair, PetscReal y, PetscRe
   return y < SoftDepth(pair, largest) ? pair->exponential[1] * exp(SoftRate(pair) * y) : largest;
 }
 
-/* Returns the pressure at whose point of the law a row is linearized */
+/* Returns the pressure at which the law of a row is linearized */
 static PetscReal SoftGetPoint(const ContactHistory *m, const SceneContactPair *pair, PetscInt k, PetscReal cover)
 {
   const PetscReal least = SoftLeast(pair), pressure = m->open[k] ? 0.0 : m->pressure[k];
