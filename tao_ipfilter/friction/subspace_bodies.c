@@ -284,6 +284,15 @@ static PetscErrorCode BodiesMultiplyRest(SubspaceBodies b, Vec v)
   PetscFunctionReturn(0);
 }
 
+/* Computes w = A_WW^-1 R_W^T forces */
+static PetscErrorCode BodiesRespondOnW(SubspaceBodies b, Vec forces, Vec w)
+{
+  PetscFunctionBegin;
+  PetscCall(MatMultTranspose(b->RW, forces, b->load));
+  PetscCall(MatSolve(b->F, b->load, w));
+  PetscFunctionReturn(0);
+}
+
 /* Computes the motion of W due to forces of contacts, by the symmetric matrix in the subspace */
 static PetscErrorCode BodiesRespond(SubspaceBodies b, Vec forces, Vec w)
 {
@@ -293,8 +302,7 @@ static PetscErrorCode BodiesRespond(SubspaceBodies b, Vec forces, Vec w)
   PetscInt           m;
 
   PetscFunctionBegin;
-  PetscCall(MatMultTranspose(b->RW, forces, b->load));
-  PetscCall(MatSolve(b->F, b->load, w));
+  PetscCall(BodiesRespondOnW(b, forces, w));
   PetscCall(PetscCalloc1(basis->n, &dy));
   PetscCall(VecGetLocalSize(w, &m));
   PetscCall(VecGetArrayRead(w, &a));
@@ -765,8 +773,7 @@ static PetscErrorCode BodiesSolveCoupled(SubspaceBodies b, PetscBool *solved)
   *solved = (PetscBool)(off <= enough * size);
   PetscCall(VecAXPY(b->e, 1.0, b->off));
   PetscCall(BodiesScaleForces(b, PETSC_FALSE, b->off));
-  PetscCall(MatMultTranspose(b->RW, b->off, b->load));
-  PetscCall(MatSolve(b->F, b->load, b->on_W));
+  PetscCall(BodiesRespondOnW(b, b->off, b->on_W));
   PetscCall(VecAXPY(b->dw0, -1.0, b->on_W));
   b->nloads = 0;
   PetscCall(BodiesSolveInSubspace(b));
