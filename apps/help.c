@@ -28,7 +28,7 @@ Results\n\
   -restart FILE        continue from a checkpoint; ranks, -refine and the later load program may differ\n\
 What is printed\n\
   -tables_view         also with -quiet: tables of load steps, solver, forces, energy, errors, meshes of -accuracy,\n\
-                       times, memory, and effects: which ones the scene uses, why, and their share of the time\n\
+                       times, memory\n\
   -contact_free        a comparison with the first load step without contact\n\
   -quiet               no line per iteration and no largest values\n\
   -traceback           PETSc's traceback after an error\n\

@@ -260,14 +260,6 @@ typedef struct {
   const ContactPoint *points;            /* contact points, pair by pair */
 } StepState;
 
-/* An effect that a scene may use, and its cost. An effect that is off is neither allocated, assembled nor solved. */
-typedef struct {
-  const char    *name;
-  PetscBool      on;
-  char           why[160];
-  PetscLogDouble time; /* time [s]; NaN: not measured separately, because it is a part of another phase */
-} RunEffect;
-
 /* What a figure belongs to. FIGURE_OF_STRESSED_MODEL: the model in the load step with the largest von Mises stress */
 typedef enum {
   FIGURE_OF_STRESSED_MODEL,
@@ -387,11 +379,10 @@ typedef struct {
   const char    **bodies;
   PetscInt        nfigures;
   RunFigure      *figures;
-  const char     *files;      /* names of the files that the run has written, each after a blank; NULL: none */
-  PetscInt       *assemblies; /* number of times that each body's tangent was assembled */
-  const Accuracy *accuracy;   /* choices and results of -accuracy; NULL: not requested */
-  PetscInt        neffects;
-  RunEffect      *effects;
+  const char     *files;         /* names of the files that the run has written, each after a blank; NULL: none */
+  PetscInt       *assemblies;    /* number of times that each body's tangent was assembled */
+  PetscBool       finite_strain; /* whether any body has a law of finite strain */
+  const Accuracy *accuracy;      /* choices and results of -accuracy; NULL: not requested */
   RunTimes        time;
   RunContactFree  contact_free;
   PetscLogDouble  peak_memory_bytes; /* largest resident memory, summed over the ranks */

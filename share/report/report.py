@@ -255,7 +255,7 @@ def pictures(base, run):
     last, pressure, moved = max(files), largest(run, "contact pressure"), largest(run, "displacement")
     pressed, farthest = (figure["step"] if figure and figure["step"] in files else last for figure in (pressure, moved))
     zoom = ["--around-contact", "3"] if pressure and small_contact(run_files, pressed) else []
-    finite = any(effect["on"] for effect in run["effects"] if effect["name"] == "finite strain")
+    finite = run["finite_strain"]
     moves = ("Displacement to scale", "displacement", []) if finite else ("Displacement", "displacement",
                                                                           ["--scale", "auto"])
     wanted = [("Von Mises stress", "nodal_von_mises", [], steps), (*moves, [farthest])]

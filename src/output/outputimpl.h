@@ -139,8 +139,7 @@ typedef enum {
   TABLE_FALLBACKS,
   TABLE_ERRORS,
   TABLE_LEVELS,
-  TABLE_PHASES,
-  TABLE_EFFECTS
+  TABLE_PHASES
 } ReportTable;
 
 /* Number that a column shows for the value of its field. */
@@ -149,8 +148,7 @@ typedef enum {
   SHOWN_SUM, /* sum of the values of a FIELD_INTS; SHOWN_MEAN: their mean */
   SHOWN_MEAN,
   SHOWN_SQUARE,
-  SHOWN_PERCENT,
-  SHOWN_SHARE /* percentage of the total run time */
+  SHOWN_PERCENT
 } ReportShown;
 
 typedef struct {
@@ -186,7 +184,7 @@ struct _n_ReportRecord {
 };
 
 PETSC_INTERN const ReportRecord SchemaRun, SchemaSteps, SchemaPairs, SchemaFaces, SchemaRigid, SchemaBolts,
-  SchemaConnectors, SchemaFallbacks, SchemaTimes, SchemaLevels, SchemaEffects, SchemaLines;
+  SchemaConnectors, SchemaFallbacks, SchemaTimes, SchemaLevels, SchemaLines;
 PETSC_INTERN const void *SchemaAt(const ReportField *, const void *record);
 PETSC_INTERN double      SchemaNumber(const ReportField *, const void *record);
 PETSC_INTERN const char *SchemaText(const ReportField *, const void *record);
@@ -197,8 +195,7 @@ PETSC_INTERN PetscErrorCode TableViewHead(const RunReport *, ReportTable, const 
   PetscViewer);
 PETSC_INTERN PetscErrorCode TableViewRows(const RunReport *, ReportTable, const ReportRecord *, PetscInt n,
   const void *records, PetscViewer);
-PETSC_INTERN const char    *TableGetText(const RunReport *, ReportTable, const ReportField *, const void *record,
-     char text[], size_t length);
+PETSC_INTERN const char *TableGetText(ReportTable, const ReportField *, const void *record, char text[], size_t length);
 
 /* print_figures.c: prints the largest values of a run */
 PETSC_INTERN PetscErrorCode ReportViewFigures(const RunReport *, PetscViewer);

@@ -108,7 +108,7 @@ static PetscErrorCode ViewFallbacks(const RunReport *report, PetscViewer viewer)
       continue;
     PetscCall(PetscViewerASCIIPrintf(viewer, "%5" PetscInt_FMT "  ", report->steps[s].step));
     for (const ReportField *field = SchemaFallbacks.fields; field->name; ++field) {
-      const char *said = TableGetText(report, TABLE_FALLBACKS, field, linear, text, sizeof(text));
+      const char *said = TableGetText(TABLE_FALLBACKS, field, linear, text, sizeof(text));
 
       if (!said) continue;
       PetscCall(PetscViewerASCIIPrintf(viewer, "%s%s", field->type == FIELD_INT ? before : "; ", said));
@@ -211,19 +211,6 @@ static PetscErrorCode ViewMemory(const RunReport *report, PetscViewer viewer)
   PetscFunctionReturn(0);
 }
 
-/*
-   Prints which effects the scene uses and which not, why, and their share of the run time. An effect without a share
-   has no phase of its own: its time is part of other phases (for example, the element's formulation of the assembly).
-*/
-static PetscErrorCode ViewEffects(const RunReport *report, PetscViewer viewer)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
-  PetscCall(TableViewHead(report, TABLE_EFFECTS, &SchemaEffects, 0, viewer));
-  PetscCall(TableViewRows(report, TABLE_EFFECTS, &SchemaEffects, report->neffects, report->effects, viewer));
-  PetscFunctionReturn(0);
-}
-
 /*@C
    ReportView - Prints the largest values of a run: displacement, stress, plastic strain and safety factor of each body,
    force, pressure and area of each contact pair, reactions, the estimated error, time and memory
@@ -262,7 +249,7 @@ PetscErrorCode ReportView(const RunReport *report, PetscViewer viewer)
 }
 
 /*@C
-   ReportViewTables - Prints tables of a run: load steps, solver, forces, energy, errors, times, memory, effects
+   ReportViewTables - Prints tables of a run: load steps, solver, forces, energy, errors, times, memory
 
    Collective on the viewer
 
@@ -297,6 +284,5 @@ PetscErrorCode ReportViewTables(const RunReport *report, PetscViewer viewer)
   PetscCall(PetscViewerASCIIPrintf(viewer, "\n"));
   PetscCall(ViewTimes(report, viewer));
   PetscCall(ViewMemory(report, viewer));
-  PetscCall(ViewEffects(report, viewer));
   PetscFunctionReturn(0);
 }

@@ -305,18 +305,6 @@ static const ReportField accuracy_fields[] = {
 };
 static const ReportRecord SchemaAccuracy = {sizeof(Accuracy), PETSC_FALSE, accuracy_fields};
 
-static const ReportField effect_fields[] = {
-  FIELD(RunEffect, name, FIELD_TEXT, "", .columns = {COLUMN(TABLE_EFFECTS, "effect", "", -20)}),
-  FIELD(RunEffect, on, FIELD_BOOL, "", .absent = "off", .columns = {COLUMN(TABLE_EFFECTS, "", "", -4, .format = "on")}),
-  FIELD(RunEffect, why, FIELD_CHARS, "",
-    .columns = {COLUMN(TABLE_EFFECTS, "why", "", 0, .blanks = 1, .behind = PETSC_TRUE)}),
-  FIELD(RunEffect, time, FIELD_DOUBLE, "s", .absent = "-",
-    .columns = {COLUMN(TABLE_EFFECTS, "time", "", 10, .with_unit = PETSC_TRUE),
-      COLUMN(TABLE_EFFECTS, "share", "", 6, .format = "%.1f%%", .shown = SHOWN_SHARE)}),
-  END,
-};
-const ReportRecord SchemaEffects = {sizeof(RunEffect), PETSC_TRUE, effect_fields};
-
 static const ReportField figure_fields[] = {
   FIELD(RunFigure, quantity, FIELD_TEXT, ""),
   FIELD(RunFigure, name, FIELD_TEXT, ""),
@@ -352,6 +340,7 @@ static const ReportField run_fields[] = {
   FIELD(RunReport, ranks, FIELD_INT, ""),
   FIELD(RunReport, dofs, FIELD_INT, ""),
   FIELD(RunReport, refine, FIELD_INT, ""),
+  FIELD(RunReport, finite_strain, FIELD_BOOL, ""),
   FIELD(RunReport, converged, FIELD_BOOL, ""),
   FIELD(RunReport, reason, FIELD_TEXT, ""),
   FIELD(RunReport, exit_code, FIELD_INT, ""),
@@ -361,7 +350,6 @@ static const ReportField run_fields[] = {
   FIELD(RunReport, time, FIELD_RECORD, "", .record = &SchemaTimes),
   FIELD(RunReport, assemblies, FIELD_BODY_INTS, ""),
   FIELD(RunReport, accuracy, FIELD_POINTER, "", .record = &SchemaAccuracy),
-  FIELD(RunReport, effects, FIELD_LIST, "", .count = offsetof(RunReport, neffects), .record = &SchemaEffects),
   FIELD(RunReport, contact_free, FIELD_RECORD, "", .record = &SchemaContactFree),
   FIELD(RunReport, memory, FIELD_RECORD, "", .record = &SchemaMemory),
   FIELD(RunReport, peak_memory_bytes, FIELD_DOUBLE, "byte"),

@@ -16,12 +16,11 @@ static const char *TableFormat(const ReportField *field, const ReportColumn *col
   }
 }
 
-static double TableShown(const RunReport *run, ReportShown shown, double value)
+static double TableShown(ReportShown shown, double value)
 {
   switch (shown) {
   case SHOWN_SQUARE: return value * value;
   case SHOWN_PERCENT: return 100 * value;
-  case SHOWN_SHARE: return run->time.total > 0 ? 100 * value / run->time.total : 0.0;
   default: return value;
   }
 }
@@ -44,8 +43,8 @@ static void TableVector(const char format[], const PetscReal v[3], char text[], 
 }
 
 /* Returns the text of a cell of the table; a number is printed to `text`. NULL: the cell is empty. */
-static const char *TableText(const RunReport *run, const ReportField *field, const ReportColumn *column,
-  const void *record, char text[], size_t length)
+static const char *TableText(const ReportField *field, const ReportColumn *column, const void *record, char text[],
+  size_t length)
 {
   const char  *format = TableFormat(field, column);
   const double value  = SchemaNumber(field, record);
@@ -59,7 +58,7 @@ static const char *TableText(const RunReport *run, const ReportField *field, con
   default: break;
   }
   if (isnan(value) && field->absent) return field->absent[0] ? field->absent : NULL;
-  (void)snprintf(text, length, format, TableShown(run, column->shown, value));
+  (void)snprintf(text, length, format, TableShown(column->shown, value));
   return text;
 }
 
@@ -92,7 +91,7 @@ static PetscErrorCode TableBodies(const RunReport *run, const ReportField *field
     const int width = PetscMax(column->width, (int)strlen(run->bodies[b]));
 
     if (record)
-      (void)snprintf(text, sizeof(text), TableFormat(field, column), TableShown(run, column->shown, (double)values[b]));
+      (void)snprintf(text, sizeof(text), TableFormat(field, column), TableShown(column->shown, (double)values[b]));
     PetscCall(TablePut(column, PETSC_FALSE, width, record ? text : run->bodies[b], viewer));
   }
   PetscFunctionReturn(0);
@@ -129,7 +128,7 @@ static PetscErrorCode TableLine(const RunReport *run, ReportTable table, const R
         if (field->type == FIELD_BODY_REALS) PetscCall(TableBodies(run, field, column, record, viewer));
         else if (record)
           PetscCall(
-            TablePut(column, first, column->width, TableText(run, field, column, record, text, sizeof(text)), viewer));
+            TablePut(column, first, column->width, TableText(field, column, record, text, sizeof(text)), viewer));
         else PetscCall(TableHead(field, column, line, first, viewer));
         first = PETSC_FALSE;
       }
@@ -160,8 +159,7 @@ PetscErrorCode TableViewRows(const RunReport *run, ReportTable table, const Repo
    Returns the text of the first column of a field if this column belongs to `table`. NULL: the column belongs to
    another table, or the cell is empty.
 */
-const char *TableGetText(const RunReport *run, ReportTable table, const ReportField *field, const void *record,
-  char text[], size_t length)
+const char *TableGetText(ReportTable table, const ReportField *field, const void *record, char text[], size_t length)
 {
-  return field->columns[0].table == table ? TableText(run, field, &field->columns[0], record, text, length) : NULL;
+  return field->columns[0].table == table ? TableText(field, &field->columns[0], record, text, length) : NULL;
 }

@@ -1,4 +1,4 @@
-/* Private header of run: set-up, progress, effects and mesh adaptation around the load steps */
+/* Private header of run: set-up, progress and mesh adaptation around the load steps */
 #ifndef RUNIMPL_H
 #define RUNIMPL_H
 
@@ -17,10 +17,6 @@ PETSC_INTERN PetscBool ProgressEstimate(const Progress *, PetscLogDouble elapsed
 
 /* adapt_contact.c */
 PETSC_INTERN PetscErrorCode AdaptMarkContact(Model, State, RunState *);
-
-/* effects.c */
-PETSC_INTERN PetscErrorCode EffectsCreate(Model, Results *, RunReport *);
-PETSC_INTERN PetscErrorCode EffectsSetTimes(Model, RunReport *);
 
 /* plausible.c */
 PETSC_INTERN PetscErrorCode PlausibleTest(Model, RunReport *);

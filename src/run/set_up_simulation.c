@@ -101,8 +101,10 @@ static PetscErrorCode SimulationSetUpReport(Simulation sim)
   report->nbodies   = scene->nbodies;
   PetscCall(PetscCalloc1(scene->nsteps, &report->steps));
   PetscCall(PetscMalloc2(scene->nbodies, &report->bodies, scene->nbodies, &report->assemblies));
-  for (PetscInt b = 0; b < scene->nbodies; ++b) report->bodies[b] = scene->bodies[b].name;
-  PetscCall(EffectsCreate(sim->model, sim->results, report));
+  for (PetscInt b = 0; b < scene->nbodies; ++b) {
+    report->bodies[b]     = scene->bodies[b].name;
+    report->finite_strain = (PetscBool)(report->finite_strain || MaterialIsFinite(&scene->bodies[b].material));
+  }
   PetscFunctionReturn(0);
 }
 

@@ -276,7 +276,6 @@ PetscErrorCode SimulationGetReport(Simulation sim, RunReport *report)
   PetscCall(EventsGetTimes(sim->model->comm, &sim->run->start, &sim->report.time));
   for (PetscInt b = 0; b < sim->report.nbodies; ++b)
     PetscCall(ElasticityGetAssemblies(sim->model->elasticity, b, &sim->report.assemblies[b]));
-  PetscCall(EffectsSetTimes(sim->model, &sim->report));
   PetscCall(FiguresCollect(&sim->report));
   PetscCall(MemoryUsageGetPeak(sim->model->comm, &sim->report.peak_memory_bytes));
   *report = sim->report;
@@ -303,7 +302,6 @@ static PetscErrorCode SimulationFreeReport(RunReport *report)
   }
   PetscCall(PetscFree(report->steps));
   PetscCall(PetscFree2(report->bodies, report->assemblies));
-  PetscCall(PetscFree(report->effects));
   PetscCall(PetscFree(report->figures));
   for (PetscInt i = 0; i < report->nwarnings; ++i) PetscCall(PetscFree(*(char **)&report->warnings[i]));
   PetscCall(PetscFree(report->warnings));

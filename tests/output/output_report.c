@@ -81,29 +81,25 @@ int main(int argc, char **argv)
     {FIGURE_OF_FACE, "reaction", "reaction", "slab.zmin", 1e300, "N", {NAN, NAN, NAN}, {-1e300, 0, 1e280}, 1},
     {FIGURE_OF_STRESSED_MODEL, "stress error, estimate", NULL, "", 160, "%", {NAN, NAN, NAN}, {NAN, NAN, NAN}, 2},
   };
-  const char *bodies[]     = {"slab", "block"};
-  PetscInt    assemblies[] = {1, 12};
-  RunEffect   effects[]    = {
-         {"contact", PETSC_TRUE, "1 contact pairs", 0.5},
-         {"pressure", PETSC_FALSE, "0 \"pressures\"", NAN},
-  };
-  AccuracyLevel levels[] = {
-    {.refine            = 1,
-      .dofs             = 2000,
-      .recovery         = 0.06,
-      .change           = NAN,
-      .error            = 0.06,
-      .algebraic        = 1e-5,
-      .amg_applications = 12,
-      .time             = 0.25},
-    {.refine            = 2,
-      .dofs             = 13380,
-      .recovery         = 0.015,
-      .change           = 0.045,
-      .error            = 0.015,
-      .algebraic        = 2e-5,
-      .amg_applications = 15,
-      .time             = 2},
+  const char   *bodies[]     = {"slab", "block"};
+  PetscInt      assemblies[] = {1, 12};
+  AccuracyLevel levels[]     = {
+        {.refine            = 1,
+          .dofs             = 2000,
+          .recovery         = 0.06,
+          .change           = NAN,
+          .error            = 0.06,
+          .algebraic        = 1e-5,
+          .amg_applications = 12,
+          .time             = 0.25},
+        {.refine            = 2,
+          .dofs             = 13380,
+          .recovery         = 0.015,
+          .change           = 0.045,
+          .error            = 0.015,
+          .algebraic        = 2e-5,
+          .amg_applications = 15,
+          .time             = 2},
   };
   Accuracy    accuracy                 = {.target = 0.01,
                        .share                     = 0.1,
@@ -118,8 +114,6 @@ int main(int argc, char **argv)
   RunReport   report                   = {.nbodies = 2,
                         .bodies                    = bodies,
                         .assemblies                = assemblies,
-                        .neffects                  = 2,
-                        .effects                   = effects,
                         .problem                   = "caf\xc3\xa9 \"two\"",
                         .dofs                      = 13380,
                         .refine                    = 1,

@@ -50,7 +50,7 @@ for box in shown:
     images = re.findall(r"<img[^>]*>", box)
     if ['class="shown"' in image for image in images] != [True] + [False] * (len(images) - 1):
         print(f"{name}: the slider does not show the first picture")
-finite = any(effect["on"] for effect in run["effects"] if effect["name"] == "finite strain")
+finite = run["finite_strain"]
 if f">Displacement{' to scale' * finite}, load step" not in document:
     print(f"{name}: the displacement{' of finite strain is not' * finite} drawn to scale")
 turned = re.findall(r'data-turned="([^"]*)"', moved)

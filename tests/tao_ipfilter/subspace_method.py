@@ -15,7 +15,7 @@ def steps(name):
 def filters(name):
     """Whether a run says that it filtered systems"""
     with open(name + ".json") as file:
-        return any(effect["on"] for effect in json.load(file)["effects"] if effect["name"] == "AMG filter")
+        return any(step["filtered_systems"] for step in json.load(file)["steps"])
 
 
 def ran(name, *ranks):
