@@ -1,7 +1,7 @@
 """Decks of decks_ccx.sh, and what their results must be: python decks_ccx.py write|judge."""
 import sys
 
-from decks import DECKS, push, step
+from decks import DECKS, step
 from summaries import load, say
 
 # A cube: its corners, and the numbers of the corners of its edges, in the order of CalculiX's cell of 20 nodes
@@ -27,11 +27,13 @@ def cube(material, *steps):
 
 # compressed by 0.02 = s / 1000 + (s - 5) / 100
 ORDER2 = cube(("*ELASTIC", "1000., 0.3", "*PLASTIC", "5., 0.", "15., 0.1"), "*BOUNDARY", "foot, 3", "101, 1, 2",
-              "102, 2", push(-0.02), "*STEP\n*FREQUENCY\n5\n*END STEP")
+              "102, 2", step("*BOUNDARY\ntop, 3, 3, -0.02", "*NODE PRINT, NSET=foot, TOTALS=ONLY\nRF"),
+              "*STEP\n*FREQUENCY\n5\n*END STEP")
 # the displacement 0.01 x^2 y along x; 8 points integrate x^4, of the shear strain, to 7/36 instead of 1/5
 REDUCED = cube(("*ELASTIC", "1000., 0."), step("*BOUNDARY", "Nall, 2, 3",
                                                *(f"{n}, 1, 1, {0.01 * x * x * y}"
-                                                 for n, (x, y, _) in enumerate(PLACES, 101)), "*EL FILE", "E"))
+                                                 for n, (x, y, _) in enumerate(PLACES, 101)), "*EL FILE", "E",
+                                               "*EL PRINT, ELSET=Eall", "S"))
 
 
 def blocks(name):
@@ -49,6 +51,12 @@ def blocks(name):
                 words = line[13:].rstrip("\n")
                 values[int(line[3:13])] = [float(words[i:i + 12]) for i in range(0, len(words), 12)]
     return found
+
+
+def table(name):
+    """The rows of a .dat file"""
+    with open(name + ".dat") as file:
+        return [[float(word) for word in line.split()] for line in file if line.strip()[:1] in list("-0123456789")]
 
 
 def close(what, found, wanted):
@@ -73,9 +81,12 @@ def judge():
     # the line through x^2 at the points, of the shear strain, is 5/6 at the corner
     close("reduced: strain", blocks("reduced")["TOSTRAIN", 1][107], [0.02, 0, 0, 0.005 * 5 / 6, 0, 0])
     close("reduced: energy", [load("reduced_deck")["steps"][-1]["energy"]], [0.1 * (2 / 9 + 7 / 144)])
-    with open("order2.dat") as file:
-        rows = [line.split() for line in file if line[:10].strip().isdigit()]
-    close("order2: displacement in the file .dat", [float(rows[-20][3]), float(rows[-1][3])], [0, -0.01])
+    rows = table("order2")
+    close("order2: displacement in the file .dat", [rows[-20][3], rows[-1][3]], [0, -0.01])
+    close("order2: total force in the file .dat", rows[-21], [0, 0, stress])
+    x = [0.5 - 0.75**0.5 / 3, 0.5 + 0.75**0.5 / 3]
+    close("reduced: stress in the file .dat", sum(table("reduced")[:8], []),
+          sum(([7, k + 1, 20 * x[k % 2] * x[k // 2 % 2], 0, 0, 5 * x[k % 2]**2, 0, 0] for k in range(8)), []))
 
 
 if __name__ == "__main__":

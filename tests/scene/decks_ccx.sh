@@ -5,12 +5,13 @@ ccx() {
   grep -hv warning wrong
 }
 "$PYTHON" -B "$AMGF_DIR/tests/scene/decks_ccx.py" write
-ccx -i pressure
+ccx -i pressure -summary mine.json
+cmp mine.json pressure_deck.json
 ccx order2.inp -deck_ignore FREQUENCY
 ccx -i reduced
 "$PYTHON" -B "$AMGF_DIR/tests/scene/decks_ccx.py" judge
 grep -E '^ (-4|-5|-3)|1PSTEP|100C|^    [23]C' order2.frd
-grep -vE '^ *[0-9]' order2.dat
+grep -vE '^ *-?[0-9]' order2.dat
 ccx -i nothing
 ccx -i order2
 sed 's/P2, 10./P2, -10./' pressure.inp > pulled.inp

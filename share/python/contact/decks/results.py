@@ -1,4 +1,5 @@
-"""Results of a deck's run as the files of CalculiX: .frd for cgx, PrePoMax and FreeCAD, .dat with NODE PRINT."""
+"""Results of a deck's run as the files of CalculiX: .frd for cgx, PrePoMax and FreeCAD, .dat with NODE PRINT and
+EL PRINT."""
 import math
 import os
 
@@ -6,7 +7,7 @@ import h5py
 import numpy as np
 
 from ..meshes.model import MeshError
-from .strains import node_strains
+from .strains import interpolate, node_strains
 
 # CalculiX' number of a kind of cell in .frd files, and its nodes as places in the deck's order
 CELLS = {
@@ -22,6 +23,7 @@ CONTACT = [("COPEN", 4, 1, 1), ("CSLIP1", 4, 2, 2), ("CSLIP2", 4, 3, 3), ("CPRES
            ("CSHEAR2", 4, 3, 1)]
 PLASTIC = [("PE", 1, 0, 0)]
 OURS_TO_STRESS = [0, 3, 5, 1, 4, 2]  # xx, yy, zz, xy, yz, zx among xx, xy, xz, yy, yz, zz
+DAT_STRESS = [0, 3, 5, 1, 2, 4]  # xx, yy, zz, xy, xz, yz
 
 
 def nearest(points, places, size):
@@ -81,7 +83,8 @@ class Results:
         rows = self.vertex[self.nodes]
         with h5py.File(self.run.files.files[step], "r") as file:
             data = {name: values[:] for name, values in file.items()}
-        found = [("DISP", DISPLACEMENT, data["displacement"][rows]), ("FORC", FORCE, self.reactions(data["reaction"])),
+        forces = self.reactions(data["reaction"])[self.nodes]
+        found = [("DISP", DISPLACEMENT, data["displacement"][rows]), ("FORC", FORCE, forces),
                  ("STRESS", STRESS, data["nodal_stress"][rows][:, OURS_TO_STRESS])]
         if self.deck.strains:
             moved = np.where(self.vertex[:, None] >= 0, data["displacement"][self.vertex], 0.0)
@@ -100,7 +103,8 @@ class Results:
         return found
 
     def reactions(self, values):
-        """Reactions at the nodes. That inside a side of 8 nodes is -1/4 on each corner and 1/2 on each other node"""
+        """Reactions at the nodes of the deck. That inside a side of 8 nodes is -1/4 on each corner and 1/2 on each other
+        node"""
         found = np.where(self.vertex[:, None] >= 0, values[self.vertex], 0.0)
         inner = np.setdiff1d(np.flatnonzero(np.any(values, axis=1)), self.vertex)
         cells = [cell for cell in self.cells if self.geometry.elements[cell][0] == "hexahedron20"]
@@ -110,7 +114,7 @@ class Results:
             centres = np.einsum("k,skd->sd", weights, self.geometry.points[sides])
             at = nearest(self.run.points[inner], centres, float(np.ptp(self.run.points, axis=0).max()))
             np.add.at(found, sides[at[at >= 0]], weights[:, None] * values[inner[at >= 0]][:, None])
-        return found[self.nodes]
+        return found
 
     def at_vertices(self, values):
         """Means of the values of the cells around each vertex"""
@@ -149,13 +153,37 @@ class Results:
         with open(path, "w", encoding="ascii", errors="replace") as file:
             for step in self.run.steps:
                 at, _, time = times[step]
-                displacement = self.run.displacement(step)
-                for name, nodes in self.deck.prints[self.deck.steps[at - 1]]:
-                    file.write(f"\n displacements (vx,vy,vz) for set {name.upper()} and time {fortran(time)}\n\n")
-                    for node in nodes:
-                        if node in number_of:
-                            file.write(f"{number_of[node]:10d}" +
-                                       "".join(f"{value:14.6E}" for value in displacement[self.vertex[node]]) + "\n")
+                for (name, word), (members, totals) in self.deck.prints[self.deck.steps[at - 1]]:
+                    place = f"for set {name.upper()} and time {fortran(time)}\n\n"
+                    if word == "S":
+                        file.write(f"\n stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz) {place}")
+                        file.write(self.stress_rows(step, members))
+                        continue
+                    nodes = [node for node in members if node in number_of]
+                    values = self.node_values(step, word)
+                    if totals != "ONLY":
+                        title = "displacements (vx,vy,vz)" if word == "U" else "forces (fx,fy,fz)"
+                        file.write(f"\n {title} {place}")
+                        file.write("".join(f"{number_of[node]:10d}" + printed(values[node]) for node in nodes))
+                    if word == "RF" and totals != "NO":
+                        file.write(f"\n total force (fx,fy,fz) {place}{'':6}" + printed(values[nodes].sum(axis=0)))
+
+    def node_values(self, step, word):
+        """Displacements (U) or reactions (RF) at the nodes of the deck"""
+        if word == "U":
+            return self.run.displacement(step)[self.vertex]
+        with h5py.File(self.run.files.files[step], "r") as file:
+            return self.reactions(file["reaction"][:])
+
+    def stress_rows(self, step, cells):
+        with h5py.File(self.run.files.files[step], "r") as file:
+            stress = file["nodal_stress"][:][:, DAT_STRESS]
+        rows = ""
+        for cell in cells:
+            kind, nodes = self.geometry.elements[cell]
+            for k, value in enumerate(interpolate(kind, cell in self.geometry.reduced, stress[self.vertex[nodes]]), 1):
+                rows += f"{self.elements[cell]:10d}{k:4d}" + printed(value)
+        return rows
 
 
 def write_block(file, name, components, numbers, values, place):
@@ -173,6 +201,10 @@ def write_block(file, name, components, numbers, values, place):
 
 def reals(values):
     return "".join(f"{value:12.5E}" for value in values) + "\n"
+
+
+def printed(values):
+    return "".join(f"{value:14.6E}" for value in values) + "\n"
 
 
 def fortran(value):

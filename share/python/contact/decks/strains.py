@@ -1,5 +1,5 @@
 """Strains at the nodes of a deck, as CalculiX extrapolates them: from points in the cells to corners, whose means the
-nodes of edges get, and the mean over the cells around a node."""
+nodes of edges get, and the mean over the cells around a node. Values at the points of integration of its cells."""
 import itertools
 
 import numpy as np
@@ -25,6 +25,14 @@ CELLS = {
     "wedge": (WEDGE, [], [p for p in FIRST if p[:2] != (1, 1)], np.array([[1 / 3, 1 / 3, 0]]), SIMPLEX[:1]),
 }
 CELLS["hexahedron27"] = CELLS["hexahedron20"]  # without the nodes inside its sides
+# points of integration, the first coordinate fastest
+TWO, THREE = (np.array(list(itertools.product(places, repeat=3)))[:, ::-1] for places in
+              ((-3**-0.5, 3**-0.5), (-0.6**0.5, 0.0, 0.6**0.5)))
+INTEGRATED = {
+    "hexahedron": (TWO, np.zeros((1, 3))), "hexahedron20": (THREE, TWO), "hexahedron27": (THREE, TWO),
+    "tetra": (TETRAHEDRON[:1] + 0.25, ) * 2, "tetra10": (INNER, ) * 2,
+    "wedge": (np.array([[1 / 3, 1 / 3, z] for z in (-3**-0.5, 3**-0.5)]), ) * 2
+}
 
 
 def powers(points, exponents):
@@ -39,12 +47,24 @@ def slopes(points, exponents):
     return np.stack([exponents[:, d] * powers(points, lowered[d]) for d in range(3)], axis=1)
 
 
+def shape_nodes(kind):
+    """Places of the nodes of a cell"""
+    corners, edges = CELLS[kind][:2]
+    return np.concatenate([corners, corners[np.array(edges, int).reshape(-1, 2)].mean(axis=1)])
+
+
+def interpolate(kind, reduced, values):
+    """(points, columns): values at the points of integration of a cell from those at its nodes"""
+    nodes, shape = shape_nodes(kind), CELLS[kind][2]
+    return powers(INTEGRATED[kind][reduced], shape) @ np.linalg.inv(powers(nodes, shape)) @ values[:len(nodes)]
+
+
 def cell_strains(kind, x, u, finite):
     """(cells, nodes, 6): strains xx, yy, zz, xy, yz, zx at the nodes of cells of one kind. x, u: (cells, nodes, 3);
     finite: Green's strain"""
     corners, edges, shape, points, fit = CELLS[kind]
     ends = np.array(edges, int).reshape(-1, 2)
-    nodes = np.concatenate([corners, corners[ends].mean(axis=1)])
+    nodes = shape_nodes(kind)
     dN = slopes(points, shape) @ np.linalg.inv(powers(nodes, shape))
     x, u = x[:, :len(nodes)], u[:, :len(nodes)]
     H = np.linalg.solve(dN @ x[:, None], dN @ u[:, None])  # (cells, points, 3, 3): H[i][k] = d u_k / d x_i

@@ -377,8 +377,8 @@ class Translator:
 
     def read_in_step(self, step, given, where, keyword, parameters, data):
         words = [word.strip().upper() for text in data for word in text.split(",")]
-        if keyword == "NODE PRINT":
-            self.request(where, parameters, words)
+        if keyword in ("NODE PRINT", "EL PRINT"):
+            self.request(where, keyword, parameters, words)
         elif keyword in ("EL FILE", "ELEMENT OUTPUT"):
             self.strains = self.strains or "E" in words
         if keyword in PROCEDURES | HARMLESS | MESH:
@@ -405,10 +405,14 @@ class Translator:
             return
         self.notes.translate(keyword, where)
 
-    def request(self, where, parameters, words):
-        """Sets of nodes whose displacements the file .dat has, until a later step asks for others"""
-        if "NSET" in parameters and "U" in words:
-            self.printed[parameters["NSET"]] = self.geometry.nodes_of(where, parameters["NSET"])
+    def request(self, where, keyword, parameters, words):
+        """What the file .dat has of sets of nodes and elements, until a later step asks for something else"""
+        kind, find, known = ("NSET", self.geometry.nodes_of, ("U", "RF")) if keyword == "NODE PRINT" else (
+            "ELSET", self.geometry.cells_of, ("S", ))
+        for word in known:
+            if kind in parameters and word in words:
+                name = parameters[kind]
+                self.printed[name, word] = (find(where, name), parameters.get("TOTALS", "NO").upper())
 
     def amplitude(self, where, parameters):
         if "AMPLITUDE" not in parameters:

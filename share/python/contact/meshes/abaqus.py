@@ -71,7 +71,7 @@ class Part:
     def __init__(self):
         self.nodes, self.elements, self.nsets, self.elsets, self.surfaces = {}, {}, {}, {}, {}
         self.shells = {}  # element: (kind, nodes)
-        self.reduced = set()  # elements with reduced integration, C3D20R
+        self.reduced = set()  # elements with reduced integration, such as C3D20R
 
 
 def integers(where, data):
@@ -108,7 +108,7 @@ def read_elements(part, where, parameters, data):
     table = np.array(numbers, int).reshape(-1, n + 1)
     for row in table:
         (part.elements if dim == 3 else part.shells)[int(row[0])] = (kind, row[1:])
-    if word.startswith("C3D20R"):
+    if re.match(r"C3D(8|20|27)R", word):
         part.reduced.update(table[:, 0].tolist())
     if parameters.get("ELSET"):
         part.elsets.setdefault(parameters["ELSET"], []).extend(int(number) for number in table[:, 0])
