@@ -103,8 +103,8 @@ class Results:
         return found
 
     def reactions(self, values):
-        """Reactions at the nodes of the deck. That inside a side of 8 nodes is -1/4 on each corner and 1/2 on each other
-        node"""
+        """Reactions at the nodes of the deck. That inside a side of 8 nodes is -1/4 on each corner and 1/2 on each
+        other node"""
         found = np.where(self.vertex[:, None] >= 0, values[self.vertex], 0.0)
         inner = np.setdiff1d(np.flatnonzero(np.any(values, axis=1)), self.vertex)
         cells = [cell for cell in self.cells if self.geometry.elements[cell][0] == "hexahedron20"]
