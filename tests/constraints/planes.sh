@@ -14,6 +14,3 @@ sed 's/arc.amin, //; s/^pressures:/displacements:\n  - push: {face: arc.outer, v
 "$contact" off.yaml -quiet 2>&1 || echo "exit code $?"
 sed 's/, arc.amin//; s/\[arc.amin, /[/' one.yaml > loose.yaml
 "$contact" loose.yaml -quiet 2>&1 || echo "exit code $?"
-for scene in one quarter; do
-  "$contact" $scene.yaml -quiet -tables_view | grep '^inclined' | cut -c1-24 | sed 's/ *$//'
-done

@@ -8,9 +8,6 @@ for scene in punch turn twist roller rolled held plane; do
     -tao_ipfilter_tol 1e-11 || echo "$scene, three ranks: exit code $?"
 done
 "$PYTHON" "$AMGF_DIR/tests/constraints/rigid.py" judge
-for scene in punch twist; do
-  "$contact" $scene.yaml -quiet -tables_view | grep '^rigid bodies' | cut -c1-24 | sed 's/ *$//'
-done
 sed 's/, rotation.*$/, rotation: [0, 0, 10], center: [0, 0, 4]}\n  - side: {face: bar.xmin, value: [0, 0, 0]}/' \
   twist.yaml > both.yaml
 "$contact" both.yaml -quiet 2>&1 || echo "exit code $?"

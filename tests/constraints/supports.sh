@@ -31,7 +31,6 @@ sed 's/point: \[1, 0, 0\]/point: [0.9, 0.1, 0]/' pins.yaml > beside.yaml
 "$contact" beside.yaml -quiet 2>&1
 sed '/  - c: /d' pins.yaml > two.yaml
 "$contact" two.yaml -quiet 2>&1
-"$contact" pull.yaml -quiet -tables_view | grep -E '^(traction|springs|weak springs)' | cut -c1-24 | sed 's/ *$//'
 try() {
   sed "$1" pad.yaml > tried.yaml
   "$contact" tried.yaml -quiet 2>&1

@@ -18,9 +18,6 @@ for unit in e-15 e-11 e14; do
   done
 done
 "$PYTHON" "$AMGF_DIR/tests/constraints/ties.py" judge
-for scene in pull whole; do
-  "$contact" $scene.yaml -quiet -tables_view | grep '^ties' | cut -c1-24 | sed 's/ *$//'
-done
 # try NAME FROM TO: the sentence where a scene has something else
 try() {
   sed "s/$2/$3/" pull.yaml > other.yaml

@@ -16,7 +16,6 @@ for scene in bars bars_alpha bounce_damped; do
   run $scene.yaml $exact -checkpoint_every 15 -checkpoint $scene.h5 -output part_$scene
   run $scene.yaml $exact -restart $scene.h5 -output part_$scene
 done
-"$contact" bars.yaml -quiet -load_steps 2 -tables_view 2> err | grep '^inertia'
 "$PYTHON" "$AMGF_DIR/tests/dynamics/dynamics_bodies.py"
 # the force of a contact changes in an impact: no warning of a contact one facet wide
 cat > three.yaml <<'YAML'
