@@ -113,7 +113,16 @@ Up.top, 3, 3, -0.02
 *END STEP
 """
 
+# displacement 0.1 (x - 1/2) (z - 1/2) along x of the lower cube
+BENT = deck(
+    step("*BOUNDARY", "foot, 2, 3", "5, 2, 3", "6, 2, 3", "7, 2, 3", "8, 2, 3", "9, 1, 3", "10, 1, 3", "11, 1, 3",
+         "12, 1, 3",
+         *(f"{n}, 1, 1, {0.025 * sign}" for n, sign in enumerate((1, -1, -1, 1, -1, 1, 1, -1), 1))), pair="", hold="")
+
 DECKS = {
+    # strain zz = 0, xx = 0.1 (z - 1/2), xz = 0.05 (x - 1/2); with incompatible modes there is no shear
+    "bent": (BENT, {"energy": 0.625}),
+    "bent_incompatible": (BENT.replace("C3D8", "C3D8I"), {"energy": 0.625 * 2 / 3}),
     # each cube stores 10^2 / (2 E)
     "pressure": (deck(step(PRESS)), {"energy": 0.1, "reaction": 10}),
     # the force on one corner of the top, which stays level by equations

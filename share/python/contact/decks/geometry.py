@@ -12,7 +12,7 @@ class Geometry:
 
     def __init__(self, deck):
         self.points, self.elements = np.zeros((0, 3)), []
-        self.node_numbers, self.element_numbers, self.reduced = [], [], set()
+        self.node_numbers, self.element_numbers, self.formulations = [], [], []
         self.nsets, self.elsets, self.surfaces, self.nodes_at, self.elements_at = {}, {}, {}, {}, {}
         self.spellings = {}
         alone = [(name, name, None) for name in deck.parts if name] if not deck.instances else deck.instances
@@ -36,8 +36,7 @@ class Geometry:
         for number, (kind, nodes) in part.elements.items():
             place[number] = self.elements_at[prefix + str(number)] = len(self.elements)
             self.element_numbers.append(number)
-            if number in part.reduced:
-                self.reduced.add(place[number])
+            self.formulations.append(part.formulations[number])
             try:
                 self.elements.append((kind, [at[int(node)] for node in nodes]))
             except KeyError as missing:

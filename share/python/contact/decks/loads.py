@@ -59,12 +59,23 @@ def body_entries(deck, bodies, mesh_file, names, laws):
         keys["order"] = max(KINDS[kind].order if kind in KINDS else 1 for kind in kinds)
         if "hexahedron20" in kinds:
             keys["serendipity"] = "true"
-            if deck.geometry.reduced.issuperset(bodies.cells[body]):
-                keys["element"] = "reduced"
+        element = element_word(deck, bodies.cells[body], kinds, laws[bodies.materials[body]]["law"])
+        if element:
+            keys["element"] = element
         if body in velocity:
             keys["initial_velocity"] = velocity[body]
         found.append((name, keys))
     return found
+
+
+def element_word(deck, cells, kinds, law):
+    """The element that CalculiX has by this name; None: the program chooses"""
+    letters = {deck.geometry.formulations[cell] for cell in cells}
+    if letters == {""}:
+        return "full"
+    if letters == {"R"} and kinds == {"hexahedron20"}:
+        return "reduced"
+    return "incompatible" if letters == {"I"} and law in ("linear", "orthotropic", "j2") else None
 
 
 def initial_velocities(deck, bodies):

@@ -181,7 +181,8 @@ class Results:
         rows = ""
         for cell in cells:
             kind, nodes = self.geometry.elements[cell]
-            for k, value in enumerate(interpolate(kind, cell in self.geometry.reduced, stress[self.vertex[nodes]]), 1):
+            reduced = self.geometry.formulations[cell].startswith("R")
+            for k, value in enumerate(interpolate(kind, reduced, stress[self.vertex[nodes]]), 1):
                 rows += f"{self.elements[cell]:10d}{k:4d}" + printed(value)
         return rows
 

@@ -142,6 +142,8 @@ class Translator:
             self.notes.refuse(f"ELEMENT {word}", where, f"elements of type {word} are not supported, only solids")
         elif word.startswith("C3D6"):
             self.notes.approximate("ELEMENT", where, "each wedge is divided into three tetrahedra")
+        elif word == "C3D8R" or word == "C3D8I" and self.finite:
+            self.notes.approximate("ELEMENT", where, f"{word}: fully integrated, or as the key `element: auto` says")
 
     def read_material(self, where, parameters, _):
         self.material = materials.Material(parameters.get("NAME", ""), where)

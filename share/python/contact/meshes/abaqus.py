@@ -71,7 +71,7 @@ class Part:
     def __init__(self):
         self.nodes, self.elements, self.nsets, self.elsets, self.surfaces = {}, {}, {}, {}, {}
         self.shells = {}  # element: (kind, nodes)
-        self.reduced = set()  # elements with reduced integration, such as C3D20R
+        self.formulations = {}  # element: letters after the number of nodes, such as R in C3D20R
 
 
 def integers(where, data):
@@ -108,8 +108,7 @@ def read_elements(part, where, parameters, data):
     table = np.array(numbers, int).reshape(-1, n + 1)
     for row in table:
         (part.elements if dim == 3 else part.shells)[int(row[0])] = (kind, row[1:])
-    if re.match(r"C3D(8|20|27)R", word):
-        part.reduced.update(table[:, 0].tolist())
+    part.formulations.update(dict.fromkeys(table[:, 0].tolist(), re.sub(r"C3D\d*", "", word)))
     if parameters.get("ELSET"):
         part.elsets.setdefault(parameters["ELSET"], []).extend(int(number) for number in table[:, 0])
 
