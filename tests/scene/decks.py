@@ -92,9 +92,18 @@ PARTS = """*PART, NAME=Cube
 *ASSEMBLY, NAME=A
 *INSTANCE, NAME=Low, PART=Cube
 *END INSTANCE
-*INSTANCE, NAME=Up, PART=Cube
+*INSTANCE, NAME=Up,
+PART=Cube
 0., 0., 1.
 *END INSTANCE
+*NSET, NSET=foot, INSTANCE=Up, GENERATE
+5, 8
+*ELSET, ELSET=cell, INSTANCE=Low
+1
+*SURFACE, NAME=under
+cell, S2
+*SURFACE, NAME=over, TYPE=NODE
+Up.foot
 *END ASSEMBLY
 *MATERIAL, NAME=EL
 *ELASTIC
@@ -102,10 +111,10 @@ PARTS = """*PART, NAME=Cube
 *SURFACE INTERACTION, NAME=SI
 *SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD
 *CONTACT PAIR, INTERACTION=SI
-Up.over, Low.under
+over, under
 *BOUNDARY
 Low.foot, ENCASTRE
-Up.top, 1, 2
+foot, 1, 2
 *STEP
 *STATIC
 *BOUNDARY
@@ -215,6 +224,7 @@ DECKS = {
                           procedure="*DYNAMIC, DIRECT\n0.01, 0.5"), hold="", elastic=ELASTIC + "\n*DENSITY\n2.",
                      more="*INITIAL CONDITIONS, TYPE=VELOCITY\nNall, 3, 3."), {"momentum": 4 * 7}),
     "joined": (deck(push(-0.03), mesh=JOINED, pair=""), {"reaction": 10}),
+    # the assembly's sets `foot` and `under` are unlike those of the part
     "parts": (PARTS, {"reaction": 10}),
     "left_out": (deck(step(PRESS), step(procedure="*FREQUENCY\n10")), {"energy": 0.1}),
 }

@@ -16,15 +16,21 @@ class Geometry:
         self.nsets, self.elsets, self.surfaces, self.nodes_at, self.elements_at = {}, {}, {}, {}, {}
         self.spellings = {}
         alone = [(name, name, None) for name in deck.parts if name] if not deck.instances else deck.instances
-        for label, name, move in [("", "", None), *alone]:
+        self.labels = {"": [""]}  # {part in capitals: its instances}
+        for label, name, move in [*alone, ("", "", None)]:
             part = abaqus.named(deck.parts, name)
             if part is None:
                 raise MeshError(f"the instance \"{label}\" is of the part \"{name}\", which is not given")
-            if part.nodes:
-                self.add(part, label.upper(), move)
+            if label:
+                self.labels.setdefault(name.upper(), []).append(label)
+            if part.nodes or not label:
+                self.add(part, label.upper(), move, deck.sets.get(label.upper()) if deck.instances else part)
+        for where, name, sets in deck.node_surfaces:
+            self.nsets[name.upper()] = [node for one in sets for node in self.nodes_of(where, one)]
 
-    def add(self, part, label, move):
-        points = np.array(list(part.nodes.values()))
+    def add(self, part, label, move, outside):
+        """outside: a part with the sets that have no prefix"""
+        points = np.array(list(part.nodes.values()), float).reshape(-1, 3)
         first = len(self.points)
         at = {number: first + place for place, number in enumerate(part.nodes)}
         self.node_numbers += list(part.nodes)
@@ -41,19 +47,25 @@ class Geometry:
                 self.elements.append((kind, [at[int(node)] for node in nodes]))
             except KeyError as missing:
                 raise MeshError(f"the element {number} has the node {missing}, which is not given") from None
-        names = {prefix, ""} if label else {""}  # sets of an assembly have no prefix
-        for start in names:
-            for name, numbers in part.nsets.items():
-                nodes = [at[number] for number in numbers if number in at]
-                self.nsets.setdefault(start + name.upper(), []).extend(nodes)
-                self.spellings[start + name.upper()] = name
-            for name, numbers in part.elsets.items():
-                cells = [place[number] for number in numbers if number in place]
-                self.elsets.setdefault(start + name.upper(), []).extend(cells)
-            for name, sides in part.surfaces.items():
-                found = self.surfaces.setdefault(start + name.upper(), [])
-                for where, element, side in sides:
-                    found += [(cell, side_number(where, name, side)) for cell in self.cells_of(where, element, prefix)]
+        for start, sets in {"": outside, prefix: part}.items():
+            if sets:
+                self.add_sets(start, sets, at, place)
+                self.add_surfaces(start, sets.surfaces, prefix)
+
+    def add_surfaces(self, start, surfaces, prefix):
+        for name, sides in surfaces.items():
+            found = self.surfaces.setdefault(start + name.upper(), [])
+            for where, element, side in sides:
+                found += [(cell, side_number(where, name, side)) for cell in self.cells_of(where, element, prefix)]
+
+    def add_sets(self, start, sets, at, place):
+        """Adds sets of nodes and elements. start: begins their names"""
+        for name, numbers in sets.nsets.items():
+            self.nsets.setdefault(start + name.upper(), []).extend(at[number] for number in numbers if number in at)
+            self.spellings[start + name.upper()] = name
+        for name, numbers in sets.elsets.items():
+            cells = [place[number] for number in numbers if number in place]
+            self.elsets.setdefault(start + name.upper(), []).extend(cells)
 
     def cells_of(self, where, name, prefix=""):
         """Elements by the name of a set or a number"""

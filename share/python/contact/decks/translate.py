@@ -541,9 +541,10 @@ class Translator:
         for where, name, material, orientation, part in self.starting:
             if material.upper() not in self.materials:
                 raise MeshError(f"{where}: there is no material \"{material}\"")
-            cells = self.geometry.cells_of(where, name) if name.upper() in self.geometry.elsets else []
-            cells = [cell for cell in cells if cell not in self.removed]
-            sections.append((name, cells, (material.upper(), orientation.upper())))
+            for label in self.geometry.labels[part.upper()]:
+                cells = self.geometry.elsets.get((f"{label}." if label else "").upper() + name.upper(), [])
+                cells = [cell for cell in cells if cell not in self.removed]
+                sections.append((label or name, cells, (material.upper(), orientation.upper())))
         bodies = geometry.Bodies(self.geometry, sections)
         if set(bodies.left) - self.removed:
             raise MeshError(f"{self.path}: {len(bodies.left)} solid elements have no *SOLID SECTION")

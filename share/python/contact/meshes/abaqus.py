@@ -1,5 +1,6 @@
 """Input decks of Abaqus and CalculiX: nodes, solid elements, sets and surfaces. Parts and instances keep their
 names."""
+import copy
 import os
 import re
 
@@ -47,22 +48,29 @@ def lines(path, seen=()):
 
 
 def keyword_blocks(path):
-    """(where, keyword, parameters, data lines) of each keyword"""
-    block = None
+    """(where, keyword, parameters, data lines) of each keyword. A line with parameters may end in a comma and continue
+    in the next line; data have no ="""
+    block, goes_on = None, False
     for file, number, text in lines(path):
         if text.startswith("*"):
             if block:
                 yield block
-            words = [word.strip() for word in text[1:].rstrip(",").split(",")]
-            parameters = {}
-            for word in words[1:]:
-                key, _, value = word.partition("=")
-                parameters[key.strip().upper()] = value.strip().strip('"')
-            block = (f"{file}, line {number}", " ".join(words[0].upper().split()), parameters, [])
+            keyword, *words = text[1:].split(",")
+            block = (f"{file}, line {number}", " ".join(keyword.upper().split()), read_parameters(words), [])
+            goes_on = text.endswith(",")
+        elif goes_on and "=" in text:
+            block[2].update(read_parameters(text.split(",")))
+            goes_on = text.endswith(",")
         elif block:
             block[3].append(text)
+            goes_on = False
     if block:
         yield block
+
+
+def read_parameters(words):
+    pairs = [word.partition("=") for word in words if word.strip()]
+    return {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
 
 
 class Part:
@@ -155,6 +163,8 @@ class Deck:
     def __init__(self, path, blocks):
         """blocks: those of keyword_blocks()"""
         self.path, self.parts, self.instances = path, {"": Part()}, []
+        self.sets = {}  # {instance in capitals: a part with the sets of the assembly that belong to this instance}
+        self.node_surfaces = []  # surfaces of nodes of the assembly: (where, name, names of sets)
         part, instance = self.parts[""], None
         for where, keyword, parameters, data in blocks:
             if keyword == "PART":
@@ -176,19 +186,21 @@ class Deck:
             read_set(part.nsets, parameters.get("NSET", ""), where, parameters, data)
         elif keyword == "ELSET" and "INSTANCE" not in parameters:
             read_set(part.elsets, parameters.get("ELSET", ""), where, parameters, data)
+        elif keyword == "SURFACE" and self.instances and parameters.get("TYPE", "").upper() == "NODE":
+            sets = [text.split(",")[0].strip() for text in data]
+            self.node_surfaces.append((where, parameters.get("NAME", ""), sets))
         elif keyword == "SURFACE":
             read_surface(part, where, parameters, data)
         elif keyword in ("NSET", "ELSET"):
             self.read_instance_set(where, keyword, parameters, data)
 
     def read_instance_set(self, where, keyword, parameters, data):
-        """A set of an assembly belongs to the part of its instance, under a name of its own"""
-        name = next(
-            (part for instance, part, _ in self.instances if instance.upper() == parameters["INSTANCE"].upper()), None)
-        part = named(self.parts, name) if name is not None else None
-        if part is None:
+        """A set of an assembly"""
+        label = parameters["INSTANCE"].upper()
+        if label not in (instance.upper() for instance, _, _ in self.instances):
             raise MeshError(f"{where}: there is no instance \"{parameters['INSTANCE']}\"")
-        read_set(part.nsets if keyword == "NSET" else part.elsets, parameters.get(keyword, ""), where, parameters, data)
+        sets = self.sets.setdefault(label, Part())
+        read_set(sets.nsets if keyword == "NSET" else sets.elsets, parameters.get(keyword, ""), where, parameters, data)
 
 
 def motion(where, data):
@@ -290,7 +302,10 @@ def read(path):
         part = named(deck.parts, name)
         if part is None or not part.nodes:
             raise MeshError(f"the instance \"{instance}\" is of the part \"{name}\", which is not given")
-        left += add_whole(mesh, part, instance, move(np.array(list(part.nodes.values()))))
+        sets = deck.sets.get(instance.upper(), Part())
+        whole = copy.copy(part)  # with the sets of the assembly
+        whole.nsets, whole.elsets = {**part.nsets, **sets.nsets}, {**part.elsets, **sets.elsets}
+        left += add_whole(mesh, whole, instance, move(np.array(list(part.nodes.values()))))
     merge_facets(mesh)
     mesh.finish()
     return mesh, left
