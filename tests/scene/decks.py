@@ -74,6 +74,14 @@ JOINED = cubes() + """
 *ELASTIC
 500., 0.
 *SOLID SECTION, ELSET=Elow, MATERIAL=SOFT"""
+
+
+def rigid(*cards):
+    mesh = JOINED.replace("C3D8", "C3D8I").replace("500.", "1000.") + "\n*NODE\n17, 0.5, 0.5, 3.\n18, 0.5, 0.5, 3."
+    return deck(step(*cards), pair="", hold="*BOUNDARY\nfoot, 1, 3", mesh=mesh,
+                more="*RIGID BODY, NSET=top, REF NODE=17, ROT NODE=18")
+
+
 PARTS = """*PART, NAME=Cube
 *NODE
 """ + "\n".join(cubes().splitlines()[1:9]) + """
@@ -224,6 +232,9 @@ DECKS = {
                           procedure="*DYNAMIC, DIRECT\n0.01, 0.5"), hold="", elastic=ELASTIC + "\n*DENSITY\n2.",
                      more="*INITIAL CONDITIONS, TYPE=VELOCITY\nNall, 3, 3."), {"momentum": 4 * 7}),
     "joined": (deck(push(-0.03), mesh=JOINED, pair=""), {"reaction": 10}),
+    # a bar whose end is rigid, with the nodes 17 for displacements and 18 for rotations. It bends by M L / (E I)
+    "rigid_push": (rigid("*BOUNDARY\n17, 1, 2\n17, 3, 3, -0.02\n17, 4, 6"), {"reaction": 10}),
+    "rigid_moment": (rigid("*CLOAD\n18, 2, 0.1"), {"energy": 0.1**2 * 2 / 2 * 12 / 1000}),
     # the assembly's sets `foot` and `under` are unlike those of the part
     "parts": (PARTS, {"reaction": 10}),
     "left_out": (deck(step(PRESS), step(procedure="*FREQUENCY\n10")), {"energy": 0.1}),
@@ -232,6 +243,7 @@ DECKS = {
 REFUSED = {
     "keyword": deck(step(PRESS), more="*MPC\nPLANE, 1, 2, 3"),
     "terms": deck(step(PRESS), more="*EQUATION\n3\n1, 3, 1., 2, 3, -1., 3, 3, 2."),
+    "rigid": deck(step(PRESS), more="*RIGID BODY, NSET=two, REF NODE=1", mesh=MESH + "\n*NSET, NSET=two\n13, 14"),
     "shell": deck(step(PRESS), mesh=MESH + "\n*ELEMENT, TYPE=S4\n3, 1, 2, 3, 4"),
     "heat": deck(step(procedure="*HEAT TRANSFER")),
     "two": deck(step(PRESS), more="*COUPLING\n1, 3\n*MPC\nPLANE, 1, 2, 3"),

@@ -129,6 +129,7 @@ class Bodies:
                 self.number[cell] = body
         self.find_sides()
         self.faces, self.known = {}, {}
+        self.rigid = {}  # {name: sides}: rigid layers on these sides
 
     def unique(self, name):
         while name.upper() in (other.upper() for other in self.names):
@@ -253,9 +254,34 @@ class Bodies:
         for label, bodies in self.faces.values():
             for cell, side in (pair for pairs in bodies.values() for pair in pairs):
                 mesh.add_sides(label, place[cell][0], [place[cell][1]], side)
+        for name, sides in self.rigid.items():
+            self.add_rigid(mesh, name, sides)
         abaqus.merge_facets(mesh)
         mesh.finish()
         return mesh
+
+    def add_rigid(self, mesh, name, sides):
+        """A layer of cells of order 1 on the outside of facets: hexahedra on quadrilaterals, tetrahedra on triangles"""
+        facets = [self.corners(*side) for side in sides]
+        normals = [normal / np.linalg.norm(normal)**0.5 for normal in (self.normal(*side) for side in sides)]
+        nodes = sorted({node for facet in facets for node in facet})
+        at = {node: len(mesh.points) + k for k, node in enumerate(nodes)}
+        around = {node: [] for node in nodes}
+        for facet, normal in zip(facets, normals):
+            for node in facet:
+                around[node].append(normal)
+        inner, n = self.geometry.points[nodes], len(nodes)
+        apexes = [self.geometry.points[facet].mean(axis=0) + normal for facet, normal in zip(facets, normals)]
+        mesh.points = np.concatenate([mesh.points, inner, inner + [np.mean(around[node], axis=0) for node in nodes],
+                                      apexes])
+        for kind, count in (("hexahedron", 4), ("tetra", 3)):
+            rows = [[*(at[node] for node in facet),
+                     *([at[node] + n for node in facet] if count == 4 else [at[nodes[0]] + 2 * n + k])]
+                    for k, facet in enumerate(facets) if len(facet) == count]
+            if rows:
+                block = mesh.add_block(kind, rows)
+                mesh.add_volume(name, {block: np.arange(len(rows))})
+                mesh.add_sides(f"{name}_surface", block, np.arange(len(rows)), 0)
 
 
 def local_axes(kind, one, two, point):

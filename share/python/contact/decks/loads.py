@@ -27,6 +27,8 @@ def sections(deck, bodies, mesh_file):
     found["body_forces"] = gravity_entries(deck, bodies, laws)
     found["temperatures"] = temperature_entries(deck, laws)
     found["contact"], found["ties"] = contact, ties + joint_entries(bodies)
+    for key, entries in rigid_entries(deck, bodies, mesh_file).items():
+        found[key] += entries
     found["cyclic"] = cyclic_entries(deck, bodies)
     program(deck, found)
     return found
@@ -123,7 +125,7 @@ def grouped(deck, histories):
     """[(ramp, {component: value}, keys)]: components along axes with one ramp on the same nodes are together"""
     sets = {}
     for (node, axis), values in histories.values.items():
-        if isinstance(axis, tuple):
+        if isinstance(axis, tuple) or node in deck.rotations:
             continue
         value, ramp = deck.ramps.split(values, histories.starts.get((node, axis), 0.0))
         sets.setdefault((axis, value, ramp), set()).add(node)
@@ -328,6 +330,47 @@ def activity_keys(deck, bodies, key):
         return {}
     table = active * (1.0 - clearance / size)
     return {"interference": size, "ramp": deck.ramps.name([table[0], *table]) or "load"}
+
+
+def rigid_entries(deck, bodies, mesh_file):
+    """Rigid bodies on faces: layers of rigid cells, to which the faces are tied"""
+    found = {"bodies": [], "ties": [], "displacements": [], "forces": []}
+    for number, (where, nodes, reference) in enumerate(deck.rigid, 1):
+        name = f"rigid_{number}"
+        faces, points, loose = bodies.divide_nodes(name, nodes)
+        if points or set(loose) - {reference} or not faces or deck.steps[0].kind == "dynamic":
+            deck.notes.refuse("RIGID BODY", where, "only whole facets can be rigid, and only in static steps")
+            continue
+        found["bodies"].append((name, {"mesh": mesh_file, "volume": name, "material": "rigid"}))
+        bodies.rigid[name] = [side for body, face in faces for side in bodies.faces[face.upper()][1][body]]
+        for body, face in faces:
+            found["ties"].append((f"{name}_{face}", {
+                "mortar": f"{name}.{name}_surface", "nonmortar": f"{bodies.names[body]}.{face}"
+            }))
+        point = deck.geometry.points[reference]
+        for ramp, six in motions(deck, deck.displacements, reference, "free"):
+            keys = {"body": name, "value": six[:3], "center": point}
+            keys["rotation"] = [angle if angle == "free" else np.degrees(angle) for angle in six[3:]]
+            found["displacements"].append((f"{name}_{ramp or 'load'}", {**keys, **({"ramp": ramp} if ramp else {})}))
+        for ramp, six in motions(deck, deck.forces, reference, 0.0):
+            keys = {"body": name, "value": six[:3], "moment": six[3:], "point": point}
+            found["forces"].append((f"{name}_{ramp or 'load'}", {**keys, **({"ramp": ramp} if ramp else {})}))
+    return found
+
+
+def motions(deck, histories, reference, missing):
+    """[(ramp, six components)] of what is given for a rigid body, one for each ramp. missing: stands for components
+    that are not given at all"""
+    given, ramps = {}, {}
+    for axis in range(6):
+        if (reference, axis) in histories.values:
+            key = (reference, axis)
+            value, ramp = deck.ramps.split(histories.values[key], histories.starts.get(key, 0.0))
+            given[axis] = value
+            if value:
+                ramps.setdefault(ramp, set()).add(axis)
+    return [(ramp, [given[axis] if axis in axes else 0.0 if axis in given else missing for axis in range(6)])
+            for ramp, axes in (ramps or {None: set()}).items()]
 
 
 def joint_entries(bodies):

@@ -42,6 +42,7 @@ PARAMETERS = {
     "CONTACT PAIR": {"INTERACTION", "TYPE", "ADJUST",
                      "SMALL SLIDING"}, "TIE": {"NAME", "POSITION TOLERANCE", "CYCLIC SYMMETRY",
                                                "ADJUST"}, "CYCLIC SYMMETRY MODEL": {"N", "NGRAPH", "TIE", "ELSET"},
+    "RIGID BODY": {"NSET", "TIE NSET", "ELSET", "REF NODE", "ROT NODE"},
     "EQUATION": set(), "CLEARANCE": {"MASTER", "SLAVE", "VALUE"}, "TRANSFORM": {"NSET", "TYPE"},
     "AMPLITUDE": {"NAME", "TIME", "DEFINITION"}, "ORIENTATION": {"NAME", "SYSTEM"}, "INITIAL CONDITIONS": {"TYPE"},
     "MODEL CHANGE": {"TYPE", "ADD", "REMOVE"}, "CHANGE FRICTION": {"INTERACTION"}
@@ -76,6 +77,7 @@ class Translator:
         self.interactions, self.pairs, self.ties, self.cyclic = {}, [], {}, []
         self.initial, self.velocities, self.transformed, self.temperature_steps = [], [], {}, []
         self.equations, self.removed, self.clearances = [], set(), {}
+        self.rigid, self.rotations = [], {}  # [(where, nodes, reference node)], {node of rotations: reference node}
         self.displacements, self.forces, self.pressures, self.bodies_loads = (Histories() for _ in range(4))
         self.active, self.steps, self.prints, self.printed = {}, [], {}, {}
         self.strains = False  # whether the file .frd has strains
@@ -290,6 +292,25 @@ class Translator:
             else:
                 self.equations.append((where, terms))
 
+    def read_rigid_body(self, where, parameters, _):
+        """Nodes that move as a rigid body with a reference node"""
+        nodes = [node for key in ("NSET", "TIE NSET") if key in parameters
+                 for node in self.geometry.nodes_of(where, parameters[key])]
+        for cell in self.geometry.cells_of(where, parameters["ELSET"]) if "ELSET" in parameters else ():
+            nodes += self.geometry.elements[cell][1]
+        reference = self.geometry.nodes_of(where, parameters.get("REF NODE", ""))[0]
+        self.rigid.append((where, nodes, reference))
+        self.rotations[reference] = reference
+        if "ROT NODE" in parameters:
+            self.rotations[self.geometry.nodes_of(where, parameters["ROT NODE"])[0]] = reference
+
+    def rigid_component(self, node, dof):
+        """(reference node, 0 to 5) of a displacement or a rotation of a rigid body; None: of none"""
+        reference = self.rotations.get(node)
+        if reference is None or dof > 6:
+            return None
+        return reference, dof - 1 if reference == node else dof + 2
+
     def axis(self, node, dof):
         """Direction of a displacement component of a node"""
         return self.transformed.get(node, np.eye(3))[dof]
@@ -448,15 +469,16 @@ class Translator:
                 except (ValueError, IndexError):
                     raise MeshError(f"{where}: \"{text}\" is not a node, components and a value") from None
                 dofs = range(first, last + 1)
-            for dof in dofs:
-                if dof > 3:
-                    if dof == 11:
-                        self.notes.refuse("BOUNDARY", where, "temperatures are not unknowns here")
+            for dof, node in ((dof, node) for dof in dofs for node in nodes):
+                key, sign = self.rigid_component(node, dof), 1.0
+                if dof == 11:
+                    self.notes.refuse("BOUNDARY", where, "temperatures are not unknowns here")
+                if key is None and dof > 3:
                     continue  # rotations: solid elements have none
-                for node in nodes:
+                if key is None:
                     key, sign = self.component(node, dof - 1)
-                    self.displacements.give(key, sign * value, amplitude, where)
-                    given.add(key)
+                self.displacements.give(key, sign * value, amplitude, where)
+                given.add(key)
         return given
 
     def load_nodes(self, where, parameters, data, given):
@@ -468,13 +490,17 @@ class Translator:
                 dof, value = int(words[1]), float(words[2])
             except (ValueError, IndexError):
                 raise MeshError(f"{where}: \"{text}\" is not a node, a component and a force") from None
-            if dof > 3:
-                self.notes.refuse("CLOAD", where, "moments on nodes are not supported")
-                continue
             for node in self.geometry.nodes_of(where, words[0]):
-                for axis, factor in enumerate(self.axis(node, dof - 1)):
-                    if factor:
-                        self.add_load(self.forces, (node, axis), value * factor, amplitude, where, given)
+                key = self.rigid_component(node, dof)
+                if key:
+                    self.add_load(self.forces, key, value, amplitude, where, given)
+                elif dof > 3:
+                    self.notes.refuse("CLOAD", where, "moments are supported on the nodes of *RIGID BODY only")
+                    break
+                else:
+                    for axis, factor in enumerate(self.axis(node, dof - 1)):
+                        if factor:
+                            self.add_load(self.forces, (node, axis), value * factor, amplitude, where, given)
 
     def add_load(self, histories, key, value, amplitude, where, given):
         """Loads that are given twice in one step are added. given: keys of the step"""
