@@ -37,7 +37,7 @@ blocks node 'material: linear' 'gap: node, contact_stiffness: 100' 'refine: 0'
 run node node.yaml
 blocks friction 'material: neohookean' 'friction: 0.3' ''
 run friction friction.yaml -output friction
-blocks stick 'material: linear, order: 2' 'stick: true' ''
+blocks stick 'material: linear, order: 2' 'stick: true, contact_exponential: [0.02, 0.01]' ''
 run stick stick.yaml
 blocks plastic 'material: j2, yield: 0.02, hardening: 0.1, element: bbar' 'friction: 0.2, shear_limit: 0.01' ''
 run plastic plastic.yaml

@@ -167,10 +167,17 @@ DECKS = {
         "reaction": 10,
         "energy": 0.1
     }),
+    "tabular": (deck(push(-0.02),
+                     law="*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR\n0., 0.\n1.E7, 1."), {"reaction": 10}),
     "push": (deck(push(-0.01), push(-0.02)), {"reactions": [5, 10]}),
     "increments": (deck(push(-0.02, procedure="*STATIC, DIRECT\n0.25, 1.")), {"reactions": [2.5, 5, 7.5, 10]}),
     "amplitude": (deck(step("*BOUNDARY, AMPLITUDE=A\ntop, 3, 3, -0.02", procedure="*STATIC, DIRECT\n0.5, 1."),
                        more=AMPLITUDE), {"reactions": [10, 2.5]}),
+    "total_time": (deck(step("*BOUNDARY, AMPLITUDE=A\ntop, 3, 3, -0.02"), step(),
+                        more="*AMPLITUDE, NAME=A, TIME=TOTAL TIME\n0., 0., 1., 0.25,\n2., 1."), {
+                            "reactions": [2.5, 10]
+                        }),
+    "include": ("*include, input = pressure.inp\n", {"energy": 0.1}),
     "new": (deck(step(PRESS), step("*DLOAD, OP=NEW", "*CLOAD\ntop, 3, -1.")), {"reactions": [10, 4]}),
     # as PrePoMax writes steps: everything anew, in cards without data before the cards
     "prepomax": (deck(
@@ -186,6 +193,8 @@ DECKS = {
     "adjust": (deck(push(-0.02), mesh=shifted(1.005), pair=PAIR.replace("\n", ", ADJUST=0.01\n")), {"reaction": 10}),
     "adjust_inside": (deck(push(-0.02), mesh=shifted(0.995), pair=PAIR.replace("\n",
                                                                                ", ADJUST=0.\n")), {"reaction": 10}),
+    "adjust_set": (deck(push(-0.02), mesh=shifted(1.005) + "\n*NSET, NSET=near\n9, 10, 11, 12",
+                        pair=PAIR.replace("\n", ", ADJUST=near\n")), {"reaction": 10}),
     # a gap of 0.005 is closed first; the cubes then have the heights 1 and 0.995
     "too_far": (deck(push(-0.02), mesh=shifted(1.005),
                      pair=PAIR.replace("\n", ", ADJUST=0.001\n")), {"reaction": 15 / 1.995}),
@@ -228,6 +237,17 @@ DECKS = {
     # shear modulus 400, bulk modulus 1000
     "rubber": (deck(push(-1e-5), elastic="*HYPERELASTIC, NEO HOOKE\n200., 0.002",
                     hold="*BOUNDARY\nfoot, 3\n1, 1, 2\n2, 2\n9, 1, 2\n10, 2"), {"reaction": 9e5 * 4 / 3400 * 5e-6}),
+    # the same moduli at small strain
+    "mooney": (deck(push(-1e-5), elastic="*HYPERELASTIC, MOONEY-RIVLIN\n150., 50., 0.002",
+                    hold="*BOUNDARY\nfoot, 3\n1, 1, 2\n2, 2\n9, 1, 2\n10, 2"), {"as": "rubber"}),
+    "explicit": (deck(step("*DLOAD\nEall, GRAV, 8., 0., 0., 1.",
+                           procedure="*DYNAMIC, EXPLICIT\n0.01, 0.5"), hold="", elastic=ELASTIC + "\n*DENSITY\n2.",
+                      more="*INITIAL CONDITIONS, TYPE=VELOCITY\nNall, 3, 3."), {"momentum": 4 * 7}),
+    # a quarter of a bar, held by nothing else in its plane but at one corner
+    "cyclic": (deck(step(PRESS), pair="", hold="*BOUNDARY\nfoot, 3\n2, 2", elastic="*ELASTIC\n1000., 0.3",
+                    mesh=JOINED.replace("500., 0.", "1000., 0.3") + "\n*SURFACE, NAME=front\n1, S3\n2, S3\n"
+                    "*SURFACE, NAME=left\n1, S6\n2, S6\n*TIE, NAME=C, CYCLIC SYMMETRY\nleft, front\n"
+                    "*CYCLIC SYMMETRY MODEL, N=4, TIE=C\n0., 0., 0., 0., 0., 1."), {"energy": 0.1, "reaction": 10}),
     "dynamic": (deck(step("*DLOAD\nEall, GRAV, 8., 0., 0., 1.",
                           procedure="*DYNAMIC, DIRECT\n0.01, 0.5"), hold="", elastic=ELASTIC + "\n*DENSITY\n2.",
                      more="*INITIAL CONDITIONS, TYPE=VELOCITY\nNall, 3, 3."), {"momentum": 4 * 7}),
@@ -295,7 +315,7 @@ def judge():
 def write():
     """Writes all decks, and the translations of those that run. Prints why the others are refused"""
     sys.path.insert(0, os.path.join(os.environ["AMGF_DIR"], "share", "python"))
-    from contact.decks.translate import translate
+    from contact.decks.translate import PARAMETERS, translate
     from contact.meshes.model import MeshError
 
     for name, text in {**{key: value[0] for key, value in DECKS.items()}, **REFUSED}.items():
@@ -305,6 +325,9 @@ def write():
             translate(name + ".inp", name + "_deck.yaml", ["FREQUENCY"] if name == "left_out" else [])
         except MeshError as error:
             print(error)
+    given = "".join(text for text, _ in DECKS.values()).upper()
+    say("each keyword is in a deck that runs", all(f"*{word}" in given for word in PARAMETERS),
+        [word for word in PARAMETERS if f"*{word}" not in given])
 
 
 if __name__ == "__main__":
