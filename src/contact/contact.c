@@ -13,8 +13,6 @@
    coincident edges of the two faces cross, and contact updates would not converge there. */
 #define RULE_DEGREE_SMOOTH 6
 
-static const char *const ContactNormalsTypes[] = {"nodal", "facet", "ContactNormals", "CONTACT_NORMALS_", NULL};
-
 /* Returns the name of a pair for messages: the nonmortar face if the pair has no name */
 static const char *ContactPairName(const SceneContactPair *pair)
 {
@@ -191,8 +189,6 @@ PetscErrorCode ContactCreate(DM dm, PetscInt npairs, const SceneContactPair pair
                                        setting of the pairs
 . -contact_smooth <true,false>       - whether the gap of every pair is measured between smooth surfaces through the
                                        facets; overrides the setting of the pairs
-. -contact_normals <nodal,facet>     - direction of mortar gaps: the averaged normals of the vertices, or the normals
-                                       of the facets
 . -contact_quadrature <5>            - degree, 1 to 8, of the quadrature rule on the triangles of an overlap, for the
                                        mortar integrals. Without the option it is 5, and 6 between smooth surfaces
 - -contact_search_depth <length>     - largest penetration at which facets count as facing each other. 0: the mean
@@ -216,8 +212,6 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
     (PetscEnum)gap, (PetscEnum *)&gap, &set_gap));
   PetscCall(PetscOptionsBool("-contact_smooth", "Measure the gap of every pair between smooth surfaces",
     "ContactSetFromOptions", smooth, &smooth, &set_smooth));
-  PetscCall(PetscOptionsEnum("-contact_normals", "Direction along which mortar gaps are measured",
-    "ContactSetFromOptions", ContactNormalsTypes, (PetscEnum)contact->normals, (PetscEnum *)&contact->normals, NULL));
   PetscCall(PetscOptionsInt("-contact_quadrature",
     "Polynomial degree for which mortar integrals are exact on each triangle of an overlap", "ContactSetFromOptions",
     degree, &degree, &set_degree));
@@ -229,9 +223,6 @@ PetscErrorCode ContactSetFromOptions(Contact contact)
     "-contact_quadrature must be in 1 to %d, but is %" PetscInt_FMT, CONTACT_RULE_DEGREE, degree);
   PetscCheck(contact->depth >= 0.0, contact->comm, PETSC_ERR_ARG_OUTOFRANGE,
     "-contact_search_depth must not be negative, but is %g", (double)contact->depth);
-  PetscCheck(!contact->frictional || contact->normals == CONTACT_NORMALS_NODAL, contact->comm, PETSC_ERR_SUP,
-    "-contact_normals facet is not available for pairs with friction, whose slip is perpendicular to the averaged "
-    "normal of a vertex: remove the option");
   for (PetscInt p = 0; p < contact->npairs; ++p) {
     PetscCheck(!set_gap || gap != GAP_NODE || !contact->pairs[p].mortar.self, contact->comm, PETSC_ERR_SUP,
       "-contact_gap node is between two faces, but contact pair \"%s\" is the face %s in contact with itself",

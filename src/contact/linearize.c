@@ -69,9 +69,7 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
   that a mortar face covers. The point x1 is on the nonmortar facet, and x2 is on the mortar facet along the nonmortar
   facet's normal. n_A is the outward area-weighted mean of the normals of the facets around A, and m_A = int phi_A over
   the whole undeformed nonmortar face. The gap is positive where the faces are open. The row J_A = 1/m_A int phi_A (N2 -
-  N1) n_A is the derivative for fixed overlap and fixed normals. The option -contact_normals facet replaces n_A by the
-  facet's normal. Averaged normals vary smoothly while the faces slide. The facets' normals transmit a uniform pressure
-  exactly over curved faces with matching meshes.
+  N1) n_A is the derivative for fixed overlap and fixed normals. Averaged normals vary smoothly while the faces slide.
 
   Pairs with gap `GAP_NODE` have the gap g_A = (y - x_A).n_A, where y is the closest point, also on edges and at
   vertices, of the mortar facets that face the vertex. J_A = (N2(y) - 1_A) n_A is the derivative for a fixed position of
@@ -89,7 +87,7 @@ PetscErrorCode ContactDeform(Contact contact, Vec u)
   faces around them. J distributes forces so that a uniform pressure is the same load as on the quadratic face.
 
   Where the faces touch, J is the derivative of the gap except for the differences between the normals of neighbouring
-  facets. It is exact on planes, and with -contact_normals facet on curved faces too.
+  facets. It is exact on planes.
 
   For a smooth pair with a curved face (`SceneContactPair`), x1 and x2 are points of smooth surfaces. These are patches
   through the deformed vertices whose edges follow the mean normals of the facets around the vertices. Where a face ends

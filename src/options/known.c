@@ -23,7 +23,6 @@ static const struct {
   {"contact_free", OPTION_SWITCH, {NULL}},
   {"contact_gap", OPTION_WORD, {"auto", "mortar", "node", "dual", NULL}},
   {"contact_gap_tol", OPTION_NUMBER, {NULL}},
-  {"contact_normals", OPTION_WORD, {"nodal", "facet", NULL}},
   {"contact_quadrature", OPTION_COUNT, {NULL}},
   {"contact_search_depth", OPTION_NUMBER, {NULL}},
   {"contact_smooth", OPTION_SWITCH, {NULL}},

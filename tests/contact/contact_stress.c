@@ -330,27 +330,19 @@ static PetscErrorCode TestKnownFailure(void)
   PetscFunctionReturn(0);
 }
 
-/* A curved interface under pressure from all sides: exact along the facets' normals; along nodal ones as good as the
-   facets are small */
-static PetscErrorCode TestCurved(const char normals[], PetscReal E2)
+/* A curved interface under pressure from all sides: along the averaged normals as good as the facets are small */
+static PetscErrorCode TestCurved(void)
 {
-  Patch     patch = {.p = 0.01, .young = {1, E2}, .poisson = {0.3, 0.499}, .hydrostatic = PETSC_TRUE, .amplitude = 0.1};
-  PetscReal stress[3], pressure[3], worst = 0.0;
+  Patch     patch = {.p = 0.01, .young = {1, 1}, .poisson = {0.3, 0.499}, .hydrostatic = PETSC_TRUE, .amplitude = 0.1};
+  PetscReal stress[3], pressure[3];
 
   PetscFunctionBeginUser;
   SetRotation(0.0, 0.0, &patch);
-  PetscCall(PetscOptionsSetValue(NULL, "-contact_normals", normals));
-  for (PetscInt refine = 0; refine < 3; ++refine) {
+  for (PetscInt refine = 0; refine < 3; ++refine)
     PetscCall(Solve(&patch, &mortar, matching, refine, &stress[refine], &pressure[refine]));
-    worst = PetscMax(worst, PetscMax(stress[refine], pressure[refine]) / PetscMax(1.0, E2));
-  }
-  PetscCall(PetscOptionsClearValue(NULL, "-contact_normals"));
   PetscCall(PetscPrintf(PETSC_COMM_WORLD,
-    "curved matching interface, E2/E1 %g, %s normals, error of the stress by the pressure: ", (double)E2, normals));
-  if (worst < 1e-11) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "none\n"));
-  else
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%.2g, %.2g, %.2g on three meshes\n", (double)stress[0], (double)stress[1],
-      (double)stress[2]));
+    "curved matching interface, error of the stress by the pressure: %.2g, %.2g, %.2g on three meshes\n",
+    (double)stress[0], (double)stress[1], (double)stress[2]));
   PetscFunctionReturn(0);
 }
 
@@ -362,9 +354,7 @@ int main(int argc, char **argv)
   PetscCall(TestUniform(0.7, 1.1, &mortar, different, "mortar, the same rotated"));
   PetscCall(TestUniform(0.7, 1.1, &node, matching, "node to segment, matching meshes, rotated"));
   PetscCall(TestKnownFailure());
-  PetscCall(TestCurved("facet", 1.0));
-  PetscCall(TestCurved("facet", 1e6));
-  PetscCall(TestCurved("nodal", 1.0));
+  PetscCall(TestCurved());
   PetscCall(PetscFinalize());
   return 0;
 }

@@ -447,12 +447,6 @@ int main(int argc, char **argv)
       output_file: output/contact_surfaces_mortar.out
 
    test:
-      suffix: facet
-      nsize: {{1 3}}
-      args: -contact_gap mortar -contact_normals facet
-      output_file: output/contact_surfaces_facet.out
-
-   test:
       suffix: node
       nsize: {{1 2 3}}
       args: -contact_gap node

@@ -39,4 +39,3 @@ refuse 's/friction: 0.3/stick: true, friction_ramp: across/'
 refuse 's/friction: 0.3/friction: 0.3, friction_ramp: across/'
 refuse 's/^load/displacement_bounds: 3\nload/'
 refuse '' -tao_type almm
-refuse '' -contact_normals facet

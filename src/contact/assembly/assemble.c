@@ -7,22 +7,21 @@
 /* The corresponding fraction for a row of a smooth pair, whose entries are sums of more terms. */
 #define SLOPE_DROP 1e-12
 
-static void AssemblyStart(Contact contact, ContactParts parts, ContactAssembly *as)
+static void AssemblyStart(ContactParts parts, ContactAssembly *as)
 {
-  as->parts       = parts;
-  as->dim         = contact->normals == CONTACT_NORMALS_NODAL ? 1 : 3;
+  as->parts          = parts;
+  as->coupling.width = 1;
   as->rigid.width = as->by_cover.width = 3;
-  for (PetscInt c = 0; c < as->dim; ++c) as->coupling[c].width = 1;
 }
 
 PetscErrorCode ContactAssemblyCreate(Contact contact, ContactParts parts, ContactAssembly *as)
 {
   PetscFunctionBegin;
   PetscCall(PetscMemzero(as, sizeof(*as)));
-  AssemblyStart(contact, parts, as);
+  AssemblyStart(parts, as);
   if (contact->self) {
     PetscCall(PetscNew(&as->mortar));
-    AssemblyStart(contact, parts, as->mortar);
+    AssemblyStart(parts, as->mortar);
   }
   PetscCall(VecDuplicate(contact->rows.mass, &as->gap));
   PetscCall(VecZeroEntries(as->gap));
@@ -30,23 +29,6 @@ PetscErrorCode ContactAssemblyCreate(Contact contact, ContactParts parts, Contac
   PetscCall(VecZeroEntries(as->cover));
   PetscCall(VecDuplicate(as->gap, &as->doubt));
   PetscCall(VecZeroEntries(as->doubt));
-  PetscFunctionReturn(0);
-}
-
-/* Adds the couplings `value` [length^2] of a row with n vertices. If couplings are vectors, they are multiplied by the
-   normal. */
-PetscErrorCode ContactAssemblyAdd(ContactAssembly *as, PetscInt row, PetscInt n, const PetscInt node[],
-  const PetscReal value[], const PetscReal normal[3])
-{
-  PetscReal along[4];
-
-  PetscFunctionBegin;
-  PetscCheck(n <= 4, PETSC_COMM_SELF, PETSC_ERR_PLIB, "A facet has at most 4 vertices, not %" PetscInt_FMT, n);
-  if (as->dim == 1) PetscCall(ContactEntriesAdd(&as->coupling[0], row, n, node, value));
-  for (PetscInt c = 0; c < as->dim && as->dim > 1; ++c) {
-    for (PetscInt b = 0; b < n; ++b) along[b] = value[b] * normal[c];
-    PetscCall(ContactEntriesAdd(&as->coupling[c], row, n, node, along));
-  }
   PetscFunctionReturn(0);
 }
 
@@ -70,27 +52,12 @@ PetscErrorCode ContactAssemblyDestroy(ContactAssembly *as)
   PetscCall(PetscFree(as->mortar));
   PetscCall(ContactEntriesDestroy(&as->rigid));
   PetscCall(ContactEntriesDestroy(&as->by_cover));
-  for (PetscInt c = 0; c < as->dim; ++c) PetscCall(ContactEntriesDestroy(&as->coupling[c]));
+  PetscCall(ContactEntriesDestroy(&as->coupling));
   PetscCall(VecDestroy(&as->cover));
   PetscCall(VecDestroy(&as->doubt));
   PetscCall(VecDestroy(&as->gap));
   PetscFunctionReturn(0);
 }
-
-/* Couplings of all rows with vertices [length^2], summed over facets and ranks: one matrix, or three matrices of equal
-   pattern, one for each component */
-typedef struct {
-  PetscInt dim;
-  Mat      mat[3];
-} Coupling;
-
-/* One row of the couplings. Component c of the derivative with respect to node[k] is factor[c] value[c][k]. */
-typedef struct {
-  PetscInt           n;
-  const PetscInt    *node;
-  const PetscScalar *value[3];
-  PetscReal          factor[3];
-} CouplingRow;
 
 /* Counts the unknowns of this rank */
 static PetscErrorCode AssemblyCountUnknowns(Contact contact, PetscInt *n)
@@ -105,52 +72,20 @@ static PetscErrorCode AssemblyCountUnknowns(Contact contact, PetscInt *n)
 }
 
 /* Collective. Sums the assembly's couplings over facets and ranks, and distributes the rows of hanging vertices */
-static PetscErrorCode CouplingCreate(Contact contact, ContactAssembly *as, Coupling *coupling)
+static PetscErrorCode CouplingCreate(Contact contact, ContactAssembly *as, Mat *coupling)
 {
   PetscInt n;
 
   PetscFunctionBegin;
   PetscCall(AssemblyCountUnknowns(contact, &n));
-  coupling->dim = as->dim;
-  for (PetscInt c = 0; c < as->dim; ++c) {
-    PetscCall(
-      ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, n / 3, &as->coupling[c], &coupling->mat[c]));
-    PetscCall(ContactHangingRowsMatrix(contact, &coupling->mat[c]));
-  }
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode CouplingDestroy(Coupling *coupling)
-{
-  PetscFunctionBegin;
-  for (PetscInt c = 0; c < coupling->dim; ++c) PetscCall(MatDestroy(&coupling->mat[c]));
-  PetscFunctionReturn(0);
-}
-
-/* Gets a row of the couplings. All components share value[0] if couplings are scalars. The factor then contains the
-   row's normal. The row is divided by the mass. */
-static PetscErrorCode CouplingGetRow(const Coupling *coupling, PetscInt row, const PetscReal normal[3], PetscReal mass,
-  CouplingRow *r)
-{
-  PetscFunctionBegin;
-  for (PetscInt c = 0; c < coupling->dim; ++c)
-    PetscCall(MatGetRow(coupling->mat[c], row, &r->n, &r->node, &r->value[c]));
-  for (PetscInt c = coupling->dim; c < 3; ++c) r->value[c] = r->value[0];
-  for (PetscInt c = 0; c < 3; ++c) r->factor[c] = (coupling->dim == 1 ? normal[c] : 1.0) / mass;
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode CouplingRestoreRow(const Coupling *coupling, PetscInt row, CouplingRow *r)
-{
-  PetscFunctionBegin;
-  for (PetscInt c = 0; c < coupling->dim; ++c)
-    PetscCall(MatRestoreRow(coupling->mat[c], row, &r->n, &r->node, &r->value[c]));
+  PetscCall(ContactEntriesCreateMatrix(contact->comm, contact->rows.nlocal, n / 3, &as->coupling, coupling));
+  PetscCall(ContactHangingRowsMatrix(contact, coupling));
   PetscFunctionReturn(0);
 }
 
 /* Lists in `kept` the local numbers of the rows that remain: their 1-norm, after division by the mass, is at least
    CONTACT_ROW_DROP times the largest 1-norm on all ranks */
-static PetscErrorCode CouplingKeepRows(Contact contact, const Coupling *coupling, PetscInt *nkept, PetscInt kept[])
+static PetscErrorCode CouplingKeepRows(Contact contact, Mat coupling, PetscInt *nkept, PetscInt kept[])
 {
   const ContactRows *rows = &contact->rows;
   const PetscScalar *mass;
@@ -158,17 +93,20 @@ static PetscErrorCode CouplingKeepRows(Contact contact, const Coupling *coupling
   PetscReal         *norm, largest = 0.0;
 
   PetscFunctionBegin;
-  PetscCall(MatGetOwnershipRange(coupling->mat[0], &rstart, NULL));
+  PetscCall(MatGetOwnershipRange(coupling, &rstart, NULL));
   PetscCall(PetscCalloc1(rows->nlocal, &norm));
   PetscCall(VecGetArrayRead(rows->weight, &mass));
   for (PetscInt i = 0; i < rows->nlocal; ++i) {
-    CouplingRow r = {0};
+    const PetscScalar *value;
+    PetscInt           n;
 
-    PetscCall(CouplingGetRow(coupling, rstart + i, &rows->normal[3 * i], PetscRealPart(mass[i]), &r));
+    PetscCall(MatGetRow(coupling, rstart + i, &n, NULL, &value));
     for (PetscInt c = 0; c < 3; ++c) {
-      for (PetscInt k = 0; k < r.n; ++k) norm[i] += PetscAbsScalar(r.value[c][k] * r.factor[c]);
+      const PetscReal factor = rows->normal[3 * i + c] / PetscRealPart(mass[i]);
+
+      for (PetscInt k = 0; k < n; ++k) norm[i] += PetscAbsScalar(value[k] * factor);
     }
-    PetscCall(CouplingRestoreRow(coupling, rstart + i, &r));
+    PetscCall(MatRestoreRow(coupling, rstart + i, &n, NULL, &value));
     largest = PetscMax(largest, norm[i]);
   }
   PetscCall(VecRestoreArrayRead(rows->weight, &mass));
@@ -181,30 +119,28 @@ static PetscErrorCode CouplingKeepRows(Contact contact, const Coupling *coupling
   PetscFunctionReturn(0);
 }
 
-/* Computes the columns and entries of one row of J, without entries that are zero up to rounding */
-static PetscErrorCode CouplingExpandRow(const Coupling *coupling, PetscInt row, const PetscReal normal[3],
-  PetscReal mass, PetscInt *n, PetscInt column[], PetscScalar entry[])
+/* Computes the columns and entries of one row of J, the couplings times the normal over the mass, without entries that
+   are zero up to rounding */
+static PetscErrorCode CouplingExpandRow(Mat coupling, PetscInt row, const PetscReal normal[3], PetscReal mass,
+  PetscInt *n, PetscInt column[], PetscScalar entry[])
 {
-  PetscReal   largest = 0.0;
-  CouplingRow r       = {0};
+  const PetscReal    factor[3] = {normal[0] / mass, normal[1] / mass, normal[2] / mass};
+  PetscReal          largest   = 0.0;
+  PetscInt           nnodes;
+  const PetscInt    *node;
+  const PetscScalar *value;
 
   PetscFunctionBegin;
   *n = 0;
-  PetscCall(CouplingGetRow(coupling, row, normal, mass, &r));
-  for (PetscInt c = 0; c < 3; ++c) {
-    for (PetscInt k = 0; k < r.n; ++k) largest = PetscMax(largest, PetscAbsScalar(r.value[c][k] * r.factor[c]));
+  PetscCall(MatGetRow(coupling, row, &nnodes, &node, &value));
+  for (PetscInt i = 0; i < 3 * nnodes; ++i) largest = PetscMax(largest, PetscAbsScalar(value[i / 3] * factor[i % 3]));
+  for (PetscInt i = 0; i < 3 * nnodes; ++i) {
+    if (PetscAbsScalar(value[i / 3] * factor[i % 3]) <= ENTRY_DROP * largest) continue;
+    column[*n] = 3 * node[i / 3] + i % 3;
+    entry[*n]  = value[i / 3] * factor[i % 3];
+    ++*n;
   }
-  for (PetscInt k = 0; k < r.n; ++k) {
-    for (PetscInt c = 0; c < 3; ++c) {
-      const PetscScalar value = r.value[c][k] * r.factor[c];
-
-      if (PetscAbsScalar(value) <= ENTRY_DROP * largest) continue;
-      column[*n] = 3 * r.node[k] + c;
-      entry[*n]  = value;
-      ++*n;
-    }
-  }
-  PetscCall(CouplingRestoreRow(coupling, row, &r));
+  PetscCall(MatRestoreRow(coupling, row, &nnodes, &node, &value));
   PetscFunctionReturn(0);
 }
 
@@ -305,12 +241,12 @@ static PetscErrorCode SlopesGetRow(Mat slopes, PetscInt row, PetscReal mass, Pet
 }
 
 /* Computes the length of work arrays that hold the longest row of J */
-static PetscErrorCode CouplingRowSpace(const Coupling *coupling, Mat slopes, PetscInt *space)
+static PetscErrorCode CouplingRowSpace(Mat coupling, Mat slopes, PetscInt *space)
 {
   PetscInt longest = 0;
 
   PetscFunctionBegin;
-  PetscCall(CouplingLongestRow(coupling->mat[0], space));
+  PetscCall(CouplingLongestRow(coupling, space));
   if (slopes) PetscCall(CouplingLongestRow(slopes, &longest));
   *space = PetscMax(3 * *space, longest);
   PetscFunctionReturn(0);
@@ -318,7 +254,7 @@ static PetscErrorCode CouplingRowSpace(const Coupling *coupling, Mat slopes, Pet
 
 /* Collective. Assembles J for the rows that remain: first counts the entries of each row, then inserts them. slopes:
    derivatives of smooth pairs; NULL if there are none */
-static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *coupling, Mat slopes, PetscInt nkept,
+static PetscErrorCode CouplingCreateJacobian(Contact contact, Mat coupling, Mat slopes, PetscInt nkept,
   const PetscInt kept[], Mat *J)
 {
   const ContactRows *rows = &contact->rows;
@@ -327,8 +263,8 @@ static PetscErrorCode CouplingCreateJacobian(Contact contact, const Coupling *co
   PetscScalar       *entry;
 
   PetscFunctionBegin;
-  PetscCall(MatGetOwnershipRange(coupling->mat[0], &rstart, NULL));
-  PetscCall(MatGetOwnershipRangeColumn(coupling->mat[0], &cstart, &cend));
+  PetscCall(MatGetOwnershipRange(coupling, &rstart, NULL));
+  PetscCall(MatGetOwnershipRangeColumn(coupling, &cstart, &cend));
   nlocal = 3 * (cend - cstart);
   PetscCall(CouplingRowSpace(coupling, slopes, &space));
   PetscCall(PetscMalloc4(space, &column, space, &entry, nkept, &diagonal, nkept, &offdiagonal));
@@ -411,8 +347,8 @@ static PetscErrorCode ContactAssemblyFillRows(Contact contact, const ContactAsse
 }
 
 /* Collective. If there are smooth pairs, creates J and lin->cover */
-static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *as, const Coupling *coupling,
-  const PetscInt kept[], ContactLinearization lin)
+static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *as, Mat coupling, const PetscInt kept[],
+  ContactLinearization lin)
 {
   Mat rigid;
 
@@ -428,19 +364,18 @@ static PetscErrorCode LinearizationSetSmooth(Contact contact, ContactAssembly *a
 static PetscErrorCode LinearizationSetMortar(Contact contact, ContactAssembly *as, const PetscInt kept[],
   ContactLinearization lin)
 {
-  const PetscBool smooth   = (PetscBool)(contact->smooth && as->parts != CONTACT_GAPS);
-  Coupling        coupling = {0};
-  Mat             rigid    = NULL;
+  const PetscBool smooth = (PetscBool)(contact->smooth && as->parts != CONTACT_GAPS);
+  Mat             coupling, rigid = NULL;
 
   PetscFunctionBegin;
   PetscCall(CouplingCreate(contact, as->mortar, &coupling));
   if (smooth) PetscCall(SlopesCreateRigid(contact, as, as->mortar, &rigid));
-  PetscCall(CouplingCreateJacobian(contact, &coupling, rigid, lin->nlocal, kept, &lin->mortar));
-  if (smooth) PetscCall(CouplingCreateJacobian(contact, &coupling, NULL, lin->nlocal, kept, &lin->mortar_cover));
+  PetscCall(CouplingCreateJacobian(contact, coupling, rigid, lin->nlocal, kept, &lin->mortar));
+  if (smooth) PetscCall(CouplingCreateJacobian(contact, coupling, NULL, lin->nlocal, kept, &lin->mortar_cover));
   else PetscCall(MatDuplicate(lin->mortar, MAT_COPY_VALUES, &lin->mortar_cover));
-  if (contact->frictional) PetscCall(ContactSlipCreateMortar(contact, coupling.mat[0], kept, lin));
+  if (contact->frictional) PetscCall(ContactSlipCreateMortar(contact, coupling, kept, lin));
   PetscCall(MatDestroy(&rigid));
-  PetscCall(CouplingDestroy(&coupling));
+  PetscCall(MatDestroy(&coupling));
   PetscFunctionReturn(0);
 }
 
@@ -460,7 +395,7 @@ static PetscErrorCode LinearizationSetTrace(Contact contact, ContactLinearizatio
 /* Collective. Creates the linearization from the assembly */
 PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, ContactLinearization *lin)
 {
-  Coupling  coupling = {0};
+  Mat       coupling;
   PetscInt *kept;
 
   PetscFunctionBegin;
@@ -476,17 +411,17 @@ PetscErrorCode ContactAssemblyFinish(Contact contact, ContactAssembly *as, Conta
   PetscCall(CouplingCreate(contact, as, &coupling));
   PetscCall(PetscNew(lin));
   PetscCall(PetscMalloc1(contact->rows.nlocal, &kept));
-  PetscCall(CouplingKeepRows(contact, &coupling, &(*lin)->nlocal, kept));
+  PetscCall(CouplingKeepRows(contact, coupling, &(*lin)->nlocal, kept));
   if (contact->smooth && as->parts != CONTACT_GAPS)
-    PetscCall(LinearizationSetSmooth(contact, as, &coupling, kept, *lin));
-  else PetscCall(CouplingCreateJacobian(contact, &coupling, NULL, (*lin)->nlocal, kept, &(*lin)->J));
+    PetscCall(LinearizationSetSmooth(contact, as, coupling, kept, *lin));
+  else PetscCall(CouplingCreateJacobian(contact, coupling, NULL, (*lin)->nlocal, kept, &(*lin)->J));
   PetscCall(ContactAssemblyFillRows(contact, as, kept, *lin));
-  if (contact->frictional) PetscCall(ContactSlipCreate(contact, coupling.mat[0], kept, *lin));
+  if (contact->frictional) PetscCall(ContactSlipCreate(contact, coupling, kept, *lin));
   if (as->mortar) PetscCall(LinearizationSetMortar(contact, as, kept, *lin));
   if (contact->trace) PetscCall(LinearizationSetTrace(contact, *lin));
   PetscCall(ContactCyclicMerge(contact, *lin));
   (*lin)->gaps_only = (PetscBool)(as->parts == CONTACT_GAPS && contact->smooth);
   PetscCall(PetscFree(kept));
-  PetscCall(CouplingDestroy(&coupling));
+  PetscCall(MatDestroy(&coupling));
   PetscFunctionReturn(0);
 }

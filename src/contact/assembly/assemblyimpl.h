@@ -79,12 +79,6 @@ typedef struct {
   PetscBool  distributed; /* whether ContactPrescribedRowsDistribute() has changed `hanging` */
 } ContactRows;
 
-/* The direction along which a mortar gap is measured */
-typedef enum {
-  CONTACT_NORMALS_NODAL, /* the averaged normal of the row's vertex */
-  CONTACT_NORMALS_FACET  /* the normal of each nonmortar facet */
-} ContactNormals;
-
 #define CONTACT_OVERLAP_DROP 1e-8 /* Overlaps smaller than this fraction of the smaller facet's area are ignored. */
 #define CONTACT_ROW_DROP     1e-5 /* Rows whose 1-norm is less than this fraction of the largest row's are removed. */
 
@@ -100,7 +94,6 @@ struct _n_Contact {
   PetscBool        stretches;  /* whether the nonmortar body of any pair has a law of finite strain */
   ContactDualPairs dual;       /* set by ContactSetDual() */
   ContactRows      rows;
-  ContactNormals   normals;
   ContactCyclic    cyclic; /* cuts of sectors; NULL: none */
   PetscInt         ndisplacements;
   /* prescribed displacements of the bodies' faces; the caller owns them */
@@ -174,11 +167,9 @@ typedef struct _n_ContactAssembly {
   Vec          gap;   /* weighted gap of each row: int phi_A gap [length^3] */
   Vec          cover; /* int phi_A over the covered part, for smooth mortar pairs [length^2] */
   Vec          doubt; /* int phi_A times the uncertainty of the smooth surfaces [length^3] */
-  PetscInt     dim;   /* 1: a coupling is one value per vertex, which multiplies the row's normal; 3: a coupling is a
-                         vector per vertex */
-  /* [dim] couplings of rows with vertices: int phi_A (N2 - N1) [length^2]. Multiplied by the normal and divided by the
-     row's mass, a coupling is the derivative of the gap with respect to the vertex's displacement. */
-  ContactEntries coupling[3];
+  /* couplings of rows with vertices: int phi_A (N2 - N1) [length^2]. Multiplied by the normal and divided by the row's
+     mass, a coupling is the derivative of the gap with respect to the vertex's displacement. */
+  ContactEntries coupling;
   ContactEntries rigid,
     by_cover; /* derivatives of the weighted gaps of smooth pairs, as in ContactSlopes: three columns
                                      per vertex */
@@ -187,8 +178,6 @@ typedef struct _n_ContactAssembly {
   struct _n_ContactAssembly *mortar;
 } ContactAssembly;
 PETSC_INTERN PetscErrorCode ContactAssemblyCreate(Contact, ContactParts, ContactAssembly *);
-PETSC_INTERN PetscErrorCode ContactAssemblyAdd(ContactAssembly *, PetscInt row, PetscInt n, const PetscInt node[],
-  const PetscReal value[], const PetscReal normal[3]);
 PETSC_INTERN PetscErrorCode ContactAssemblyAddSlopes(ContactAssembly *, const PetscInt row[4], const PetscInt node[4],
   const ContactSlopes *);
 PETSC_INTERN PetscErrorCode ContactAssemblyDestroy(ContactAssembly *);

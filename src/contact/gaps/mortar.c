@@ -85,10 +85,9 @@ static PetscErrorCode MortarAddOverlap(const ContactRule *rule, const ContactOve
   for (PetscInt a = 0; a < 4; ++a) {
     facet->gap[a] += m.gap[a];
     for (PetscInt b = 0; b < 4; ++b) facet->D[a][b] -= m.D[a][b];
-    PetscCall(ContactAssemblyAdd(assembly, facet->row[a], 4, &mortar->node[4 * k], m.M[a], &facet->normal[3 * a]));
+    PetscCall(ContactEntriesAdd(&assembly->coupling, facet->row[a], 4, &mortar->node[4 * k], m.M[a]));
     if (facet->self)
-      PetscCall(
-        ContactAssemblyAdd(assembly->mortar, facet->row[a], 4, &mortar->node[4 * k], m.M[a], &facet->normal[3 * a]));
+      PetscCall(ContactEntriesAdd(&assembly->mortar->coupling, facet->row[a], 4, &mortar->node[4 * k], m.M[a]));
   }
   PetscFunctionReturn(0);
 }
@@ -168,13 +167,13 @@ static PetscBool MortarGetDual(const PetscReal reference[12], PetscReal covered,
   return PETSC_TRUE;
 }
 
-/* Integrates over all overlaps of nonmortar facet f. normal: unit normals at its vertices */
+/* Integrates over all overlaps of nonmortar facet f */
 static PetscErrorCode MortarAddFacet(const ContactRule *rule, const ContactPairData *pair, PetscInt f,
-  const PetscReal normal[12], const ContactCandidates *mortar, const MortarOverlaps *list, ContactAssembly *assembly)
+  const ContactCandidates *mortar, const MortarOverlaps *list, ContactAssembly *assembly)
 {
   const PetscBool smooth = pair->nonmortar.patched;
   MortarFacet     facet  = {.x = &pair->nonmortar.x[12 * f],
-         .normal               = normal,
+         .normal               = &pair->normal[12 * f],
          .row                  = &pair->row[4 * f],
          .node                 = &pair->nonmortar.node[4 * f],
          .self                 = pair->nonmortar.self};
@@ -194,7 +193,7 @@ static PetscErrorCode MortarAddFacet(const ContactRule *rule, const ContactPairD
     gap[a]   = facet.gap[a];
     cover[a] = facet.cover[a];
     doubt[a] = facet.doubt[a];
-    PetscCall(ContactAssemblyAdd(assembly, facet.row[a], 4, facet.node, facet.D[a], &normal[3 * a]));
+    PetscCall(ContactEntriesAdd(&assembly->coupling, facet.row[a], 4, facet.node, facet.D[a]));
   }
   if (smooth && assembly->parts != CONTACT_GAPS)
     PetscCall(ContactAssemblyAddSlopes(assembly, facet.row, facet.node, &facet.slopes));
@@ -269,14 +268,10 @@ static PetscErrorCode ContactAdd_Mortar(Contact contact, PetscInt p, const Conta
   }
   for (PetscInt f = 0; f < pair->nonmortar.nfacets; ++f) {
     const PetscInt first = near.offset[f], n = near.offset[f + 1] - first;
-    PetscReal      normal[12];
 
     if (!n || (meets && !meets[f])) continue;
-    PetscCall(PetscArraycpy(normal, &pair->normal[12 * f], 12));
-    for (PetscInt a = 0; contact->normals == CONTACT_NORMALS_FACET && a < 4; ++a)
-      (void)ContactFacetNormal(&pair->nonmortar.x[12 * f], &normal[3 * a]);
     PetscCall(OverlapsFind(&limits, rule, &pair->nonmortar, f, mortar, n, near.facet + first, &list));
-    PetscCall(MortarAddFacet(rule, pair, f, normal, mortar, &list, assembly));
+    PetscCall(MortarAddFacet(rule, pair, f, mortar, &list, assembly));
   }
   PetscCall(OverlapsDestroy(&list));
   PetscCall(PetscFree(meets));

@@ -179,13 +179,12 @@ static PetscErrorCode NodeAddVertex(Contact contact, PetscInt i, PetscInt row, P
   PetscFunctionBegin;
   ContactShape(nearest->xi, value);
   for (PetscInt b = 0; b < 4; ++b) value[b] *= mass;
-  PetscCall(
-    ContactAssemblyAdd(assembly, row, 4, &mortar->node[4 * nearest->facet], value, &contact->rows.normal[3 * i]));
+  PetscCall(ContactEntriesAdd(&assembly->coupling, row, 4, &mortar->node[4 * nearest->facet], value));
   PetscCall(DMGetGlobalSection(contact->dm, &global));
   PetscCall(PetscSectionGetOffset(global, contact->rows.vertex[i], &offset));
   offset /= 3;
   value[0] = -mass;
-  PetscCall(ContactAssemblyAdd(assembly, row, 1, &offset, value, &contact->rows.normal[3 * i]));
+  PetscCall(ContactEntriesAdd(&assembly->coupling, row, 1, &offset, value));
   if (mortar->patch && assembly->parts != CONTACT_GAPS)
     PetscCall(NodeAddSlopes(row, offset, mass, mortar, nearest->facet, gap, assembly));
   PetscCall(VecSetValue(assembly->gap, row, weighted, ADD_VALUES));

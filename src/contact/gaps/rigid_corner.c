@@ -188,9 +188,9 @@ PetscErrorCode ContactCornersAdd(ContactPairData *pair, ContactAssembly *assembl
     PetscReal                   value[4];
 
     for (PetscInt k = 0; k < 4; ++k) value[k] = corner->share * corner->weight[k];
-    PetscCall(ContactAssemblyAdd(assembly, corner->row, 4, pair->corner, value, corner->normal));
+    PetscCall(ContactEntriesAdd(&assembly->coupling, corner->row, 4, pair->corner, value));
     for (PetscInt k = 0; k < 2; ++k) value[k] = -corner->share * corner->phi[k];
-    PetscCall(ContactAssemblyAdd(assembly, corner->row, 2, corner->node, value, corner->normal));
+    PetscCall(ContactEntriesAdd(&assembly->coupling, corner->row, 2, corner->node, value));
     PetscCall(VecSetValue(assembly->gap, corner->row, corner->share * corner->gap, ADD_VALUES));
   }
   PetscFunctionReturn(0);

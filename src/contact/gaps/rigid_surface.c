@@ -172,10 +172,10 @@ static PetscErrorCode ContactAdd_RigidSurface(Contact contact, PetscInt p, PETSC
 
     if (distance > pair->distance || rows->at_corner[i]) continue;
     for (PetscInt k = 0; k < 4; ++k) weight[k] *= area;
-    PetscCall(ContactAssemblyAdd(assembly, row, 4, pair->corner, weight, &rows->normal[3 * i]));
+    PetscCall(ContactEntriesAdd(&assembly->coupling, row, 4, pair->corner, weight));
     PetscCall(PetscSectionGetOffset(global, rows->vertex[i], &offset));
     offset /= 3;
-    PetscCall(ContactAssemblyAdd(assembly, row, 1, &offset, &less, &rows->normal[3 * i]));
+    PetscCall(ContactEntriesAdd(&assembly->coupling, row, 1, &offset, &less));
     PetscCall(VecSetValue(assembly->gap, row, area * distance, ADD_VALUES));
   }
   PetscCall(VecRestoreArrayRead(rows->mass, &mass));
