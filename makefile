@@ -119,9 +119,8 @@ check-plugin: dependencies
 check-all: dependencies
 	@$(MAKE) --no-print-directory -f tests/makefile $(TESTS_PARALLEL) check LONG=1
 
-# STRESS=nlp, STRESS=grid: nonlinear programs, obstacle problems on a grid, which need IPOPT; else parts and options of
-# tests/stress/run.py
-stress: $(or $(filter nlp grid,$(STRESS)),scene-stress)
+# STRESS=nlp: nonlinear programs, which need IPOPT; else parts and options of tests/stress/run.py
+stress: $(or $(filter nlp,$(STRESS)),scene-stress)
 
 scene-stress: dependencies
 	@$(MAKE) --no-print-directory $(PARALLEL) all
@@ -155,7 +154,6 @@ help:
 	@echo 'make stress          difficult contact problems, 2 hours; tables in build/stress/report.md'
 	@echo '    STRESS="units --only *hertz*"  runs only these; STRESS=--resume continues an interrupted run'
 	@echo '    STRESS=nlp                nonlinear programs, compared with IPOPT, 20 minutes; tests/stress/nlp*.md'
-	@echo '    STRESS=grid               obstacle problems, compared with TRON and IPOPT, an hour; tests/stress/grid.md'
 	@echo 'make bench           measures time against accuracy, at most 45 minutes; pages in build/bench/pages'
 	@echo 'make debug           runs quick tests with a PETSc that checks its arguments'
 	@echo 'make sanitize        runs small scenes with the address and undefined behaviour sanitizers'

@@ -27,7 +27,7 @@ small_scenes    = mkdir -p $(1)/scenes && cd $(1)/scenes && AMGF_DIR=$(CURDIR) O
 # Debian's PETSc with its own checks and no optimization: package libpetsc-real3.18-dbg
 DEBUG_PETSC ?= PETSC_DIR=$(PETSC_PREFIX)-debug PETSC_ARCH=
 
-.PHONY: format debug sanitize memcheck tidy fuzz nlp grid
+.PHONY: format debug sanitize memcheck tidy fuzz nlp
 
 debug:
 	@$(call copied_tree,build/debug)
@@ -109,14 +109,3 @@ nlp: all
 	$(PYTHON) -B tests/stress/nlp.py --folder build/nlp
 	$(PYTHON) -B tests/stress/nlp_random.py --folder build/nlp
 	$(PYTHON) -B tests/stress/nlp_forms.py --folder build/nlp
-
-# Obstacle problems on a grid beside TRON and IPOPT; the table goes to tests/stress/grid.md. GRID="--sizes 100 300" runs
-# some
-GRID ?=
-grid: all
-	@mkdir -p build/grid
-	$(CC) -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 -Iinclude $(PETSC_CFLAGS) tests/tao_ipfilter/ipfilter_grid.c \
-	  -o build/grid/tao -Llib -lpetscamgf -Wl,-rpath,$(CURDIR)/lib $(PETSC_LIBS) -lm
-	gcc -std=c11 -D_GNU_SOURCE -Wall -Wextra -O2 $(shell pkg-config --cflags ipopt) tests/stress/grid_ipopt.c \
-	  -o build/grid/ipopt $(shell pkg-config --libs ipopt) -lm
-	$(PYTHON) -B tests/stress/grid.py --folder build/grid $(GRID)

@@ -1,14 +1,11 @@
 static char help[] = "Obstacle problems on a grid: bounds on all unknowns, or the same as inequality rows.\n\
   -problem NAME    obstacle, torsion, bearing, signorini, surface; all of them without it\n\
   -n N             unknowns in a row\n\
-  -rows            the bounds as inequality rows\n\
-  -report          a line of figures a solve, no comparison: what tests/stress/grid.py reads\n\n";
+  -rows            the bounds as inequality rows\n\n";
 
 #include <petscdmda.h>
-#include <petsctime.h>
 #include "ipfilter_problem.h"
 #include "ipfilter_grid.h"
-#include <sys/resource.h>
 
 typedef struct {
   DM               da;
@@ -274,20 +271,6 @@ static PetscErrorCode CreateGridSolver(Grid *grid, const char type[], PetscBool 
   PetscFunctionReturn(0);
 }
 
-/* Processor time of all ranks */
-static PetscErrorCode ProcessorTime(PetscReal *seconds)
-{
-  struct rusage usage;
-  PetscReal     local;
-
-  PetscFunctionBeginUser;
-  getrusage(RUSAGE_SELF, &usage);
-  local = (PetscReal)(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-          1e-6 * (PetscReal)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-  PetscCallMPI(MPI_Allreduce(&local, seconds, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
-  PetscFunctionReturn(0);
-}
-
 /* Largest violation of the bounds */
 static PetscErrorCode Violation(Grid *grid, Vec x, PetscReal *violation)
 {
@@ -304,36 +287,6 @@ static PetscErrorCode Violation(Grid *grid, Vec x, PetscReal *violation)
   }
   PetscCall(VecDestroy(&d));
   *violation = PetscMax(PetscMax(most[0], most[1]), 0.0);
-  PetscFunctionReturn(0);
-}
-
-/* Solves from u = 0 with the options of the command line and prints the figures */
-static PetscErrorCode Report(Grid *grid, const char type[], PetscBool rows)
-{
-  Tao                tao;
-  Vec                x;
-  PetscReal          f, violation, cpu[2];
-  PetscInt           its, krylov;
-  PetscLogDouble     begin, end;
-  TaoConvergedReason reason;
-
-  PetscFunctionBeginUser;
-  PetscCall(VecDuplicate(grid->lower, &x));
-  PetscCall(CreateGridSolver(grid, type, rows, x, &tao));
-  PetscCall(TaoSetFromOptions(tao));
-  PetscCall(PetscTime(&begin));
-  PetscCall(ProcessorTime(&cpu[0]));
-  PetscCall(TaoSolve(tao));
-  PetscCall(ProcessorTime(&cpu[1]));
-  PetscCall(PetscTime(&end));
-  PetscCall(TaoGetSolutionStatus(tao, &its, &f, NULL, NULL, NULL, &reason));
-  PetscCall(TaoGetLinearSolveIterations(tao, &krylov));
-  PetscCall(Violation(grid, x, &violation));
-  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s|%s|%.15e|%.1e|%" PetscInt_FMT "|%" PetscInt_FMT "|%.2f|%.2f\n",
-    grid_names[grid->problem], TaoConvergedReasons[reason], (double)f, (double)violation, its, krylov, end - begin,
-    (double)(cpu[1] - cpu[0])));
-  PetscCall(TaoDestroy(&tao));
-  PetscCall(VecDestroy(&x));
   PetscFunctionReturn(0);
 }
 
@@ -375,14 +328,13 @@ int main(int argc, char **argv)
 {
   char      name[64], type[64] = TAOIPFILTER;
   PetscInt  n    = 24;
-  PetscBool rows = PETSC_FALSE, report = PETSC_FALSE, one;
+  PetscBool rows = PETSC_FALSE, one;
 
   PetscFunctionBeginUser;
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
   PetscCall(PetscAMGFInitializePackage());
   PetscCall(PetscOptionsGetInt(NULL, NULL, "-n", &n, NULL));
   PetscCall(PetscOptionsGetBool(NULL, NULL, "-rows", &rows, NULL));
-  PetscCall(PetscOptionsGetBool(NULL, NULL, "-report", &report, NULL));
   PetscCall(PetscOptionsGetString(NULL, NULL, "-solver", type, sizeof(type), NULL));
   PetscCall(PetscOptionsGetString(NULL, NULL, "-problem", name, sizeof(name), &one));
   PetscCheck(!one || GridFind(name) >= 0, PETSC_COMM_WORLD, PETSC_ERR_USER, "There is no problem %s", name);
@@ -391,7 +343,7 @@ int main(int argc, char **argv)
 
     if (one && k != GridFind(name)) continue;
     PetscCall(CreateGrid(k, n, &grid));
-    PetscCall((report ? Report : Compare)(&grid, type, rows));
+    PetscCall(Compare(&grid, type, rows));
     PetscCall(DestroyGrid(&grid));
   }
   PetscCall(PetscFinalize());

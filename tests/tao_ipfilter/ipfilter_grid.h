@@ -1,7 +1,6 @@
 /*
-   Shared by ipfilter_grid.c and stress/grid_ipopt.c, without PETSc: obstacle problems on a grid of n x n unknowns,
-   number i + n j at column i and row j. All but the surface are quadratic, f = 1/2 u^T K u - b^T u + constant, with K
-   of five points.
+   Obstacle problems on a grid of n x n unknowns, number i + n j at column i and row j. All but the surface are
+   quadratic, f = 1/2 u^T K u - b^T u + constant, with K of five points.
 
      obstacle   a membrane on [-2, 2]^2 over a ball, with the boundary values of a solution that is known
      torsion    elastic-plastic torsion of a square rod, |u| <= distance from the boundary
