@@ -76,10 +76,9 @@ JOINED = cubes() + """
 *SOLID SECTION, ELSET=Elow, MATERIAL=SOFT"""
 
 
-def rigid(*cards):
+def rigid(*cards, joint="*RIGID BODY, NSET=top, REF NODE=17, ROT NODE=18"):
     mesh = JOINED.replace("C3D8", "C3D8I").replace("500.", "1000.") + "\n*NODE\n17, 0.5, 0.5, 3.\n18, 0.5, 0.5, 3."
-    return deck(step(*cards), pair="", hold="*BOUNDARY\nfoot, 1, 3", mesh=mesh,
-                more="*RIGID BODY, NSET=top, REF NODE=17, ROT NODE=18")
+    return deck(step(*cards), pair="", hold="*BOUNDARY\nfoot, 1, 3", mesh=mesh, more=joint)
 
 
 PARTS = """*PART, NAME=Cube
@@ -234,6 +233,10 @@ DECKS = {
     "stiffness": (deck(push(-0.02), elastic="*ELASTIC, TYPE=ORTHO\n2000., 0., 1000., 0., 0., 500., 400., 300.,\n200.",
                        more="*ORIENTATION, NAME=OR, SYSTEM=RECTANGULAR\n0., 0., 1., 1., 0., 0.").replace(
                            "MATERIAL=EL\n*B", "MATERIAL=EL, ORIENTATION=OR\n*B"), {"reaction": 20}),
+    # the same axes, by a rotation of 90 degrees about the second one
+    "rotated": (deck(push(-0.02), elastic="*ELASTIC, TYPE=ORTHO\n2000., 0., 1000., 0., 0., 500., 400., 300.,\n200.",
+                     more="*ORIENTATION, NAME=OR\n1., 0., 0., 0., 1., 0.\n2, -90.").replace(
+                         "MATERIAL=EL\n*B", "MATERIAL=EL, ORIENTATION=OR\n*B"), {"reaction": 20}),
     # shear modulus 400, bulk modulus 1000
     "rubber": (deck(push(-1e-5), elastic="*HYPERELASTIC, NEO HOOKE\n200., 0.002",
                     hold="*BOUNDARY\nfoot, 3\n1, 1, 2\n2, 2\n9, 1, 2\n10, 2"), {"reaction": 9e5 * 4 / 3400 * 5e-6}),
@@ -255,6 +258,8 @@ DECKS = {
     # a bar whose end is rigid, with the nodes 17 for displacements and 18 for rotations. It bends by M L / (E I)
     "rigid_push": (rigid("*BOUNDARY\n17, 1, 2\n17, 3, 3, -0.02\n17, 4, 6"), {"reaction": 10}),
     "rigid_moment": (rigid("*CLOAD\n18, 2, 0.1"), {"energy": 0.1**2 * 2 / 2 * 12 / 1000}),
+    "coupling": (rigid("*CLOAD\n17, 5, 0.1", joint="*SURFACE, NAME=head\n2, S2\n*COUPLING, CONSTRAINT NAME=C, "
+                       "REF NODE=17, SURFACE=head\n*KINEMATIC\n1, 3"), {"as": "rigid_moment"}),
     # the assembly's sets `foot` and `under` are unlike those of the part
     "parts": (PARTS, {"reaction": 10}),
     "left_out": (deck(step(PRESS), step(procedure="*FREQUENCY\n10")), {"energy": 0.1}),
@@ -266,7 +271,7 @@ REFUSED = {
     "rigid": deck(step(PRESS), more="*RIGID BODY, NSET=two, REF NODE=1", mesh=MESH + "\n*NSET, NSET=two\n13, 14"),
     "shell": deck(step(PRESS), mesh=MESH + "\n*ELEMENT, TYPE=S4\n3, 1, 2, 3, 4"),
     "heat": deck(step(procedure="*HEAT TRANSFER")),
-    "two": deck(step(PRESS), more="*COUPLING\n1, 3\n*MPC\nPLANE, 1, 2, 3"),
+    "two": deck(step(PRESS), more="*SPRING\n1, 3\n*MPC\nPLANE, 1, 2, 3"),
     "released": deck(step(PRESS), step("*BOUNDARY, OP=NEW\nfoot, 1, 3")),
     "edge": deck(step(PRESS), pair="*CONTACT PAIR, INTERACTION=SI\nslave, beside",
                  mesh=MESH + "\n*SURFACE, NAME=beside\n1, S6\n*SURFACE, NAME=slave, TYPE=NODE\n9\n12"),

@@ -15,6 +15,6 @@ mesh pressure.inp -scene pressure_deck.yaml -deck_ignore EQUATION
 echo "problem: mine" > pressure_deck.yaml
 try pressure.inp
 
-mesh two.inp -scene two.yaml -deck_ignore "COUPLING, *mpc"
+mesh two.inp -scene two.yaml -deck_ignore "SPRING, *mpc"
 mesh rough_deck.msh -scene two.yaml
 grep -v "^  *#" rough_deck.yaml

@@ -18,8 +18,8 @@ MESH = {
 HARMLESS = {
     "HEADING", "PREPRINT", "NODE PRINT", "NODE FILE", "NODE OUTPUT", "EL PRINT", "EL FILE", "ELEMENT OUTPUT", "OUTPUT",
     "CONTACT PRINT", "CONTACT FILE", "CONTACT OUTPUT", "ENERGY OUTPUT", "ENERGY FILE", "ENERGY PRINT", "SECTION PRINT",
-    "CONTROLS", "CONTACT CONTROLS", "RESTART", "MONITOR", "FILE FORMAT", "TIME POINTS", "PHYSICAL CONSTANTS",
-    "USER NODE", "END STEP", "ENDSTEP", "STEP"
+    "CONTROLS", "CONTACT CONTROLS", "SECTION CONTROLS", "RESTART", "MONITOR", "FILE FORMAT", "TIME POINTS",
+    "PHYSICAL CONSTANTS", "USER NODE", "END STEP", "ENDSTEP", "STEP"
 }
 MATERIAL = {"ELASTIC", "PLASTIC", "HYPERELASTIC", "EXPANSION", "DENSITY"}
 HEAT = {"CONDUCTIVITY", "SPECIFIC HEAT", "GAP CONDUCTANCE", "GAP HEAT GENERATION"}
@@ -32,20 +32,21 @@ PROCEDURES = {
 # Parameters that are read, or that leave the answer as it is. Others are refused
 LOADS = {"OP", "AMPLITUDE"}
 PARAMETERS = {
-    "STEP": {"NLGEOM", "INC", "NAME"}, "STATIC": {"DIRECT", "SOLVER", "TIME RESET"},
-    "DYNAMIC": {"DIRECT", "EXPLICIT", "SOLVER", "ALPHA", "RELATIVE TO ABSOLUTE"
-                }, "BOUNDARY": LOADS, "CLOAD": LOADS, "DLOAD": LOADS, "DSLOAD": LOADS, "TEMPERATURE": {"OP"},
-    "MATERIAL": {"NAME"}, "ELASTIC": {"TYPE"}, "PLASTIC": {"HARDENING"}, "HYPERELASTIC": {"NEO HOOKE", "MOONEY-RIVLIN"},
-    "EXPANSION": {"TYPE", "ZERO"}, "DENSITY": set(), "SOLID SECTION": {"ELSET", "MATERIAL",
-                                                                       "ORIENTATION"}, "SURFACE INTERACTION": {"NAME"},
-    "SURFACE BEHAVIOR": {"PRESSURE-OVERCLOSURE", "PENALTY", "AUGMENTED LAGRANGE", "DIRECT"}, "FRICTION": {"ROUGH"},
-    "CONTACT PAIR": {"INTERACTION", "TYPE", "ADJUST",
-                     "SMALL SLIDING"}, "TIE": {"NAME", "POSITION TOLERANCE", "CYCLIC SYMMETRY",
-                                               "ADJUST"}, "CYCLIC SYMMETRY MODEL": {"N", "NGRAPH", "TIE", "ELSET"},
+    "STEP": {"NLGEOM", "INC", "NAME", "UNSYMM", "EXTRAPOLATION"}, "STATIC": {"DIRECT", "SOLVER", "TIME RESET"},
+    "DYNAMIC": {"DIRECT", "EXPLICIT", "SOLVER", "ALPHA", "RELATIVE TO ABSOLUTE"}, "BOUNDARY": LOADS, "CLOAD": LOADS,
+    "DLOAD": LOADS, "DSLOAD": LOADS, "TEMPERATURE": {"OP"}, "MATERIAL": {"NAME"}, "ELASTIC": {"TYPE"},
+    "PLASTIC": {"HARDENING"}, "HYPERELASTIC": {"NEO HOOKE", "MOONEY-RIVLIN"}, "EXPANSION": {"TYPE", "ZERO"},
+    "DENSITY": set(), "SOLID SECTION": {"ELSET", "MATERIAL", "ORIENTATION", "CONTROLS"},
+    "SURFACE INTERACTION": {"NAME"}, "FRICTION": {"ROUGH", "SLIP TOLERANCE"},
+    "SURFACE BEHAVIOR": {"PRESSURE-OVERCLOSURE", "PENALTY", "AUGMENTED LAGRANGE", "DIRECT"},
+    "CONTACT PAIR": {"INTERACTION", "TYPE", "ADJUST", "SMALL SLIDING"},
+    "TIE": {"NAME", "POSITION TOLERANCE", "CYCLIC SYMMETRY", "ADJUST", "TYPE", "NO ROTATION"},
+    "CYCLIC SYMMETRY MODEL": {"N", "NGRAPH", "TIE", "ELSET"},
     "RIGID BODY": {"NSET", "TIE NSET", "ELSET", "REF NODE", "ROT NODE"},
-    "EQUATION": set(), "CLEARANCE": {"MASTER", "SLAVE", "VALUE"}, "TRANSFORM": {"NSET", "TYPE"},
-    "AMPLITUDE": {"NAME", "TIME", "DEFINITION"}, "ORIENTATION": {"NAME", "SYSTEM"}, "INITIAL CONDITIONS": {"TYPE"},
-    "MODEL CHANGE": {"TYPE", "ADD", "REMOVE"}, "CHANGE FRICTION": {"INTERACTION"}
+    "COUPLING": {"CONSTRAINT NAME", "REF NODE", "SURFACE"}, "KINEMATIC": set(), "EQUATION": set(),
+    "CLEARANCE": {"MASTER", "SLAVE", "VALUE"}, "TRANSFORM": {"NSET", "TYPE"},
+    "AMPLITUDE": {"NAME", "TIME", "DEFINITION"}, "ORIENTATION": {"NAME", "SYSTEM", "DEFINITION"},
+    "INITIAL CONDITIONS": {"TYPE"}, "MODEL CHANGE": {"TYPE", "ADD", "REMOVE"}, "CHANGE FRICTION": {"INTERACTION"}
 }
 
 
@@ -82,6 +83,7 @@ class Translator:
         self.active, self.steps, self.prints, self.printed = {}, [], {}, {}
         self.strains = False  # whether the file .frd has strains
         self.material = self.interaction = None
+        self.coupling = {}  # parameters of the last *COUPLING
         self.part, self.starting = "", []
         model, steps = self.split(blocks)
         self.finite = any("NLGEOM" in keys and keys["NLGEOM"].upper() != "NO" for _, keys, _ in steps)
@@ -152,11 +154,17 @@ class Translator:
         self.materials[self.material.name.upper()] = self.material
 
     def read_orientation(self, where, parameters, data):
+        """The second line rotates the axes about one of them, in degrees"""
         rows = numbers(where, data)
-        if parameters.get("SYSTEM", "RECTANGULAR").upper() not in ("RECTANGULAR", "R") or len(rows) > 1:
-            self.notes.refuse("ORIENTATION", where, "only rectangular systems without a rotation are supported")
+        if parameters.get("SYSTEM", "RECTANGULAR").upper() not in ("RECTANGULAR", "R") or len(rows[0]) < 6:
+            self.notes.refuse("ORIENTATION", where, "only rectangular systems with two points are supported")
             return
-        self.orientations[parameters.get("NAME", "").upper()] = (rows[0][:3], rows[0][3:6])
+        axes = geometry.local_axes("R", np.array(rows[0][:3]), np.array(rows[0][3:6]), None)
+        if len(rows) > 1:
+            number, angle = int(rows[1][0]) - 1, np.radians((rows[1] + [0.0])[1] or 0.0)
+            turned = [(number + 1) % 3, (number + 2) % 3]
+            axes[turned] = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]]) @ axes[turned]
+        self.orientations[parameters.get("NAME", "").upper()] = (axes[0], axes[1])
 
     def read_solid_section(self, where, parameters, _):
         name, material = parameters.get("ELSET", ""), parameters.get("MATERIAL", "")
@@ -293,11 +301,29 @@ class Translator:
                 self.equations.append((where, terms))
 
     def read_rigid_body(self, where, parameters, _):
-        """Nodes that move as a rigid body with a reference node"""
         nodes = [node for key in ("NSET", "TIE NSET") if key in parameters
                  for node in self.geometry.nodes_of(where, parameters[key])]
         for cell in self.geometry.cells_of(where, parameters["ELSET"]) if "ELSET" in parameters else ():
             nodes += self.geometry.elements[cell][1]
+        self.add_rigid(where, nodes, parameters)
+
+    def read_coupling(self, where, parameters, _):
+        self.coupling = parameters
+
+    def read_kinematic(self, where, _, data):
+        """*COUPLING with *KINEMATIC: all displacements of a surface follow a node"""
+        rows = numbers(where, data)
+        if rows and not {1, 2, 3}.issubset(dof for row in rows for dof in range(int(row[0]), int(row[-1]) + 1)):
+            self.notes.refuse("KINEMATIC", where, "all three displacements must be coupled")
+        name = self.coupling.get("SURFACE", "")
+        sides = self.geometry.surfaces.get(name.upper())
+        nodes = self.geometry.nodes_of(where, name) if sides is None else [
+            node for cell, side in sides for node in self.geometry.side_nodes(cell, side)
+        ]
+        self.add_rigid(where, nodes, self.coupling)
+
+    def add_rigid(self, where, nodes, parameters):
+        """Nodes that move as a rigid body with a reference node"""
         reference = self.geometry.nodes_of(where, parameters.get("REF NODE", ""))[0]
         self.rigid.append((where, nodes, reference))
         self.rotations[reference] = reference
