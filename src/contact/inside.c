@@ -142,7 +142,7 @@ PetscErrorCode ContactCheckDepth(Contact contact)
   PetscFunctionBegin;
   PetscCall(ContactBoundaryCreate(contact->dm, &boundary));
   PetscCall(PetscMalloc1(6 * boundary.nbodies, &box));
-  PetscCall(ContactBoundaryBoxes(&boundary, box));
+  PetscCall(MeshGetBodyBoxes(contact->dm, NULL, boundary.nbodies, box));
   for (PetscInt p = 0; p < contact->npairs && depth == 0.0; ++p) {
     pair = &contact->pairs[p];
     for (PetscInt s = 0; s < 2 && !pair->formula && pair->mortar.body != pair->nonmortar.body; ++s) {
@@ -194,7 +194,7 @@ PetscErrorCode ContactGetEntered(Contact contact, PetscInt p, Vec u, PetscReal m
   PetscCall(ContactBoundaryCreate(contact->dm, &now));
   PetscCall(ContactBoundaryDeform(contact->dm, u, &now));
   PetscCall(PetscMalloc1(6 * now.nbodies, &box));
-  PetscCall(ContactBoundaryBoxes(&now, box));
+  PetscCall(MeshGetBodyBoxes(contact->dm, u, now.nbodies, box));
   for (PetscInt s = 0; s < 2 && !*entered; ++s) {
     const PetscInt other = body[1 - s];
     InsidePoint   *point;

@@ -1,38 +1,20 @@
 /* Names prescribed displacements that no body can follow, after a load step that failed. */
 #include "measureimpl.h"
-#include <mesh.h>
 #include <vector3.h>
 
-/* Collective. Gets the undeformed height of a body along a direction, a unit vector */
-static PetscErrorCode DisplacementGetHeight(DM dm, PetscInt body, const PetscReal along[3], PetscReal *height)
+/* Collective. Gets the height along a direction, a unit vector, of the box of an undeformed body */
+static PetscErrorCode DisplacementGetHeight(const Measured *at, const SceneBody *body, const PetscReal along[3],
+  PetscReal *height)
 {
-  PetscReal    ends[2] = {PETSC_NINFINITY, PETSC_NINFINITY}; /* largest places along the direction, and against it */
-  PetscInt     start, end, owner, n, nodes[MESH_MAX_NODES], offset;
-  PetscSection section;
-  Vec          coordinates;
-  const PetscScalar *x;
+  const PetscInt b = (PetscInt)(body - at->scene->bodies);
+  PetscReal     *boxes;
 
   PetscFunctionBegin;
-  PetscCall(DMGetLocalSection(dm, &section));
-  PetscCall(DMPlexGetHeightStratum(dm, 0, &start, &end));
-  PetscCall(MeshGetNodeCoordinates(dm, &coordinates));
-  PetscCall(VecGetArrayRead(coordinates, &x));
-  for (PetscInt c = start; c < end; ++c) {
-    PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, c, &owner));
-    if (owner != body) continue;
-    PetscCall(MeshGetCellNodes(dm, c, &n, nodes));
-    for (PetscInt a = 0; a < n; ++a) {
-      PetscReal place = 0.0;
-
-      PetscCall(PetscSectionGetOffset(section, nodes[a], &offset));
-      for (PetscInt i = 0; i < 3; ++i) place += along[i] * PetscRealPart(x[offset + i]);
-      ends[0] = PetscMax(ends[0], place);
-      ends[1] = PetscMax(ends[1], -place);
-    }
-  }
-  PetscCall(VecRestoreArrayRead(coordinates, &x));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, ends, 2, MPIU_REAL, MPIU_MAX, PetscObjectComm((PetscObject)dm)));
-  *height = ends[0] + ends[1];
+  PetscCall(PetscMalloc1(6 * at->scene->nbodies, &boxes));
+  PetscCall(MeshGetBodyBoxes(at->dm, NULL, at->scene->nbodies, boxes));
+  *height = 0.0;
+  for (PetscInt i = 0; i < 3; ++i) *height += PetscAbsReal(along[i]) * (boxes[6 * b + 3 + i] - boxes[6 * b + i]);
+  PetscCall(PetscFree(boxes));
   PetscFunctionReturn(0);
 }
 
@@ -49,7 +31,7 @@ static PetscErrorCode DisplacementTest(const Measured *at, const SceneDisplaceme
   if (here->inclined || motion == 0.0) PetscFunctionReturn(0);
   for (PetscInt i = 0; i < 3; ++i) along[i] /= motion;
   PetscCall(SceneGetFactor(at->scene, here->ramp, time, &factor));
-  PetscCall(DisplacementGetHeight(at->dm, (PetscInt)(pressed - at->scene->bodies), along, &height));
+  PetscCall(DisplacementGetHeight(at, pressed, along, &height));
   motion *= PetscAbsReal(factor);
   if (motion > 2.0 * height)
     PetscCall(ReportWarn(at->comm, at->report, here->place,

@@ -21,7 +21,8 @@ static PetscErrorCode ContactFreeMatrix(Model model, KSP ksp, Mat *K)
     PetscCall(PCGetOptionsPrefix(amg, &prefix));
     PetscCall(PetscOptionsHasName(NULL, prefix, "-pc_type", &given));
   }
-  if (given) PetscCall(StiffnessGetWhole(model, MATBAIJ, K));
+  if (given) PetscCall(PetscObjectTypeCompare((PetscObject)model->K, MATSEQSBAIJ, &given));
+  if (given) PetscCall(MatConvert(model->K, MATBAIJ, MAT_INITIAL_MATRIX, K));
   else {
     PetscCall(PetscObjectReference((PetscObject)model->K));
     *K = model->K;

@@ -1,29 +1,27 @@
 /* Describes before the solve what a scene will simulate. */
 #include "sceneimpl.h"
-#include <mesh.h>
+#include "src/mesh/query/queryimpl.h"
 #include <petscbt.h>
 #include <petscviewer.h>
 #include <string.h>
 
-/* Counts and bounds of a body's mesh on all ranks. */
+/* Counts of a body's mesh on all ranks. */
 typedef struct {
-  PetscInt  ncells, ntetrahedra, nnodes;
-  PetscReal lower[3], upper[3]; /* smallest and largest coordinates of the nodes [length] */
+  PetscInt ncells, ntetrahedra, nnodes;
 } BodyMesh;
 
 /*
-   Adds a cell to the counts and bounds of its body. A node is counted by the rank that owns it; bodies have no common
-   nodes. met: nodes that have already been added.
+   Adds a cell to the counts of its body. A node is counted by the rank that owns it; bodies have no common nodes. met:
+   nodes that have already been added.
 */
-static PetscErrorCode BodyMeshAddCell(DM dm, const PetscScalar x[], PetscInt cell, PetscBT met, BodyMesh *mesh)
+static PetscErrorCode BodyMeshAddCell(DM dm, PetscInt cell, PetscBT met, BodyMesh *mesh)
 {
   PetscInt     n, nodes[MESH_MAX_NODES], first, offset;
-  PetscSection global, section;
+  PetscSection global;
 
   PetscFunctionBegin;
   PetscCall(DMPlexGetChart(dm, &first, NULL));
   PetscCall(DMGetGlobalSection(dm, &global));
-  PetscCall(DMGetLocalSection(dm, &section));
   PetscCall(MeshGetCellNodes(dm, cell, &n, nodes));
   mesh->ncells++;
   if (MeshIsTetrahedron(n)) mesh->ntetrahedra++;
@@ -31,59 +29,40 @@ static PetscErrorCode BodyMeshAddCell(DM dm, const PetscScalar x[], PetscInt cel
     if (PetscBTLookupSet(met, nodes[a] - first)) continue;
     PetscCall(PetscSectionGetOffset(global, nodes[a], &offset));
     if (offset >= 0) mesh->nnodes++;
-    PetscCall(PetscSectionGetOffset(section, nodes[a], &offset));
-    for (PetscInt i = 0; i < 3; ++i) {
-      mesh->lower[i] = PetscMin(mesh->lower[i], PetscRealPart(x[offset + i]));
-      mesh->upper[i] = PetscMax(mesh->upper[i], PetscRealPart(x[offset + i]));
-    }
   }
   PetscFunctionReturn(0);
 }
 
-/* Sets bounds that are 0 up to rounding errors to 0, so that they are printed as 0. */
-static void BodyMeshCleanBounds(BodyMesh *mesh)
-{
-  for (PetscInt i = 0; i < 3; ++i) {
-    const PetscReal tiny = MODEL_ROUNDING * (mesh->upper[i] - mesh->lower[i]);
-
-    if (PetscAbsReal(mesh->lower[i]) < tiny) mesh->lower[i] = 0;
-    if (PetscAbsReal(mesh->upper[i]) < tiny) mesh->upper[i] = 0;
-  }
-}
-
 static PetscErrorCode BodyMeshMeasureAll(DM dm, PetscInt nbodies, BodyMesh meshes[])
 {
-  MPI_Comm           comm = PetscObjectComm((PetscObject)dm);
-  PetscInt           start, end, first, last, body;
-  PetscBT            met;
-  Vec                coordinates;
-  const PetscScalar *x;
+  PetscInt start, end, first, last, body;
+  PetscBT  met;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < nbodies; ++b)
-    meshes[b] = (BodyMesh){0, 0, 0, {PETSC_MAX_REAL, PETSC_MAX_REAL, PETSC_MAX_REAL},
-      {PETSC_MIN_REAL, PETSC_MIN_REAL, PETSC_MIN_REAL}};
+  PetscCall(PetscArrayzero(meshes, nbodies));
   PetscCall(DMPlexGetHeightStratum(dm, 0, &start, &end));
   PetscCall(DMPlexGetChart(dm, &first, &last));
   PetscCall(PetscBTCreate(last - first, &met));
-  PetscCall(MeshGetNodeCoordinates(dm, &coordinates));
-  PetscCall(VecGetArrayRead(coordinates, &x));
   for (PetscInt c = start; c < end; ++c) {
     PetscCall(DMGetLabelValue(dm, MESH_BODY_LABEL, c, &body));
-    PetscCall(BodyMeshAddCell(dm, x, c, met, &meshes[body]));
+    PetscCall(BodyMeshAddCell(dm, c, met, &meshes[body]));
   }
-  PetscCall(VecRestoreArrayRead(coordinates, &x));
   PetscCall(PetscBTDestroy(&met));
-  for (PetscInt b = 0; b < nbodies; ++b) {
-    PetscInt counts[3] = {meshes[b].ncells, meshes[b].nnodes, meshes[b].ntetrahedra};
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, meshes, (PetscMPIInt)(3 * nbodies), MPIU_INT, MPI_SUM,
+    PetscObjectComm((PetscObject)dm)));
+  PetscFunctionReturn(0);
+}
 
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 3, MPIU_INT, MPI_SUM, comm));
-    meshes[b].ncells      = counts[0];
-    meshes[b].nnodes      = counts[1];
-    meshes[b].ntetrahedra = counts[2];
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, meshes[b].lower, 3, MPIU_REAL, MPIU_MIN, comm));
-    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, meshes[b].upper, 3, MPIU_REAL, MPIU_MAX, comm));
-    BodyMeshCleanBounds(&meshes[b]);
+/* Collective. Computes the boxes of the bodies; coordinates that are 0 up to rounding errors are 0 */
+static PetscErrorCode DescribeGetBoxes(DM dm, PetscInt nbodies, PetscReal boxes[])
+{
+  PetscFunctionBegin;
+  PetscCall(MeshGetBodyBoxes(dm, NULL, nbodies, boxes));
+  for (PetscInt i = 0; i < 3 * nbodies; ++i) {
+    PetscReal *box = &boxes[6 * (i / 3) + i % 3], tiny = MODEL_ROUNDING * (box[3] - box[0]);
+
+    if (PetscAbsReal(box[0]) < tiny) box[0] = 0.0;
+    if (PetscAbsReal(box[3]) < tiny) box[3] = 0.0;
   }
   PetscFunctionReturn(0);
 }
@@ -135,16 +114,19 @@ static PetscErrorCode DescribeSurface(const SceneBody *body, PetscViewer viewer)
 
 static PetscErrorCode DescribeBodies(Scene scene, DM dm, const BodyChoice choices[], PetscViewer viewer)
 {
-  BodyMesh *meshes;
-  PetscInt  ncells = 0, nnodes = 0, order = 1;
+  BodyMesh  *meshes;
+  PetscReal *boxes;
+  PetscInt   ncells = 0, nnodes = 0, order = 1;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(scene->nbodies, &meshes));
+  PetscCall(PetscMalloc2(scene->nbodies, &meshes, 6 * scene->nbodies, &boxes));
   PetscCall(BodyMeshMeasureAll(dm, scene->nbodies, meshes));
+  PetscCall(DescribeGetBoxes(dm, scene->nbodies, boxes));
   PetscCall(PetscViewerASCIIPrintf(viewer, "Bodies, refined %" PetscInt_FMT " times\n", scene->refine));
   for (PetscInt b = 0; b < scene->nbodies; ++b) {
     const SceneBody *body = &scene->bodies[b];
     const BodyMesh  *mesh = &meshes[b];
+    const PetscReal *box  = &boxes[6 * b];
 
     ncells += mesh->ncells;
     nnodes += mesh->nnodes;
@@ -153,8 +135,8 @@ static PetscErrorCode DescribeBodies(Scene scene, DM dm, const BodyChoice choice
       continue;
     }
     PetscCall(PetscViewerASCIIPrintf(viewer, "  %s: %s, x %.6g to %.6g, y %.6g to %.6g, z %.6g to %.6g\n", body->name,
-      BodyShapes[body->shape], (double)mesh->lower[0], (double)mesh->upper[0], (double)mesh->lower[1],
-      (double)mesh->upper[1], (double)mesh->lower[2], (double)mesh->upper[2]));
+      BodyShapes[body->shape], (double)box[0], (double)box[3], (double)box[1], (double)box[4], (double)box[2],
+      (double)box[5]));
     if (body->material.type == MATERIAL_RIGID) PetscCall(PetscViewerASCIIPrintf(viewer, "    rigid\n"));
     else {
       PetscCall(PetscViewerASCIIPrintf(viewer, "    material %s%s%s%s", body->material_name ? body->material_name : "",
@@ -174,7 +156,7 @@ static PetscErrorCode DescribeBodies(Scene scene, DM dm, const BodyChoice choice
   PetscCall(PetscViewerASCIIPrintf(viewer,
     "  total: %" PetscInt_FMT " cells, %" PetscInt_FMT " %s, %" PetscInt_FMT " unknowns\n", ncells, nnodes,
     order > 1 ? "nodes" : "vertices", 3 * nnodes));
-  PetscCall(PetscFree(meshes));
+  PetscCall(PetscFree2(meshes, boxes));
   PetscFunctionReturn(0);
 }
 

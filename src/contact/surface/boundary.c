@@ -1,5 +1,4 @@
-/* The boundary of all bodies: mean thickness, bounding boxes, and solid angles for tests whether a point is
-   inside */
+/* The boundary of all bodies: mean thickness, and solid angles for tests whether a point is inside */
 #include <mesh.h>
 #include "surfaceimpl.h"
 
@@ -96,32 +95,6 @@ PetscErrorCode ContactBoundaryThickness(const ContactBoundary *b, PetscReal thic
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, area, (PetscMPIInt)b->nbodies, MPIU_REAL, MPIU_SUM, b->comm));
   for (PetscInt k = 0; k < b->nbodies; ++k) thickness[k] = area[k] > 0.0 ? 2.0 * volume[k] / area[k] : 0.0;
   PetscCall(PetscFree(area));
-  PetscFunctionReturn(0);
-}
-
-/* Collective. Computes the bounding boxes of the bodies: box[6 * body + 0..2] is the lower corner, box[6 * body + 3..5]
-   the upper one */
-PetscErrorCode ContactBoundaryBoxes(const ContactBoundary *b, PetscReal box[])
-{
-  PetscReal *low; /* lower corner and negative of the upper corner, so that one minimum reduces both */
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(6 * b->nbodies, &low));
-  for (PetscInt i = 0; i < 6 * b->nbodies; ++i) low[i] = PETSC_MAX_REAL;
-  for (PetscInt f = 0; f < b->n; ++f) {
-    PetscReal facet[6], *of = &low[6 * b->body[f]];
-
-    ContactFacetBox(&b->x[12 * f], facet);
-    for (PetscInt c = 0; c < 3; ++c) {
-      of[c]     = PetscMin(of[c], facet[c]);
-      of[3 + c] = PetscMin(of[3 + c], -facet[3 + c]);
-    }
-  }
-  PetscCallMPI(MPI_Allreduce(low, box, (PetscMPIInt)(6 * b->nbodies), MPIU_REAL, MPIU_MIN, b->comm));
-  for (PetscInt k = 0; k < b->nbodies; ++k) {
-    for (PetscInt c = 3; c < 6; ++c) box[6 * k + c] = -box[6 * k + c];
-  }
-  PetscCall(PetscFree(low));
   PetscFunctionReturn(0);
 }
 

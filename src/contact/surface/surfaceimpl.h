@@ -18,7 +18,6 @@ PETSC_INTERN PetscErrorCode ContactBoundaryCreate(DM, ContactBoundary *);
 PETSC_INTERN PetscErrorCode ContactBoundaryDestroy(ContactBoundary *);
 PETSC_INTERN PetscErrorCode ContactBoundaryDeform(DM, Vec u, ContactBoundary *);
 PETSC_INTERN PetscErrorCode ContactBoundaryThickness(const ContactBoundary *, PetscReal thickness[]);
-PETSC_INTERN PetscErrorCode ContactBoundaryBoxes(const ContactBoundary *, PetscReal box[]);
 PETSC_INTERN PetscReal      ContactBoundarySolidAngle(const ContactBoundary *, PetscInt body, const PetscReal from[3]);
 
 /* surface.c: the facets of a named face that this rank owns */

@@ -69,6 +69,34 @@ PetscErrorCode VertexPlacesMove(const VertexPlaces *places, Vec u, const BodyMot
   PetscFunctionReturn(0);
 }
 
+/* Collective. Computes the bounding boxes of the bodies at the displacement u (NULL: undeformed): boxes[6 b + 0..2] is
+   the lower corner of body b, boxes[6 b + 3..5] the upper one [length] */
+PetscErrorCode MeshGetBodyBoxes(DM dm, Vec u, PetscInt nbodies, PetscReal boxes[])
+{
+  VertexPlaces       places;
+  const PetscScalar *x;
+  PetscInt           n;
+
+  PetscFunctionBegin;
+  PetscCall(VertexPlacesCreate(dm, &places));
+  if (u) PetscCall(VecAXPY(places.x, 1.0, u));
+  PetscCall(VecGetLocalSize(places.x, &n));
+  PetscCall(VecGetArrayRead(places.x, &x));
+  for (PetscInt k = 0; k < 6 * nbodies; ++k) boxes[k] = PETSC_MIN_REAL;
+  for (PetscInt i = 0; i < n; ++i) { /* lower corners are negative at first, so that one maximum reduces both */
+    PetscReal *box = &boxes[6 * places.body[i / 3] + i % 3];
+
+    box[0] = PetscMax(box[0], -PetscRealPart(x[i]));
+    box[3] = PetscMax(box[3], PetscRealPart(x[i]));
+  }
+  PetscCall(VecRestoreArrayRead(places.x, &x));
+  PetscCall(VertexPlacesDestroy(&places));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, boxes, (PetscMPIInt)(6 * nbodies), MPIU_REAL, MPIU_MAX,
+    PetscObjectComm((PetscObject)dm)));
+  for (PetscInt k = 0; k < 3 * nbodies; ++k) boxes[6 * (k / 3) + k % 3] *= -1.0;
+  PetscFunctionReturn(0);
+}
+
 /* Sets one component of a global vector at the nodes of a face to a number */
 PetscErrorCode MeshFaceSet(DM dm, const char face[], PetscInt component, PetscReal value, Vec v)
 {

@@ -102,5 +102,6 @@ PETSC_INTERN PetscErrorCode VertexPlacesSumForces(const VertexPlaces *, Vec forc
   PetscReal sums[]);
 PETSC_INTERN PetscErrorCode VertexPlacesLargest(const VertexPlaces *, Vec v, PetscInt nbodies, PetscReal largest[]);
 PETSC_INTERN PetscErrorCode VertexPlacesDestroy(VertexPlaces *);
+PETSC_INTERN PetscErrorCode MeshGetBodyBoxes(DM, Vec u, PetscInt nbodies, PetscReal boxes[]);
 
 #endif

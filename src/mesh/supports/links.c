@@ -23,38 +23,22 @@ PetscErrorCode SupportGetPlaces(const Support *support, PetscInt n, const PetscI
   PetscFunctionReturn(0);
 }
 
-/* Collective. Computes the centre, and half of the largest side, of every body's bounding box [length] */
-PetscErrorCode SupportMeasureBodies(Support *support)
+/* Collective. Computes the centre, and half of the largest side, of every body's bounding box at the displacement u, a
+   global vector or NULL [length] */
+PetscErrorCode SupportMeasureBodies(Support *support, Vec u)
 {
-  MPI_Comm   comm = PetscObjectComm((PetscObject)support->dm);
-  PetscInt   cstart, cend;
-  PetscReal *bounds; /* for each body, the smallest x, y, z, -x, -y, -z [length] */
+  PetscReal *boxes;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(6 * support->nbodies, &bounds));
-  for (PetscInt i = 0; i < 6 * support->nbodies; ++i) bounds[i] = PETSC_MAX_REAL;
-  PetscCall(DMPlexGetHeightStratum(support->dm, 0, &cstart, &cend));
-  for (PetscInt c = cstart; c < cend; ++c) {
-    PetscInt  b, n, vertices[8];
-    PetscReal x[8][3];
+  PetscCall(PetscMalloc1(6 * support->nbodies, &boxes));
+  PetscCall(MeshGetBodyBoxes(support->dm, u, support->nbodies, boxes));
+  for (PetscInt i = 0; i < 3 * support->nbodies; ++i) {
+    const PetscReal lower = boxes[6 * (i / 3) + i % 3], upper = boxes[6 * (i / 3) + 3 + i % 3];
 
-    PetscCall(DMGetLabelValue(support->dm, MESH_BODY_LABEL, c, &b));
-    PetscCall(MeshGetCellCorners(support->dm, c, &n, vertices));
-    PetscCall(SupportGetPlaces(support, n, vertices, x));
-    for (PetscInt i = 0; i < 3 * n; ++i) {
-      bounds[6 * b + i % 3]     = PetscMin(bounds[6 * b + i % 3], x[i / 3][i % 3]);
-      bounds[6 * b + 3 + i % 3] = PetscMin(bounds[6 * b + 3 + i % 3], -x[i / 3][i % 3]);
-    }
+    support->center[i / 3][i % 3] = (lower + upper) / 2;
+    support->size[i / 3]          = PetscMax(support->size[i / 3], (upper - lower) / 2);
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, bounds, (PetscMPIInt)(6 * support->nbodies), MPIU_REAL, MPIU_MIN, comm));
-  for (PetscInt b = 0; b < support->nbodies; ++b) {
-    support->size[b] = 0;
-    for (PetscInt d = 0; d < 3; ++d) {
-      support->center[b][d] = (bounds[6 * b + d] - bounds[6 * b + 3 + d]) / 2;
-      support->size[b]      = PetscMax(support->size[b], -(bounds[6 * b + d] + bounds[6 * b + 3 + d]) / 2);
-    }
-  }
-  PetscCall(PetscFree(bounds));
+  PetscCall(PetscFree(boxes));
   PetscFunctionReturn(0);
 }
 

@@ -218,7 +218,7 @@ PetscErrorCode SupportCreate(DM dm, Scene scene, Vec u, SupportKind most, Suppor
   }
   PetscCall(PetscCalloc6(scene->nbodies, &support->center, scene->nbodies, &support->size, nlinks, &support->links,
     nlinks, &support->gram, scene->nbodies, &support->contact, scene->nbodies, &support->outside));
-  PetscCall(SupportMeasureBodies(support));
+  PetscCall(SupportMeasureBodies(support, u));
   PetscCall(SupportAddScene(support, scene, most));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, support->gram,
     (PetscMPIInt)(support->nlinks * SUPPORT_BLOCK * SUPPORT_BLOCK), MPIU_REAL, MPIU_SUM, comm));

@@ -43,7 +43,7 @@ typedef struct {
 /* links.c: positions of vertices; sizes of the bodies (collective); restraints as rows, which are added to the link
    that was begun last */
 PETSC_INTERN PetscErrorCode SupportGetPlaces(const Support *, PetscInt n, const PetscInt vertices[], PetscReal x[][3]);
-PETSC_INTERN PetscErrorCode SupportMeasureBodies(Support *);
+PETSC_INTERN PetscErrorCode SupportMeasureBodies(Support *, Vec u);
 PETSC_INTERN void           SupportBeginLink(Support *, PetscInt a, PetscInt b, SupportKind);
 PETSC_INTERN void SupportSetRow(const Support *, PetscInt b, const PetscReal direction[3], const PetscReal x[3],
   PetscReal sign, PetscReal row[6]);

@@ -10,7 +10,6 @@
 
 /* stiffness.c: chooses the storage of the stiffness matrix and attaches rigid body modes */
 PETSC_INTERN PetscErrorCode StiffnessSetType(Model);
-PETSC_INTERN PetscErrorCode StiffnessGetWhole(Model, MatType, Mat *);
 PETSC_INTERN PetscErrorCode StiffnessSetModes(Model, KSP, Mat);
 PETSC_INTERN PetscErrorCode StiffnessGiveMotions(Model, State, Tao);
 

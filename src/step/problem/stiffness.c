@@ -20,24 +20,6 @@ PetscErrorCode StiffnessSetType(Model model)
 }
 
 /*
-   Returns the stiffness matrix with both triangles. *K: model->K itself, or a copy of the given type if model->K stores
-   only the upper triangle.
-*/
-PetscErrorCode StiffnessGetWhole(Model model, MatType type, Mat *K)
-{
-  PetscBool half;
-
-  PetscFunctionBegin;
-  PetscCall(PetscObjectTypeCompare((PetscObject)model->K, MATSEQSBAIJ, &half));
-  if (half) PetscCall(MatConvert(model->K, type, MAT_INITIAL_MATRIX, K));
-  else {
-    PetscCall(PetscObjectReference((PetscObject)model->K));
-    *K = model->K;
-  }
-  PetscFunctionReturn(0);
-}
-
-/*
    Finds whether the preconditioner may use rigid body modes. BoomerAMG uses a near null space only with nodal
    coarsening, which an option of the user enables. This function looks the option up, because the AMG inside PCAMGF
    reads its options only at set-up, and PCHYPRE has no function that returns the setting.
