@@ -114,7 +114,7 @@ PetscErrorCode AMGFMumpsFactor(Mat A, const char prefix[], const AMGFSetting set
   PetscFunctionReturn(0);
 }
 
-/* Upper triangle of a sequential matrix: the arrays of compressed rows, and a matrix of type SBAIJ that uses them */
+/* Upper triangle of a sequential matrix: a matrix of type SBAIJ with block size 1, and its arrays if it is a copy */
 typedef struct {
   PetscInt    *i, *j;
   PetscScalar *a;
@@ -122,12 +122,12 @@ typedef struct {
 } FactorsUpper;
 
 /*
-   Copies the upper triangle with block size 1. This is the format of CHOLMOD. PETSc 3.18 would copy a matrix of type
-   AIJ itself, and would not free the copy if the factorization fails.
+   Gets the upper triangle with block size 1, which is a copy if A has another format. This is the format of CHOLMOD.
+   PETSc 3.18 would copy a matrix of type AIJ itself, and would not free the copy if the factorization fails.
 */
-static PetscErrorCode FactorsCopyUpper(Mat A, FactorsUpper *upper)
+static PetscErrorCode FactorsGetUpper(Mat A, FactorsUpper *upper)
 {
-  PetscInt           n, nc, nz = 0;
+  PetscInt           n, nc, size, nz = 0;
   const PetscInt    *columns;
   const PetscScalar *v;
   PetscBool          half;
@@ -135,6 +135,12 @@ static PetscErrorCode FactorsCopyUpper(Mat A, FactorsUpper *upper)
 
   PetscFunctionBegin;
   PetscCall(PetscObjectBaseTypeCompare((PetscObject)A, MATSEQSBAIJ, &half));
+  PetscCall(MatGetBlockSize(A, &size));
+  if (half && size == 1) {
+    PetscCall(PetscObjectReference((PetscObject)A));
+    *upper = (FactorsUpper){.U = A};
+    PetscFunctionReturn(0);
+  }
   if (half) PetscCall(MatGetRowUpperTriangular(A));
   PetscCall(MatGetSize(A, &n, NULL));
   PetscCall(MatGetInfo(A, MAT_LOCAL, &info));
@@ -199,7 +205,7 @@ static PetscErrorCode FactorsByCholmod(Mat A, const char prefix[], Mat *F, Petsc
   int            depth = 1;
 
   PetscFunctionBegin;
-  PetscCall(FactorsCopyUpper(A, &upper));
+  PetscCall(FactorsGetUpper(A, &upper));
   PetscCall(FactorsSetThreadDepth(0, &depth));
   if (!*F) PetscCall(FactorsAnalyse(upper.U, MATSOLVERCHOLMOD, prefix, cholmod_settings, 0, F, &error));
   PetscCall(MatFactorInfoInitialize(&info));
@@ -273,7 +279,7 @@ PetscErrorCode AMGFSymmetricFill(Mat A, const char prefix[], Mat *F, PetscReal *
   *fill = PETSC_INFINITY;
   PetscCall(FactorsFindSolvers(A, &cholmod, &mumps));
   if (!cholmod) PetscFunctionReturn(0);
-  PetscCall(FactorsCopyUpper(A, &upper));
+  PetscCall(FactorsGetUpper(A, &upper));
   PetscCall(FactorsAnalyse(upper.U, MATSOLVERCHOLMOD, prefix, cholmod_settings, 0, F, &error));
   PetscCall(MatGetInfo(upper.U, MAT_LOCAL, &matrix));
   PetscCall(MatGetInfo(*F, MAT_LOCAL, &factor));

@@ -22,35 +22,34 @@
 #include <petscblaslapack.h>
 
 struct _p_SubspaceBodies {
-  Tao           tao;
-  IPRecycle    *recycle; /* the preconditioner of K, and the directions */
-  Mat           K;
-  IS            W;
-  Mat           R, RW;                /* rows of the contacts: three for each contact of this rank; columns W of R */
-  Mat           S, SR;                /* S, and S R_W */
-  Mat           RI, SRK;              /* R_W above the unit matrix; S R_W above K_WW */
-  Mat           A, F;                 /* A_WW = RI^T SRK, and its factors */
-  KSP           coupling;             /* GMRES for the forces e of D - S */
-  Vec           e, off;               /* e, scaled (BodiesScale), and what is missing to it */
-  PetscBool     coupled;              /* whether D differs from S */
-  Vec           x, dx, r, Kx, Kdx, g; /* K x is kept beside x, K dx beside dx */
-  Vec           kept_x, kept_Kx;
-  Vec           first;     /* the residual of which a part is left out; NULL: none */
-  PetscReal     lacks;     /* that part */
-  PetscReal     load_norm; /* largest residual [2-norm] of the normal laws since the begin */
-  IPReduced     normal;    /* the problem of the normal laws, whose unknowns are those in W */
-  Mat           JW;        /* normal rows of R_W */
-  IS            places;    /* all unknowns of W by their number in W */
-  Vec           base, rhs; /* dx = base + what the subspace adds, for the right-hand side rhs of the latter */
-  Vec           on_W, dw0, load, rows;    /* work vectors on W; one with the entries of contacts */
-  PetscReal    *factored, *rest;          /* S of the factors F, and D - S */
-  PetscReal    *X, *schur, *factors, *dy; /* A_WW^-1 Q: columns on W; Schur complement in columns of length max; its
+  Tao             tao;
+  IPRecycle      *recycle; /* the preconditioner of K, and the directions */
+  Mat             K;
+  IS              W;
+  Mat             R, RW;                /* rows of the contacts: three for each contact of this rank; columns W of R */
+  InterfaceMatrix A;                    /* A_WW */
+  Mat             F;                    /* its factors */
+  KSP             coupling;             /* GMRES for the forces e of D - S */
+  Vec             e, off;               /* e, scaled (BodiesScale), and what is missing to it */
+  PetscBool       coupled;              /* whether D differs from S */
+  Vec             x, dx, r, Kx, Kdx, g; /* K x is kept beside x, K dx beside dx */
+  Vec             kept_x, kept_Kx;
+  Vec             first;     /* the residual of which a part is left out; NULL: none */
+  PetscReal       lacks;     /* that part */
+  PetscReal       load_norm; /* largest residual [2-norm] of the normal laws since the begin */
+  IPReduced       normal;    /* the problem of the normal laws, whose unknowns are those in W */
+  Mat             JW;        /* normal rows of R_W */
+  IS              places;    /* all unknowns of W by their number in W */
+  Vec             base, rhs; /* dx = base + what the subspace adds, for the right-hand side rhs of the latter */
+  Vec             on_W, dw0, load, rows;    /* work vectors on W; one with the entries of contacts */
+  PetscReal      *factored, *rest;          /* S of the factors F, and D - S */
+  PetscReal      *X, *schur, *factors, *dy; /* A_WW^-1 Q: columns on W; Schur complement in columns of length max; its
                                           factors */
-  PetscReal    *loads;                    /* loads of the first nloads directions in this solve */
-  PetscInt      nloads;
-  PetscInt      nX, generation; /* number of columns of X; generation of the directions that it belongs to */
-  PetscReal     enough;         /* residual [2-norm] that any solve may leave */
-  PetscBLASInt *pivots;
+  PetscReal      *loads;                    /* loads of the first nloads directions in this solve */
+  PetscInt        nloads;
+  PetscInt        nX, generation; /* number of columns of X; generation of the directions that it belongs to */
+  PetscReal       enough;         /* residual [2-norm] that any solve may leave */
+  PetscBLASInt   *pivots;
 };
 
 /* Copies a row of J or T to row 3 i + a of R, or counts its entries */
@@ -118,48 +117,12 @@ static PetscErrorCode BodiesCreateRows(Mat J, Mat T, PetscInt n, Mat *R)
   PetscFunctionReturn(0);
 }
 
-/* Creates S with a 3 x 3 block per contact, all of whose entries are stored */
-static PetscErrorCode BodiesCreateBlocks(Mat R, PetscInt n, Mat *S)
-{
-  PetscInt start;
-
-  PetscFunctionBegin;
-  PetscCall(
-    MatCreateAIJ(PetscObjectComm((PetscObject)R), 3 * n, 3 * n, PETSC_DETERMINE, PETSC_DETERMINE, 3, NULL, 0, NULL, S));
-  PetscCall(MatGetOwnershipRange(*S, &start, NULL));
-  for (PetscInt i = 0; i < n; i++) {
-    const PetscScalar ones[9] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
-    const PetscInt    r = start + 3 * i, rows[3] = {r, r + 1, r + 2};
-
-    PetscCall(MatSetValues(*S, 3, rows, 3, rows, ones, INSERT_VALUES));
-  }
-  PetscCall(MatAssemblyBegin(*S, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(*S, MAT_FINAL_ASSEMBLY));
-  PetscFunctionReturn(0);
-}
-
-/* Creates the unit matrix on W */
-static PetscErrorCode BodiesCreateUnit(IS W, Mat *unit)
-{
-  PetscInt n, start, end;
-
-  PetscFunctionBegin;
-  PetscCall(ISGetLocalSize(W, &n));
-  PetscCall(
-    MatCreateAIJ(PetscObjectComm((PetscObject)W), n, n, PETSC_DETERMINE, PETSC_DETERMINE, 1, NULL, 0, NULL, unit));
-  PetscCall(MatGetOwnershipRange(*unit, &start, &end));
-  for (PetscInt i = start; i < end; i++) PetscCall(MatSetValue(*unit, i, i, 1.0, INSERT_VALUES));
-  PetscCall(MatAssemblyBegin(*unit, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(*unit, MAT_FINAL_ASSEMBLY));
-  PetscFunctionReturn(0);
-}
-
-/* Extracts R_W and K_WW, and creates the matrices whose product is A_WW = K_WW + R_W^T S R_W */
-static PetscErrorCode BodiesCreateMatrices(SubspaceBodies b, PetscInt n)
+/* Extracts R_W and K_WW, and creates A_WW */
+static PetscErrorCode BodiesCreateMatrices(SubspaceBodies b)
 {
   PetscInt start, end;
   IS       all;
-  Mat      KWW, unit;
+  Mat      KWW;
 
   PetscFunctionBegin;
   PetscCall(MatGetOwnershipRange(b->R, &start, &end));
@@ -167,26 +130,21 @@ static PetscErrorCode BodiesCreateMatrices(SubspaceBodies b, PetscInt n)
   PetscCall(MatCreateSubMatrix(b->R, all, b->W, MAT_INITIAL_MATRIX, &b->RW));
   PetscCall(ISDestroy(&all));
   PetscCall(IPGatherStiffness(b->K, b->W, PETSC_FALSE, &KWW));
-  PetscCall(BodiesCreateUnit(b->W, &unit));
-  PetscCall(BodiesCreateBlocks(b->R, n, &b->S));
-  PetscCall(MatMatMult(b->S, b->RW, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &b->SR));
-  PetscCall(IPMatrixStack(b->RW, unit, MAT_INITIAL_MATRIX, &b->RI));
-  PetscCall(IPMatrixStack(b->SR, KWW, MAT_INITIAL_MATRIX, &b->SRK));
-  PetscCall(MatTransposeMatMult(b->RI, b->SRK, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &b->A));
+  PetscCall(InterfaceMatrixCreate(b->RW, KWW, &b->A));
   PetscCall(MatDestroy(&KWW));
-  PetscCall(MatDestroy(&unit));
   PetscFunctionReturn(0);
 }
 
 /* Destroys what depends on W */
 static PetscErrorCode BodiesDestroySpace(SubspaceBodies b)
 {
-  Mat *const matrices[] = {&b->RW, &b->S, &b->SR, &b->RI, &b->SRK, &b->A, &b->F, &b->JW};
+  Mat *const matrices[] = {&b->RW, &b->F, &b->JW};
   Vec *const vectors[]  = {&b->on_W, &b->dw0, &b->load, &b->rows, &b->e, &b->off};
 
   PetscFunctionBegin;
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(matrices); k++) PetscCall(MatDestroy(matrices[k]));
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(vectors); k++) PetscCall(VecDestroy(vectors[k]));
+  PetscCall(InterfaceMatrixDestroy(&b->A));
   PetscCall(ISDestroy(&b->W));
   PetscCall(ISDestroy(&b->places));
   PetscCall(IPReducedDestroy(&b->normal));
@@ -358,7 +316,7 @@ static PetscErrorCode BodiesCreateCoupling(SubspaceBodies b)
 }
 
 /* Creates what depends on W, the unknowns of the n contacts of this rank and perhaps others */
-static PetscErrorCode BodiesCreateSpace(SubspaceBodies b, IS W, PetscInt n)
+static PetscErrorCode BodiesCreateSpace(SubspaceBodies b, IS W)
 {
   const PetscInt max = b->recycle->basis.max;
   PetscInt       nw;
@@ -366,7 +324,7 @@ static PetscErrorCode BodiesCreateSpace(SubspaceBodies b, IS W, PetscInt n)
   PetscFunctionBegin;
   PetscCall(PetscObjectReference((PetscObject)W));
   b->W = W;
-  PetscCall(BodiesCreateMatrices(b, n));
+  PetscCall(BodiesCreateMatrices(b));
   PetscCall(MatCreateVecs(b->RW, &b->on_W, &b->rows));
   PetscCall(VecDuplicate(b->on_W, &b->dw0));
   PetscCall(VecDuplicate(b->on_W, &b->load));
@@ -419,7 +377,7 @@ PetscErrorCode SubspaceBodiesCreate(Tao tao, IPRecycle *recycle, IS W, PetscInt 
   b->recycle = recycle;
   b->K       = ip->hess->H;
   PetscCall(BodiesCreateRows(ip->jac->inequality, ip->terms->T, n, &b->R));
-  PetscCall(BodiesCreateSpace(b, W, n));
+  PetscCall(BodiesCreateSpace(b, W));
   PetscCall(PetscMalloc2(9 * n, &b->factored, 9 * n, &b->rest));
   PetscCall(PetscArraycpy(like_x,
     ((Vec *[]){&b->x, &b->dx, &b->r, &b->Kx, &b->Kdx, &b->kept_x, &b->kept_Kx, &b->base, &b->rhs}), 9));
@@ -547,29 +505,6 @@ static PetscErrorCode BodiesResidual(void *data, const PetscReal f[], PetscReal 
   PetscFunctionReturn(0);
 }
 
-/* Sets the values of S and A_WW */
-static PetscErrorCode BodiesAssemble(SubspaceBodies b, const PetscReal S[])
-{
-  PetscInt start, end, first, count;
-
-  PetscFunctionBegin;
-  PetscCall(MatGetOwnershipRange(b->S, &start, &end));
-  for (PetscInt r = start; r < end; r += 3) {
-    const PetscInt rows[3] = {r, r + 1, r + 2};
-
-    PetscCall(MatSetValues(b->S, 3, rows, 3, rows, S + 3 * (r - start), INSERT_VALUES));
-  }
-  PetscCall(MatAssemblyBegin(b->S, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(b->S, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatMatMult(b->S, b->RW, MAT_REUSE_MATRIX, PETSC_DEFAULT, &b->SR));
-  PetscCall(MatGetOwnershipRange(b->SRK, &first, NULL));
-  for (PetscInt r = start; r < end; r++) PetscCall(BodiesCopyRow(b->SR, r, b->SRK, first + r - start, &count));
-  PetscCall(MatAssemblyBegin(b->SRK, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(b->SRK, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatTransposeMatMult(b->RI, b->SRK, MAT_REUSE_MATRIX, PETSC_DEFAULT, &b->A));
-  PetscFunctionReturn(0);
-}
-
 /* Finds whether the factors are those of an S that differs from the given one by a small fraction in each contact */
 static PetscErrorCode BodiesAreFactored(const SubspaceBodies b, const PetscReal S[], PetscBool *factored)
 {
@@ -601,8 +536,8 @@ static PetscErrorCode BodiesFactor(SubspaceBodies b, const PetscReal S[], PetscB
 
   PetscFunctionBegin;
   PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
-  PetscCall(BodiesAssemble(b, S));
-  PetscCall(AMGFSymmetricFactor(b->A, NULL, &b->F, &negative, &error));
+  PetscCall(InterfaceMatrixAssemble(b->A, S));
+  PetscCall(AMGFSymmetricFactor(InterfaceMatrixGet(b->A), NULL, &b->F, &negative, &error));
   *factored = (PetscBool)(error == MAT_FACTOR_NOERROR);
   if (!*factored) PetscCall(MatDestroy(&b->F));
   PetscCall(VecGetLocalSize(b->rows, &n));
@@ -866,7 +801,7 @@ static PetscErrorCode BodiesWiden(SubspaceBodies b, PetscBool *prepared)
   PetscCall(IPBasisDropOldest(&b->recycle->basis, b->recycle->basis.n));
   PetscCall(IPBasisUpdate(&b->recycle->basis, b->K, PETSC_FALSE, ((TAO_IPFILTER *)b->tao->data)->fixed, f->W));
   PetscCall(BodiesDestroySpace(b));
-  PetscCall(BodiesCreateSpace(b, f->W, n / 3));
+  PetscCall(BodiesCreateSpace(b, f->W));
   PetscCall(PetscMalloc1(3 * n, &S));
   PetscCall(PetscArraycpy(S, b->factored, 3 * n));
   PetscCall(BodiesFactor(b, S, prepared));
@@ -945,8 +880,8 @@ static PetscErrorCode BodiesSetUpNormal(SubspaceBodies b, const PetscReal own[],
   }
   PetscCall(VecGetLocalSize(gaps, &end));
   PetscCall(VecCreateMPIWithArray(PetscObjectComm((PetscObject)gaps), 1, end, PETSC_DETERMINE, own, &compliance));
-  PetscCall(
-    IPReducedSetUp(&b->normal, b->A, b->JW, compliance, b->places, b->W, b->x, gaps, &b->recycle->basis, definite));
+  PetscCall(IPReducedSetUp(&b->normal, InterfaceMatrixGet(b->A), b->JW, compliance, b->places, b->W, b->x, gaps,
+    &b->recycle->basis, definite));
   PetscCall(VecDestroy(&compliance));
   PetscFunctionReturn(0);
 }
@@ -1096,7 +1031,7 @@ static PetscErrorCode BodiesSolveNormal(void *data, const PetscReal own[], const
   PetscCall(BodiesSpread(b, df, PETSC_FALSE, b->rhs));
   PetscCall(VecAYPX(b->rhs, -1.0, b->r));
   PetscCall(IPFixedZero(b->tao, b->rhs));
-  PetscCall(BodiesAssemble(b, D));
+  PetscCall(InterfaceMatrixAssemble(b->A, D));
   PetscCall(BodiesSetUpNormal(b, own, gaps, solved));
   if (*solved) PetscCall(BodiesIterateNormal(b, D, gaps, force, solved));
   if (*solved) PetscCall(BodiesGetChanges(b, own, D, s, f, force, du, df));

@@ -177,10 +177,13 @@ static PetscErrorCode ErrorBoundFirst(Tao tao, PetscReal terms)
 
 /*
    Raises the magnitude of an objective that is not quadratic such that the energy of rounding errors is negligible:
-   that of the unknowns, and the work of the forces of constraints on the rounding errors of the constraints
+   that of the unknowns, and the work of the forces of constraints on the rounding errors of the constraints. Rounding
+   errors of unknowns change a force by the sum of a row's entries, and this force moves its unknown by the ratio of
+   that sum to the diagonal entry.
 */
 static PetscErrorCode ErrorBoundRounding(Tao tao, PetscReal *energy)
 {
+  const PetscReal row      = 8.0; /* sum of the entries of a row, by the diagonal one: trilinear cells */
   TAO_IPFILTER   *ip       = (TAO_IPFILTER *)tao->data;
   const PetscReal rounding = ip->given->rounding;
   PetscReal       stiffness, forces = 0.0;
@@ -189,8 +192,8 @@ static PetscErrorCode ErrorBoundRounding(Tao tao, PetscReal *energy)
   if (rounding == 0.0) PetscFunctionReturn(0);
   PetscCall(VecNorm(ip->stiff->hdiag, NORM_1, &stiffness));
   if (ip->mi) PetscCall(ErrorBoundProduct(ip->at.lambda, ip->pair[IP_SLACK].w, &forces));
-  *energy =
-    PetscMax(*energy, (stiffness * rounding + forces * ip->first->jacobian) * rounding / (IP_BOUND_MULTIPLE * ip->tol));
+  *energy = PetscMax(*energy,
+    (PetscSqr(row) * stiffness * rounding + forces * ip->first->jacobian) * rounding / (IP_BOUND_MULTIPLE * ip->tol));
   PetscFunctionReturn(0);
 }
 
