@@ -1,7 +1,7 @@
 """Decks of decks_ccx.sh, and what their results must be: python decks_ccx.py write|judge."""
 import sys
 
-from decks import DECKS, step
+from decks import DECKS, rigid, step
 from summaries import load, say
 
 # A cube: its corners, and the numbers of the corners of its edges, in the order of CalculiX's cell of 20 nodes
@@ -34,6 +34,9 @@ REDUCED = cube(("*ELASTIC", "1000., 0."), step("*BOUNDARY", "Nall, 2, 3",
                                                *(f"{n}, 1, 1, {0.01 * x * x * y}"
                                                  for n, (x, y, _) in enumerate(PLACES, 101)), "*EL FILE", "E",
                                                "*EL PRINT, ELSET=Eall", "S"))
+
+# bent by M L / (E I); node 17 is above the end by half of the length
+RIGID = rigid("*CLOAD\n18, 2, 1.E-4\n*NSET, NSET=ends\n17, 18\n*NODE PRINT, NSET=ends\nU, RF")
 
 
 def blocks(name):
@@ -84,6 +87,9 @@ def judge():
     rows = table("order2")
     close("order2: displacement in the file .dat", [rows[-20][3], rows[-1][3]], [0, -0.01])
     close("order2: total force in the file .dat", rows[-21], [0, 0, stress])
+    turn, rows = 1e-4 * 2 * 12 / 1000, table("rigid")
+    close("rigid: displacement and rotation of its nodes", rows[0] + rows[1], [17, 2 * turn, 0, 0, 18, 0, turn, 0])
+    close("rigid: rotation", rows[1][1:], [0, turn, 0])
     x = [0.5 - 0.75**0.5 / 3, 0.5 + 0.75**0.5 / 3]
     close("reduced: stress in the file .dat", sum(table("reduced")[:8], []),
           sum(([7, k + 1, 20 * x[k % 2] * x[k // 2 % 2], 0, 0, 5 * x[k % 2]**2, 0, 0] for k in range(8)), []))
@@ -91,7 +97,8 @@ def judge():
 
 if __name__ == "__main__":
     if sys.argv[1] == "write":
-        for key, text in (("pressure", DECKS["pressure"][0]), ("order2", ORDER2), ("reduced", REDUCED)):
+        for key, text in (("pressure", DECKS["pressure"][0]), ("order2", ORDER2), ("reduced", REDUCED),
+                          ("rigid", RIGID)):
             with open(key + ".inp", "w") as out:
                 out.write(text)
     else:

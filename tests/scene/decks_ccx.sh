@@ -9,6 +9,7 @@ ccx -i pressure -summary mine.json
 cmp mine.json pressure_deck.json
 ccx order2.inp -deck_ignore FREQUENCY
 ccx -i reduced
+ccx -i rigid
 "$PYTHON" -B "$AMGF_DIR/tests/scene/decks_ccx.py" judge
 grep -E '^ (-4|-5|-3)|1PSTEP|100C|^    [23]C' order2.frd
 grep -vE '^ *-?[0-9]' order2.dat

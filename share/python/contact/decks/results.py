@@ -150,6 +150,7 @@ class Results:
 
     def write_dat(self, path):
         times, number_of = self.times(), dict(zip(self.nodes.tolist(), self.numbers()))
+        number_of.update((node, self.geometry.node_numbers[node]) for node in self.deck.rotations)
         with open(path, "w", encoding="ascii", errors="replace") as file:
             for step in self.run.steps:
                 at, _, time = times[step]
@@ -169,11 +170,27 @@ class Results:
                         file.write(f"\n total force (fx,fy,fz) {place}{'':6}" + printed(values[nodes].sum(axis=0)))
 
     def node_values(self, step, word):
-        """Displacements (U) or reactions (RF) at the nodes of the deck"""
+        """Displacements (U) or reactions (RF) at the nodes of the deck; of rigid bodies also rotations and moments"""
         if word == "U":
-            return self.run.displacement(step)[self.vertex]
-        with h5py.File(self.run.files.files[step], "r") as file:
-            return self.reactions(file["reaction"][:])
+            values = self.run.displacement(step)[self.vertex]
+        else:
+            with h5py.File(self.run.files.files[step], "r") as file:
+                values = self.reactions(file["reaction"][:])
+        for number, (_, _, reference) in enumerate(self.deck.rigid, 1):
+            linear, angular = self.rigid_values(step, word, f"rigid_{number}", self.geometry.points[reference])
+            for node, other in self.deck.rotations.items():
+                if other == reference:
+                    values[node] = linear if node == reference else angular
+        return values
+
+    def rigid_values(self, step, word, name, point):
+        """Displacement of the reference node and rotation of a rigid body, or reaction and moment about this node"""
+        summary = next(one for one in self.run.summary["steps"] if one["step"] == step)
+        place = next(body for body in summary["rigid_bodies"] if body["name"] == name)
+        if word == "U":
+            return np.array(place["position"]) - point, np.radians(place["rotation"])
+        face = next(face for face in summary["faces"] if face["name"] == name + ".*")
+        return face["reaction"], face["moment"] - np.cross(place["position"], face["reaction"])
 
     def stress_rows(self, step, cells):
         with h5py.File(self.run.files.files[step], "r") as file:
