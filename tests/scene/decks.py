@@ -81,6 +81,7 @@ def rigid(*cards, joint="*RIGID BODY, NSET=top, REF NODE=17, ROT NODE=18"):
     return deck(step(*cards), pair="", hold="*BOUNDARY\nfoot, 1, 3", mesh=mesh, more=joint)
 
 
+DISTRIBUTING = "*SURFACE, NAME=head\n2, S2\n*COUPLING, REF NODE=17, SURFACE=head\n*DISTRIBUTING\n1, 6"
 PARTS = """*PART, NAME=Cube
 *NODE
 """ + "\n".join(cubes().splitlines()[1:9]) + """
@@ -260,6 +261,7 @@ DECKS = {
     "rigid_moment": (rigid("*CLOAD\n18, 2, 0.1"), {"energy": 0.1**2 * 2 / 2 * 12 / 1000}),
     "coupling": (rigid("*CLOAD\n17, 5, 0.1", joint="*SURFACE, NAME=head\n2, S2\n*COUPLING, CONSTRAINT NAME=C, "
                        "REF NODE=17, SURFACE=head\n*KINEMATIC\n1, 3"), {"as": "rigid_moment"}),
+    "distributing": (rigid("*CLOAD\n17, 5, 0.1\n17, 3, -10.", joint=DISTRIBUTING), {"energy": 0.10012, "reaction": 10}),
     # the assembly's sets `foot` and `under` are unlike those of the part
     "parts": (PARTS, {"reaction": 10}),
     "left_out": (deck(step(PRESS), step(procedure="*FREQUENCY\n10")), {"energy": 0.1}),
@@ -269,6 +271,7 @@ REFUSED = {
     "keyword": deck(step(PRESS), more="*MPC\nPLANE, 1, 2, 3"),
     "terms": deck(step(PRESS), more="*EQUATION\n3\n1, 3, 1., 2, 3, -1., 3, 3, 2."),
     "rigid": deck(step(PRESS), more="*RIGID BODY, NSET=two, REF NODE=1", mesh=MESH + "\n*NSET, NSET=two\n13, 14"),
+    "distributed": rigid("*BOUNDARY\n17, 3, 3, -0.1", joint=DISTRIBUTING),
     "shell": deck(step(PRESS), mesh=MESH + "\n*ELEMENT, TYPE=S4\n3, 1, 2, 3, 4"),
     "heat": deck(step(procedure="*HEAT TRANSFER")),
     "two": deck(step(PRESS), more="*SPRING\n1, 3\n*MPC\nPLANE, 1, 2, 3"),

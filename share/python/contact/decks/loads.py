@@ -22,7 +22,7 @@ def sections(deck, bodies, mesh_file):
     contact, ties = contact_entries(deck, bodies)  # first, so that faces have the names of the deck's surfaces
     found["equations"] = equation_entries(deck, bodies)
     found["displacements"], found["symmetry"] = displacement_entries(deck, bodies)
-    found["forces"] = force_entries(deck, bodies)
+    found["forces"] = force_entries(deck, bodies) + distributed_entries(deck, bodies)
     found["pressures"] = pressure_entries(deck, bodies, laws)
     found["body_forces"] = gravity_entries(deck, bodies, laws)
     found["temperatures"] = temperature_entries(deck, laws)
@@ -355,6 +355,21 @@ def rigid_entries(deck, bodies, mesh_file):
         for ramp, six in motions(deck, deck.forces, reference, 0.0):
             keys = {"body": name, "value": six[:3], "moment": six[3:], "point": point}
             found["forces"].append((f"{name}_{ramp or 'load'}", {**keys, **({"ramp": ramp} if ramp else {})}))
+    return found
+
+
+def distributed_entries(deck, bodies):
+    """Forces and moments on the nodes of *DISTRIBUTING, as tractions"""
+    found = []
+    for where, sides, reference in deck.distributed:
+        faces = bodies.add_face(f"coupled_{len(found) + 1}", sides)
+        if len(faces) != 1 or any((reference, axis) in deck.displacements.values for axis in range(6)):
+            deck.notes.refuse("DISTRIBUTING", where, "only forces on a surface of one body are distributed")
+            continue
+        for ramp, six in motions(deck, deck.forces, reference, 0.0):
+            keys = {"face": f"{bodies.names[faces[0][0]]}.{faces[0][1]}", "value": six[:3], "moment": six[3:]}
+            keys["point"] = deck.geometry.points[reference]
+            found.append((f"coupled_{len(found) + 1}", {**keys, **({"ramp": ramp} if ramp else {})}))
     return found
 
 

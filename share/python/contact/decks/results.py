@@ -150,7 +150,9 @@ class Results:
 
     def write_dat(self, path):
         times, number_of = self.times(), dict(zip(self.nodes.tolist(), self.numbers()))
-        number_of.update((node, self.geometry.node_numbers[node]) for node in self.deck.rotations)
+        rigid = {reference for _, reference in self.rigid()}
+        number_of.update((node, self.geometry.node_numbers[node])
+                         for node, reference in self.deck.rotations.items() if reference in rigid)
         with open(path, "w", encoding="ascii", errors="replace") as file:
             for step in self.run.steps:
                 at, _, time = times[step]
@@ -176,12 +178,17 @@ class Results:
         else:
             with h5py.File(self.run.files.files[step], "r") as file:
                 values = self.reactions(file["reaction"][:])
-        for number, (_, _, reference) in enumerate(self.deck.rigid, 1):
-            linear, angular = self.rigid_values(step, word, f"rigid_{number}", self.geometry.points[reference])
+        for name, reference in self.rigid():
+            linear, angular = self.rigid_values(step, word, name, self.geometry.points[reference])
             for node, other in self.deck.rotations.items():
                 if other == reference:
                     values[node] = linear if node == reference else angular
         return values
+
+    def rigid(self):
+        """[(name, reference node)] of the rigid bodies"""
+        named = ((f"rigid_{number}", reference) for number, (_, _, reference) in enumerate(self.deck.rigid, 1))
+        return [(name, reference) for name, reference in named if name in self.bodies.rigid]
 
     def rigid_values(self, step, word, name, point):
         """Displacement of the reference node and rotation of a rigid body, or reaction and moment about this node"""

@@ -43,8 +43,8 @@ PARAMETERS = {
     "TIE": {"NAME", "POSITION TOLERANCE", "CYCLIC SYMMETRY", "ADJUST", "TYPE", "NO ROTATION"},
     "CYCLIC SYMMETRY MODEL": {"N", "NGRAPH", "TIE", "ELSET"},
     "RIGID BODY": {"NSET", "TIE NSET", "ELSET", "REF NODE", "ROT NODE"},
-    "COUPLING": {"CONSTRAINT NAME", "REF NODE", "SURFACE"}, "KINEMATIC": set(), "EQUATION": set(),
-    "CLEARANCE": {"MASTER", "SLAVE", "VALUE"}, "TRANSFORM": {"NSET", "TYPE"},
+    "COUPLING": {"CONSTRAINT NAME", "REF NODE", "SURFACE"}, "KINEMATIC": set(), "DISTRIBUTING": set(),
+    "EQUATION": set(), "CLEARANCE": {"MASTER", "SLAVE", "VALUE"}, "TRANSFORM": {"NSET", "TYPE"},
     "AMPLITUDE": {"NAME", "TIME", "DEFINITION"}, "ORIENTATION": {"NAME", "SYSTEM", "DEFINITION"},
     "INITIAL CONDITIONS": {"TYPE"}, "MODEL CHANGE": {"TYPE", "ADD", "REMOVE"}, "CHANGE FRICTION": {"INTERACTION"}
 }
@@ -83,7 +83,7 @@ class Translator:
         self.active, self.steps, self.prints, self.printed = {}, [], {}, {}
         self.strains = False  # whether the file .frd has strains
         self.material = self.interaction = None
-        self.coupling = {}  # parameters of the last *COUPLING
+        self.coupling, self.distributed = {}, []  # parameters of the last *COUPLING; [(where, sides, reference node)]
         self.part, self.starting = "", []
         model, steps = self.split(blocks)
         self.finite = any("NLGEOM" in keys and keys["NLGEOM"].upper() != "NO" for _, keys, _ in steps)
@@ -321,6 +321,12 @@ class Translator:
             node for cell, side in sides for node in self.geometry.side_nodes(cell, side)
         ]
         self.add_rigid(where, nodes, self.coupling)
+
+    def read_distributing(self, where, *_):
+        """*COUPLING with *DISTRIBUTING: a surface on which the forces on a node are distributed"""
+        reference = self.geometry.nodes_of(where, self.coupling.get("REF NODE", ""))[0]
+        self.distributed.append((where, self.surface(where, self.coupling.get("SURFACE", "")), reference))
+        self.rotations[reference] = reference
 
     def add_rigid(self, where, nodes, parameters):
         """Nodes that move as a rigid body with a reference node"""
