@@ -358,7 +358,7 @@ static PetscErrorCode EquilibriumReport(Model model, const FreeMotions *m, Conta
     cone->rows[CONE_NEAR].slip ? "friction does not hold the bodies"
     : model->contact           ? "contact does not hold the bodies"
                                : "nothing holds the bodies"));
-  PetscCall(RigidMotionReport(model, w, report));
+  PetscCall(RigidMotionReport(model, w, "nothing stops it", NULL, report));
   PetscCall(VecDestroy(&w));
   PetscFunctionReturn(0);
 }

@@ -72,7 +72,8 @@ static PetscErrorCode RigidFitFind(Model model, Vec u, PetscInt b, PetscReal dis
    translates, and only the distance if it deforms by more than a tenth of its motion. distance: largest displacement
    [length]
 */
-static PetscErrorCode RigidFitDescribe(const RigidFit *fit, PetscReal distance, char text[], size_t length)
+static PetscErrorCode RigidFitDescribe(const RigidFit *fit, PetscReal distance, char text[], size_t length,
+  PetscBool *turns)
 {
   const PetscReal  part = 0.1; /* smallest relative deformation that is mentioned */
   const PetscReal  near = 0.2; /* A cube turns if the axis is not farther from its middle than two of its edges. */
@@ -81,11 +82,13 @@ static PetscErrorCode RigidFitDescribe(const RigidFit *fit, PetscReal distance, 
   MeshRotation     rotation;
 
   PetscFunctionBegin;
+  *turns = PETSC_FALSE;
   if (!(fit->residual <= part)) {
     PetscCall(PetscSNPrintf(text, length, "moves the farthest, by %g", (double)distance));
     PetscFunctionReturn(0);
   }
-  if (fit->turned > near * VectorNorm(t)) {
+  *turns = (PetscBool)(fit->turned > near * VectorNorm(t));
+  if (*turns) {
     rotation = (MeshRotation){.axis = {w[0], w[1], w[2]}, .size = fit->turned / VectorNorm(w)};
     VectorCross(w, t, arm);
     for (PetscInt i = 0; i < 3; ++i) rotation.point[i] = fit->motion.center[i] + arm[i] / VectorDot(w, w);
@@ -101,16 +104,17 @@ static PetscErrorCode RigidFitDescribe(const RigidFit *fit, PetscReal distance, 
 }
 
 /*
-   Appends a description of the body with the largest displacement, which nothing stops, to the reason of a failed step.
-   Collective.
+   Appends a description of the body with the largest displacement, and the text `known`, to the reason of a failed
+   step; and the text `turning`, if it is not NULL and the body turns. Collective.
 */
-PetscErrorCode RigidMotionReport(Model model, Vec u, StepReport *report)
+PetscErrorCode RigidMotionReport(Model model, Vec u, const char known[], const char turning[], StepReport *report)
 {
   const PetscInt nbodies = model->scene->nbodies;
   RigidFit       fit;
   PetscReal     *largest, distance;
   PetscInt       body = 0;
   char           motion[256];
+  PetscBool      turns;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(nbodies, &largest));
@@ -119,8 +123,8 @@ PetscErrorCode RigidMotionReport(Model model, Vec u, StepReport *report)
   distance = largest[body];
   PetscCall(PetscFree(largest));
   PetscCall(RigidFitFind(model, u, body, distance, &fit));
-  PetscCall(RigidFitDescribe(&fit, distance, motion, sizeof(motion)));
-  PetscCall(ReportReason(report, PETSC_FALSE, "%s; body \"%s\" %s: nothing stops it", report->reason,
-    model->scene->bodies[body].name, motion));
+  PetscCall(RigidFitDescribe(&fit, distance, motion, sizeof(motion), &turns));
+  PetscCall(ReportReason(report, PETSC_FALSE, "%s; body \"%s\" %s: %s%s", report->reason,
+    model->scene->bodies[body].name, motion, known, turns && turning ? turning : ""));
   PetscFunctionReturn(0);
 }

@@ -51,7 +51,7 @@ PETSC_INTERN PetscErrorCode FrictionSettle(Model, State, PetscReal time, Vec u, 
 PETSC_INTERN PetscErrorCode FrictionRecall(ContactHistory *);
 
 /* diagnose_rigid_motion.c */
-PETSC_INTERN PetscErrorCode RigidMotionReport(Model, Vec u, StepReport *);
+PETSC_INTERN PetscErrorCode RigidMotionReport(Model, Vec u, const char known[], const char turning[], StepReport *);
 
 /* free_motions.c: rigid motions of all bodies that no prescribed displacement, spring or tie resists */
 typedef struct {

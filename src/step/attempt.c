@@ -68,12 +68,12 @@ static PetscErrorCode AttemptCountUnsupported(const StepProblem *p, const StepRe
   PetscBool still;
 
   PetscFunctionBegin;
-  if (report->converged || !p->unsupported) {
+  if (report->converged || (!p->unsupported && !p->moves_on)) {
     p->state->control->unsupported = 0;
     PetscFunctionReturn(0);
   }
   PetscCall(VecEqual(p->base, p->state->path->u, &still));
-  p->state->control->unsupported += still ? 2 : 1;
+  p->state->control->unsupported += still && p->unsupported ? 2 : 1;
   if (!p->state->control->cause) PetscCall(PetscStrallocpy(report->reason, &p->state->control->cause));
   PetscFunctionReturn(0);
 }

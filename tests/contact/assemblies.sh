@@ -44,10 +44,10 @@ for name in named ramp; do "$contact" $name.yaml -quiet 2>&1; done
 "$contact" links.yaml -scene_check > links.out 2>&1
 echo "links that touch: exit code $?"
 "$PYTHON" -B "$AMGF_DIR/tests/contact/chain.py" chain.inp 0 20 0.1
-# The middle link is loose: rounding errors decide whether it penetrates another one without force, slips away or turns
-# far. The run names it in any case.
+# The middle link is loose: rounding errors decide whether it penetrates another one without force or slips away. The
+# run names either.
 "$contact" chain.yaml -quiet 2>&1 |
-  grep -q 'pair "link[12]_link[01]" carries no force, although a point\|body "link1" \(slips away\|is rotated by\)' &&
+  grep -q 'pair "link[12]_link[01]" carries no force, although a point\|body "link1" slips away' &&
   echo 'loose link: named'
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'CHECK'
 from summaries import load, say, within

@@ -60,7 +60,7 @@ else:
     say(
         "mortar, 6 cells, 0.495: the advice",
         load("mortar_6_495")["reason"].endswith(
-            "; if a body should stand near the edge of a face, use gap: dual"),
+            "it does not come to rest; if it should stand near the edge of a face, use gap: dual"),
         load("mortar_6_495")["reason"])
     say("mortar, 6 cells, 0.505: the sentence", "nothing stops it" in load("mortar_6_505")["reason"],
         load("mortar_6_505")["reason"])

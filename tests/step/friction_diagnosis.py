@@ -110,5 +110,6 @@ else:
             and moves(step, named, how, "nothing stops it"), step["reason"])
         say(f"{name}: said at once", step["cuts"] == 0, step["cuts"])
     step = load("driven")["steps"][-1]
-    say("driven: what may be the cause", "possible causes: friction cannot hold a body" in step["reason"]
-        and "nothing stops it" not in step["reason"], step["reason"])
+    say(
+        "driven: which body moves, and how", step["reason"].startswith("no equilibrium was found")
+        and moves(step, "bar", "moves away along (-1., 0., 0.)", "it does not come to rest"), step["reason"])

@@ -34,20 +34,17 @@ static PetscErrorCode OptimizerReportOurs(Tao tao, const PCAMGFCounts *before, S
 /* Explains a failed solve: reports the bodies that contact cannot hold, or otherwise a list of likely causes. */
 static PetscErrorCode OptimizerDiagnose(StepProblem *p, StepReport *report)
 {
-  const Scene scene = p->model->scene;
-  char       *unbounded;
-  PetscBool   mortar = PETSC_FALSE;
+  char *unbounded;
 
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < scene->npairs; ++k) mortar = (PetscBool)(mortar || scene->pairs[k].gap == GAP_MORTAR);
   PetscCall(StepProblemForesee(p, report));
   if (p->unsupported) PetscFunctionReturn(0);
   PetscCall(PetscStrstr(report->reason, "unbounded", &unbounded));
   if (unbounded) PetscCall(ReportReason(report, PETSC_FALSE, "no equilibrium was found: %s", report->reason));
   if (p->friction.T)
     PetscCall(ReportReason(report, PETSC_FALSE,
-      "%s; possible causes: friction cannot hold a body, a body tips over, or a large coefficient wedges it%s",
-      report->reason, mortar ? "; if a body should stand near the edge of a face, use gap: dual" : ""));
+      "%s; possible causes: friction cannot hold a body, a body tips over, or a large coefficient wedges it",
+      report->reason));
   PetscFunctionReturn(0);
 }
 

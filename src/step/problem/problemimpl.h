@@ -78,6 +78,9 @@ typedef struct {
   PetscBool  unsupported;      /* true if it is proven that contact cannot hold the loads with the bodies in
                                         the positions of the last state */
   PetscBool  foreseen;         /* true if this was tested */
+  PetscBool  moves_on;         /* true if a body that only friction holds did not come to rest in any solve */
+  char      *failed;           /* reason for which the solve before the proximal term was added failed; NULL:
+                                        no such failure */
   PetscBool  holds_weak;       /* true if the proximal term holds bodies on weak springs */
   PetscReal *weak_modulus;     /* modulus of this term of each body, see SpringsDistribute(); NULL: no such term */
   PetscBool  glides;           /* true if this term holds a body in a motion that no contact resists */
@@ -138,9 +141,10 @@ PETSC_INTERN PetscErrorCode FollowersAdvanceMean(StepProblem *, Vec u, PetscInt 
   PetscBool *again);
 PETSC_INTERN PetscErrorCode FollowersAdvance(StepProblem *, Vec u, PetscInt nsolves, StepReport *, PetscBool *again);
 
-/* proximal.c: proximal term of bodies that only contact or weak springs hold */
+/* proximal.c: proximal term of bodies that only contact, friction or weak springs hold */
 PETSC_INTERN PetscErrorCode ProximalBegin(StepProblem *);
 PETSC_INTERN PetscErrorCode ProximalTurn(StepProblem *, Vec u);
+PETSC_INTERN PetscErrorCode ProximalRescue(StepProblem *, Vec u, StepReport *, PetscBool *again);
 PETSC_INTERN PetscErrorCode ProximalLinearize(StepProblem *, Vec u_linearized);
 PETSC_INTERN PetscErrorCode ProximalMeasure(StepProblem *, Vec u, PetscReal *fraction);
 PETSC_INTERN PetscErrorCode ProximalAddStiffness(const StepProblem *, Mat);

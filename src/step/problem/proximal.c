@@ -1,8 +1,10 @@
 /*
-   Proximal point method for bodies that only contact holds. The rigid body motions of such a body have no stiffness,
-   but the solvers need a positive definite stiffness. Therefore 1/2 (x - centre)^T proximal (x - centre) is added to
-   the energy, with a small diagonal matrix `proximal`. The centre moves to each solution until this term exerts no
-   force. The convergence rate is the ratio of `proximal` to the stiffness of whatever holds the bodies.
+   Proximal point method for bodies that only contact or friction holds. The rigid body motions of such a body have no
+   stiffness, but the solvers need a positive definite stiffness. Therefore 1/2 (x - centre)^T proximal (x - centre) is
+   added to the energy, with a small diagonal matrix `proximal`. The centre moves to each solution until this term
+   exerts no force. The convergence rate is the ratio of `proximal` to the stiffness of whatever holds the bodies.
+
+     All bodies get this term if only friction holds an elastic body and the first solve failed.
 
      Bodies on weak springs get this term in frictionless contact that is updated. A linearized gap does not resist
      motions that the true gap resists with the contact force divided by a radius, such as the rotation of a pin in a
@@ -20,6 +22,9 @@
 */
 static const PetscInt  patience = 5;
 static const PetscReal stuck    = 0.9;
+
+/* stiffness of the term after a failed solve with friction, divided by that of the bodies */
+static const PetscReal friction_stiffness = 1e-4;
 
 /* growth of the forces on the bodies that gives the term a new stiffness; the number of contact updates is the same for
    stiffnesses that differ by this factor */
@@ -53,11 +58,14 @@ static PetscErrorCode ProximalCentre(StepProblem *p, Vec x)
   PetscFunctionReturn(0);
 }
 
-/* Adds `proximal` to K for bodies on weak springs. For rigid bodies the tangent already contains this stiffness. */
+/*
+   Adds `proximal` to K after a failed solve, or for bodies on weak springs. For rigid bodies the tangent already
+   contains this stiffness.
+*/
 PetscErrorCode ProximalAddStiffness(const StepProblem *p, Mat K)
 {
   PetscFunctionBegin;
-  if (p->holds_weak) PetscCall(MatDiagonalSet(K, p->proximal, ADD_VALUES));
+  if (p->failed || p->holds_weak) PetscCall(MatDiagonalSet(K, p->proximal, ADD_VALUES));
   PetscFunctionReturn(0);
 }
 
@@ -92,14 +100,15 @@ static PetscErrorCode ProximalGetWeakModulus(const StepProblem *p, Vec u, PetscR
   PetscFunctionReturn(0);
 }
 
-/* Adds the proximal term of bodies on weak springs, with the centre at p->base. modulus: see SpringsDistribute() */
-static PetscErrorCode ProximalCreate(StepProblem *p, const PetscReal modulus[])
+/* Adds a proximal term with the centre at p->base. modulus: see SpringsDistribute(); weak: whether the term is that of
+   bodies on weak springs */
+static PetscErrorCode ProximalCreate(StepProblem *p, const PetscReal modulus[], PetscBool weak)
 {
   const Bodies bodies = ModelBodies(p->model);
   Mat          K;
 
   PetscFunctionBegin;
-  p->holds_weak = PETSC_TRUE;
+  p->holds_weak = weak;
   PetscCall(VecDuplicate(p->base, &p->proximal));
   PetscCall(SpringsDistribute(&bodies, modulus, p->proximal));
   PetscCall(PrescribedSet(&p->model->prescribed, 0.0, p->proximal));
@@ -120,6 +129,7 @@ PetscErrorCode ProximalEnd(StepProblem *p)
   PetscFunctionBegin;
   PetscCall(VecDestroy(&p->centre));
   PetscCall(VecDestroy(&p->proximal));
+  PetscCall(PetscFree(p->failed));
   PetscCall(PetscFree(p->weak_modulus));
   PetscFunctionReturn(0);
 }
@@ -158,7 +168,7 @@ static PetscErrorCode ProximalHoldWeak(StepProblem *p, Vec u)
   if (!same) {
     if (p->centre) PetscCall(ProximalCentre(p, p->base)); /* removes the old term from energy and force */
     PetscCall(ProximalEnd(p));
-    PetscCall(ProximalCreate(p, modulus));
+    PetscCall(ProximalCreate(p, modulus, PETSC_TRUE));
     p->weak_modulus = modulus;
   } else PetscCall(PetscFree(modulus));
   PetscFunctionReturn(0);
@@ -188,6 +198,29 @@ PetscErrorCode ProximalTurn(StepProblem *p, Vec u)
   if (!p->centre) PetscFunctionReturn(0);
   PetscCall(VecCopy(p->base, p->centre));
   PetscCall(ProximalCentre(p, u));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Prepares a second attempt after a failed solve with friction, in which all bodies have a proximal term centred at
+   p->base. *again: true if this attempt is to be made, which is once per problem.
+*/
+PetscErrorCode ProximalRescue(StepProblem *p, Vec u, StepReport *report, PetscBool *again)
+{
+  const PetscInt nbodies = p->model->scene->nbodies;
+  PetscReal     *modulus;
+
+  PetscFunctionBegin;
+  *again =
+    (PetscBool)(!report->converged && p->friction.T && !p->centre && !p->lower && !p->unsupported && !p->flowing &&
+                !p->state->control->interrupted && EnergyIsFinite(p->energy) && !ModelIsDynamic(p->model));
+  if (!*again) PetscFunctionReturn(0);
+  PetscCall(PetscStrallocpy(report->reason, &p->failed));
+  PetscCall(PetscMalloc1(nbodies, &modulus));
+  for (PetscInt b = 0; b < nbodies; ++b) modulus[b] = friction_stiffness * p->model->scene->bodies[b].material.young;
+  PetscCall(ProximalCreate(p, modulus, PETSC_FALSE));
+  PetscCall(PetscFree(modulus));
+  PetscCall(VecCopy(p->base, u));
   PetscFunctionReturn(0);
 }
 
@@ -342,6 +375,29 @@ PetscErrorCode ProximalMeasure(StepProblem *p, Vec u, PetscReal *fraction)
   PetscFunctionReturn(0);
 }
 
+/*
+   Reports a rigid motion that continues at the same rate from solve to solve. Such a motion does not prove that nothing
+   holds the body: rounding errors of a very stiff body's forces may drive it.
+*/
+static PetscErrorCode ProximalReportRigidMotion(StepProblem *p, Vec u, StepReport *report)
+{
+  const Scene      scene  = p->model->scene;
+  PetscBool        mortar = PETSC_FALSE;
+  const SceneBody *soft, *hard;
+  Vec              increment;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < scene->npairs; ++k) mortar = (PetscBool)(mortar || scene->pairs[k].gap == GAP_MORTAR);
+  PetscCall(VecDuplicate(u, &increment));
+  PetscCall(VecWAXPY(increment, -1.0, p->centre, u));
+  PetscCall(ReportReason(report, PETSC_FALSE, "no equilibrium was found in which friction holds the bodies"));
+  PetscCall(RigidMotionReport(p->model, increment, "it does not come to rest",
+    mortar ? "; if it should stand near the edge of a face, use gap: dual" : NULL, report));
+  PetscCall(VecDestroy(&increment));
+  p->moves_on = (PetscBool)(SceneRatioBeyondRounding(scene, &soft, &hard) == 0.0);
+  PetscFunctionReturn(0);
+}
+
 /* Reports that the load step has no equilibrium, because p->flowing flows */
 PetscErrorCode ProximalReportFlow(const StepProblem *p, StepReport *report)
 {
@@ -395,7 +451,7 @@ static PetscErrorCode ProximalMoveCentre(StepProblem *p, Vec u, PetscInt ncentre
   Vec             farther;
 
   PetscFunctionBegin;
-  if (ncentres % every || !(ratio < 1.0)) {
+  if (p->failed || ncentres % every || !(ratio < 1.0)) {
     PetscCall(ProximalCentre(p, u));
     PetscFunctionReturn(0);
   }
@@ -416,19 +472,25 @@ PetscErrorCode ProximalAdvance(StepProblem *p, Vec u, PetscInt ncentres, StepRep
 {
   const PetscReal tolerance = StepControlRepeats(p->state->control);
   PetscReal       norms[2], ratio;
+  PetscBool       falls;
   Vec             force, all;
 
   PetscFunctionBegin;
   *again = PETSC_FALSE;
+  if (p->failed && !report->converged && !p->state->control->interrupted)
+    PetscCall(ReportReason(report, PETSC_FALSE, "%s", p->failed));
   if (!p->centre || p->holds_weak || !report->converged) PetscFunctionReturn(0);
   PetscCall(ProximalGetForces(p, u, &force, &all, norms));
   PetscCall(VecDestroy(&force));
   PetscCall(VecDestroy(&all));
   if (norms[0] <= tolerance * norms[1]) PetscFunctionReturn(0);
   ratio      = p->carried > 0.0 ? norms[0] / p->carried : 1.0;
-  *again     = (PetscBool)(ncentres < STEP_MAX_REPEATS && (ncentres <= patience || ratio < stuck));
+  falls      = (PetscBool)(ratio < stuck);
+  *again     = (PetscBool)(ncentres < STEP_MAX_REPEATS && (ncentres <= patience || falls));
   p->carried = norms[0];
   if (*again) PetscCall(ProximalMoveCentre(p, u, ncentres, ratio));
-  else PetscCall(ProximalReportRigidBodies(p, u, report));
+  else if (!p->failed) PetscCall(ProximalReportRigidBodies(p, u, report));
+  else if (!falls) PetscCall(ProximalReportRigidMotion(p, u, report));
+  else PetscCall(ReportReason(report, PETSC_FALSE, "%s", p->failed));
   PetscFunctionReturn(0);
 }

@@ -6,7 +6,7 @@ PetscErrorCode StepProblemSolve(StepProblem *p, PetscBool resume, Vec u, StepRep
 {
   const Constraints constraints = ModelConstraints(p->model);
   PetscInt          nsolves     = 0;
-  PetscBool         again;
+  PetscBool         again, rescued;
 
   PetscFunctionBegin;
   /*
@@ -28,7 +28,9 @@ PetscErrorCode StepProblemSolve(StepProblem *p, PetscBool resume, Vec u, StepRep
     PetscCall(FollowersAdvance(p, u, nsolves, report, &again));
     PetscCall(StepProblemAdvanceBolts(p, u, report, &again));
     PetscCall(FollowersAdvanceMean(p, u, nsolves, report, &again));
-  } while (again);
+    PetscCall(ProximalRescue(p, u, report, &rescued));
+    if (rescued) nsolves = 0;
+  } while (again || rescued);
   PetscCall(WeakSpringsTest(p, u, report));
   PetscCall(RigidTest(&constraints, (PetscBool)(!p->J || p->model->scene->contact_updates > 1), u, report));
   report->straightened = 0.0;
