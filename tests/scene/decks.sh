@@ -17,4 +17,5 @@ try pressure.inp
 
 mesh two.inp -scene two.yaml -deck_ignore "SPRING, *mpc"
 mesh rough_deck.msh -scene two.yaml
+mesh edge.inp -scene edge.yaml -deck_ignore "CONTACT PAIR" | grep "holds no whole facet"
 grep -v "^  *#" rough_deck.yaml

@@ -30,6 +30,9 @@ class Notes:
             raise MeshError(
                 f"{where}: *{keyword}: {text}{more}. To leave it out: contact-mesh DECK.inp -scene SCENE.yaml "
                 f"-deck_ignore \"{keyword}\"")
+
+    def check_ignored(self, path):
+        """To be called last: all keywords that -deck_ignore names must have been left out"""
         unused = sorted(self.ignored - self.used)
         if unused:
             raise MeshError(f"{path}: -deck_ignore {unused[0]}: the deck has no such keyword that is not translated")

@@ -628,6 +628,7 @@ def translate(path, target, ignored=()):
     translator = Translator(path, ignored)
     text, mesh, bodies = translator.scene(os.path.basename(stem) + ".msh")
     translator.notes.check(path)
+    translator.notes.check_ignored(path)
     for name, write in ((stem + ".msh", lambda file: gmsh.write(file, mesh)), (target, lambda file: put(file, text))):
         write(name + ".part")
         os.replace(name + ".part", name)
