@@ -154,7 +154,6 @@ PetscErrorCode ContactUpdateNext(StepProblem *p, Anderson *secants, const Contac
                                                   the change of the gap need not decrease */
   PetscCall(AndersonAdvance(secants, p->holds_weak ? proximal : report->update_error, u, u_linearized, &damped));
   if (damped) PetscCall(ContactUpdateWarnDamped(sim, report));
-  if (damped) PetscCall(FrictionReleaseOpen(p));
   report->gap_damped += damped;
   p->by_newton = (PetscBool)(found && !damped);
   if (p->by_newton) PetscCall(VecCopy(next, u_linearized));

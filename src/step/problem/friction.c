@@ -190,27 +190,6 @@ static PetscErrorCode FrictionKeepReleased(StepProblem *p)
   PetscFunctionReturn(0);
 }
 
-/*
-   Releases the vertices that must stick but are open at present. This is done if contact updates do not converge,
-   because such vertices might alternately stick and open. They stick again from the next load step on.
-*/
-PetscErrorCode FrictionReleaseOpen(StepProblem *p)
-{
-  ContactLinearization lin = p->state->solved->linearization;
-  ContactHistory      *m   = p->state->history;
-
-  PetscFunctionBegin;
-  if (!p->friction.T) PetscFunctionReturn(0);
-  for (PetscInt r = 0; r < lin->nlocal; ++r) {
-    const PetscInt i  = ContactHistoryIndex(m, lin, r);
-    PetscReal      mu = 0.0;
-
-    PetscCall(FrictionGetCoefficient(p->model->scene, p->time, lin->pair[r], &mu));
-    if (mu >= PETSC_INFINITY && (m->open[i] || !(m->pressure[i] > 0.0))) m->released[i] = PETSC_TRUE;
-  }
-  PetscFunctionReturn(0);
-}
-
 /* Stores friction forces and slips of the solution u in sol, and the forces in the contact history. */
 PetscErrorCode FrictionKeep(StepProblem *p, Tao tao, Vec u, ContactSolution *sol)
 {

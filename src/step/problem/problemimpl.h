@@ -156,7 +156,6 @@ PETSC_INTERN PetscErrorCode ProximalAdvance(StepProblem *, Vec u, PetscInt ncent
 /* friction.c: friction laws of the optimizer */
 PETSC_INTERN PetscErrorCode FrictionSetUp(StepProblem *, ContactLinearization, Vec u_linearized, Vec mask);
 PETSC_INTERN PetscErrorCode FrictionGive(StepProblem *, Tao, PetscReal scale);
-PETSC_INTERN PetscErrorCode FrictionReleaseOpen(StepProblem *);
 PETSC_INTERN PetscErrorCode FrictionRestart(StepProblem *);
 PETSC_INTERN PetscErrorCode FrictionKeep(StepProblem *, Tao, Vec u, ContactSolution *);
 PETSC_INTERN PetscErrorCode FrictionKeepNone(const StepProblem *, Vec u, ContactSolution *);
