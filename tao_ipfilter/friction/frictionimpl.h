@@ -167,14 +167,6 @@ PETSC_INTERN PetscErrorCode ContactIterationBegin(Contacts *, ContactBodies, Pet
 PETSC_INTERN PetscErrorCode ContactIterationEnd(ContactIteration *);
 PETSC_INTERN PetscErrorCode ContactIterate(ContactIteration *, PetscBool *done);
 
-/* interface_matrix.c */
-typedef struct _p_InterfaceMatrix *InterfaceMatrix;
-
-PETSC_INTERN PetscErrorCode InterfaceMatrixCreate(Mat R, Mat K, InterfaceMatrix *);
-PETSC_INTERN PetscErrorCode InterfaceMatrixDestroy(InterfaceMatrix *);
-PETSC_INTERN PetscErrorCode InterfaceMatrixAssemble(InterfaceMatrix, const PetscReal S[]);
-PETSC_INTERN Mat            InterfaceMatrixGet(InterfaceMatrix);
-
 /* subspace_bodies.c */
 typedef struct _p_SubspaceBodies *SubspaceBodies;
 

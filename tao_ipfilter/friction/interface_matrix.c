@@ -2,7 +2,7 @@
    The symmetric matrix A = K_WW + R^T S R of the unknowns W that contacts touch. It is stored by its upper triangle, as
    factorizations need it. Each rank computes its own rows, from copies of the rows of R that have entries there.
 */
-#include "frictionimpl.h"
+#include "subspace_bodies.h"
 
 /* A sequential matrix in compressed rows */
 typedef struct {
