@@ -363,7 +363,7 @@ static PetscErrorCode LeaveMethod(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Ends the solve of a problem that only the alternative method can solve, since that failed */
+/* Ends the solve of a problem that only the alternative method can solve, since it cannot begin or makes no progress */
 static PetscErrorCode EndMethodOnly(Tao tao)
 {
   TAO_IPFILTER *ip = (TAO_IPFILTER *)tao->data;
@@ -373,19 +373,19 @@ static PetscErrorCode EndMethodOnly(Tao tao)
     PetscCall(IPSetReason(tao, TAO_CONVERGED_STEPTOL,
       "acceptable: nothing reduces the KKT error %g further; the tolerance is %g", (double)ip->rec->best_error,
       (double)ip->tol));
-  else if (!ip->terms->n)
+  else if (!ip->method->on)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
-      "constraints with compliance: the subspace method, which they require, did not solve the problem. It requires a "
-      "problem without equality constraints and bounds, with linear constraints that involve few unknowns"));
-  else if (ip->rec->best_error < PETSC_INFINITY)
+      "%s: the method \"%s\", which alone solves such problems, does not begin. It requires a problem without equality "
+      "constraints and bounds, constraints that involve few unknowns, and a Hessian that is positive definite on these",
+      ip->terms->n ? "friction" : "constraints with compliance", ip->method->ops->name));
+  else if (ip->terms->n)
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
       "friction: no equilibrium with stick and slip consistent everywhere was found (KKT error %g)",
       (double)ip->rec->best_error));
   else
     PetscCall(IPSetReason(tao, TAO_DIVERGED_USER,
-      "friction: no equilibrium with stick and slip consistent everywhere was found. Friction requires a problem "
-      "without "
-      "equality constraints, and a Hessian that is positive definite on the unknowns with friction"));
+      "constraints with compliance: no step reduces the KKT error %g further; the tolerance is %g",
+      (double)ip->rec->best_error, (double)ip->tol));
   PetscFunctionReturn(0);
 }
 
