@@ -102,6 +102,7 @@ static PetscErrorCode ContactUpdatesReportGapError(Model model, State state, con
   ContactLinearization at_u, PetscBool slid, StepReport *report)
 {
   char            place[512] = "";
+  const char      advice[]   = "; use smaller load steps, or swap mortar and nonmortar";
   const PetscBool single     = (PetscBool)(model->scene->contact_updates == 1);
 
   PetscFunctionBegin;
@@ -112,16 +113,16 @@ static PetscErrorCode ContactUpdatesReportGapError(Model model, State state, con
   else if (slid)
     PetscCall(ReportReason(report, PETSC_FALSE,
       "contact did not converge: after %" PetscInt_FMT
-      " contact updates contact nodes still slide over the edge of the opposite face%s",
-      report->contact_updates, place));
+      " contact updates contact nodes still slide over the edge of the opposite face%s%s",
+      report->contact_updates, place, advice));
   else
     PetscCall(ReportReason(report, PETSC_FALSE,
       "contact did not converge: after %" PetscInt_FMT
-      " contact updates %s still changes by %g, more than %g of the largest displacement%s",
+      " contact updates %s still changes by %g, more than %g of the largest displacement%s%s",
       report->contact_updates,
       report->update_error > report->gap_change ? "the slip, the rotation of the normals or the pressure of a soft pair"
                                                 : "the gap",
-      (double)report->update_error, (double)state->control->tolerances.gap_unconverged, place));
+      (double)report->update_error, (double)state->control->tolerances.gap_unconverged, place, advice));
   PetscFunctionReturn(0);
 }
 

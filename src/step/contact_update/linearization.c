@@ -120,21 +120,6 @@ PetscErrorCode ContactUpdateBegin(StepProblem *p, Vec u, const StepReport *repor
   PetscFunctionReturn(0);
 }
 
-/* Warns that contact updates are damped, but only once in a run, and not if the load step may already end. */
-static PetscErrorCode ContactUpdateWarnDamped(Simulation sim, const StepReport *report)
-{
-  PetscInt before = 0;
-
-  PetscFunctionBegin;
-  for (PetscInt s = 0; s < sim->report.nsteps; ++s) before += sim->report.steps[s].gap_damped;
-  if (!before && report->gap_unconverged)
-    PetscCall(ReportWarn(sim->model->comm, &sim->report, NULL,
-      "load step %" PetscInt_FMT ": contact iterations do not converge; they are damped from now on. Use smaller load "
-      "steps, or swap mortar and nonmortar",
-      report->step));
-  PetscFunctionReturn(0);
-}
-
 /*
    Moves u_linearized to the point at which the gap is linearized next, and linearizes the gap there. at_u: the
    linearization at the solution u on entry, the new linearization on exit.
@@ -142,10 +127,9 @@ static PetscErrorCode ContactUpdateWarnDamped(Simulation sim, const StepReport *
 PetscErrorCode ContactUpdateNext(StepProblem *p, Anderson *secants, const ContactSolution *sol, Vec u, Vec u_linearized,
   StepReport *report, ContactLinearization *at_u)
 {
-  Simulation sim = p->sim;
-  PetscBool  damped, at_solution, found = PETSC_FALSE;
-  PetscReal  proximal;
-  Vec        next;
+  PetscBool damped, at_solution, found = PETSC_FALSE;
+  PetscReal proximal;
+  Vec       next;
 
   PetscFunctionBegin;
   PetscCall(VecDuplicate(u, &next));
@@ -153,7 +137,6 @@ PetscErrorCode ContactUpdateNext(StepProblem *p, Anderson *secants, const Contac
   PetscCall(ProximalMeasure(p, u, &proximal)); /* this force decreases as bodies on weak springs come to rest, whereas
                                                   the change of the gap need not decrease */
   PetscCall(AndersonAdvance(secants, p->holds_weak ? proximal : report->update_error, u, u_linearized, &damped));
-  if (damped) PetscCall(ContactUpdateWarnDamped(sim, report));
   report->gap_damped += damped;
   p->by_newton = (PetscBool)(found && !damped);
   if (p->by_newton) PetscCall(VecCopy(next, u_linearized));
