@@ -1,5 +1,6 @@
 /* Describes the contact pairs at the start, and warns of overlaps that the scene does not declare */
 #include "measureimpl.h"
+#include "src/state/contact_state.h"
 #include <math.h>
 
 /* The nonmortar side of a pair in the undeformed state */
@@ -220,6 +221,31 @@ static PetscErrorCode StartRefuseEntered(const Measured *at, PetscInt p, StepRep
   PetscFunctionReturn(0);
 }
 
+/* Finds whether the faces of pair p touch at the end of the last load step, be it without any force */
+static PetscErrorCode StartFindTouching(const ContactState *solved, MPI_Comm comm, PetscInt p, PetscBool *touching)
+{
+  const ContactLinearization lin   = solved->linearization;
+  PetscReal                  least = PETSC_MAX_REAL, area = 0.0;
+  const PetscScalar         *gap, *mass;
+
+  PetscFunctionBegin;
+  *touching = PETSC_FALSE;
+  if (!solved->solution.gap) PetscFunctionReturn(0);
+  PetscCall(VecGetArrayRead(solved->solution.gap, &gap));
+  PetscCall(VecGetArrayRead(lin->mass, &mass));
+  for (PetscInt i = 0; i < lin->nlocal; ++i) {
+    if (lin->pair[i] != p) continue;
+    least = PetscMin(least, PetscRealPart(gap[i]));
+    area += PetscRealPart(mass[i]);
+  }
+  PetscCall(VecRestoreArrayRead(lin->mass, &mass));
+  PetscCall(VecRestoreArrayRead(solved->solution.gap, &gap));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPIU_REAL, MPIU_MIN, comm));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &area, 1, MPIU_REAL, MPIU_SUM, comm));
+  *touching = (PetscBool)(least <= MESH_SAME_PLACE * PetscSqrtReal(area));
+  PetscFunctionReturn(0);
+}
+
 /* Warns, after the last load step, of pairs that were open in all load steps. report: of that load step, which fails if
    their bodies have passed into each other */
 PetscErrorCode StartWarnOfUnmet(Simulation sim, StepReport *report)
@@ -229,21 +255,26 @@ PetscErrorCode StartWarnOfUnmet(Simulation sim, StepReport *report)
 
   PetscFunctionBegin;
   for (PetscInt p = 0; p < sim->model->scene->npairs; ++p) {
-    PetscReal closed = 0.0; /* area and force; on coarse facets no vertex may be closed although a force acts */
+    const SceneContactPair *pair   = &sim->model->scene->pairs[p];
+    PetscReal               closed = 0.0; /* area and force; on coarse facets a force may act at no closed vertex */
+    PetscBool               touching;
 
-    if (sim->model->scene->pairs[p].why) continue; /* the pair was found by a rule and need not close */
+    if (pair->why) continue; /* the pair was found by a rule and need not close */
     for (PetscInt s = 0; s < run->nsteps; ++s)
       if (p < run->steps[s].npairs) closed += run->steps[s].pairs[p].area + run->steps[s].pairs[p].normal_force;
-    if (closed == 0.0) PetscCall(StartRefuseEntered(&at, p, report));
-    if (closed == 0.0 && sim->model->scene->pairs[p].self)
-      PetscCall(ReportWarn(sim->model->comm, &sim->report, sim->model->scene->pairs[p].place,
+    if (closed > 0.0) continue;
+    PetscCall(StartRefuseEntered(&at, p, report));
+    PetscCall(StartFindTouching(sim->state->solved, sim->model->comm, p, &touching));
+    if (touching) continue;
+    if (pair->self)
+      PetscCall(ReportWarn(sim->model->comm, &sim->report, pair->place,
         "contact pair \"%s\" was open at the end of every load step: %s did not come into contact with itself",
-        sim->model->scene->pairs[p].name, sim->model->scene->pairs[p].self));
-    else if (closed == 0.0)
-      PetscCall(ReportWarn(sim->model->comm, &sim->report, sim->model->scene->pairs[p].place,
+        pair->name, pair->self));
+    else
+      PetscCall(ReportWarn(sim->model->comm, &sim->report, pair->place,
         "contact pair \"%s\" was open at the end of every load step (mortar %s, nonmortar %s): check load direction, "
         "faces and clearance",
-        sim->model->scene->pairs[p].name, sim->model->scene->pairs[p].mortar, sim->model->scene->pairs[p].nonmortar));
+        pair->name, pair->mortar, pair->nonmortar));
   }
   PetscFunctionReturn(0);
 }
