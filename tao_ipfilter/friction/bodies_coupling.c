@@ -4,32 +4,6 @@
 */
 #include "subspace_bodies.h"
 
-/* Returns the square root of the stiffness of a contact in the factors, by which its forces are scaled */
-static PetscReal BodiesScale(const SubspaceBodies b, PetscInt i)
-{
-  const PetscReal *S = &b->factored[9 * i];
-
-  return PetscSqrtReal(PetscMax(S[0], PetscMax(S[4], S[8])));
-}
-
-/* Divides the forces of contacts by their scales, or multiplies them */
-static PetscErrorCode BodiesScaleForces(SubspaceBodies b, PetscBool divide, Vec v)
-{
-  PetscScalar *a;
-  PetscInt     n;
-
-  PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(v, &n));
-  PetscCall(VecGetArray(v, &a));
-  for (PetscInt r = 0; r < n; r++) {
-    const PetscReal scale = BodiesScale(b, r / 3);
-
-    a[r] = divide ? (scale > 0.0 ? a[r] / scale : 0.0) : a[r] * scale;
-  }
-  PetscCall(VecRestoreArray(v, &a));
-  PetscFunctionReturn(0);
-}
-
 /* Computes v = (D - S) v for a vector with the entries of contacts */
 static PetscErrorCode BodiesMultiplyRest(SubspaceBodies b, Vec v)
 {
@@ -59,7 +33,7 @@ static PetscErrorCode BodiesRespondOnW(SubspaceBodies b, Vec forces, Vec w)
   PetscFunctionReturn(0);
 }
 
-/* Computes the motion of W due to forces of contacts, by the symmetric matrix in the subspace */
+/* Computes the motion w of W that forces of contacts cause in the subspace, if S stands in place of D */
 static PetscErrorCode BodiesRespond(SubspaceBodies b, Vec forces, Vec w)
 {
   const IPBasis     *basis = &b->recycle->basis;
@@ -89,11 +63,11 @@ static PetscErrorCode BodiesCoupling(Mat matrix, Vec e, Vec y)
   PetscFunctionBegin;
   PetscCall(MatShellGetContext(matrix, &b));
   PetscCall(VecCopy(e, y));
-  PetscCall(BodiesScaleForces(b, PETSC_FALSE, y));
+  PetscCall(VecPointwiseMult(y, y, b->scale));
   PetscCall(BodiesRespond(b, y, b->on_W));
   PetscCall(MatMult(b->RW, b->on_W, y));
   PetscCall(BodiesMultiplyRest(b, y));
-  PetscCall(BodiesScaleForces(b, PETSC_TRUE, y));
+  PetscCall(VecQuotient_AMGF(y, y, b->scale));
   PetscCall(VecAXPY(y, 1.0, e));
   PetscFunctionReturn(0);
 }
@@ -109,6 +83,7 @@ PetscErrorCode BodiesCreateCoupling(SubspaceBodies b)
   PetscFunctionBegin;
   PetscCall(VecDuplicate(b->rows, &b->e));
   PetscCall(VecDuplicate(b->rows, &b->off));
+  PetscCall(VecDuplicate(b->rows, &b->scale));
   PetscCall(VecGetLocalSize(b->rows, &n));
   PetscCall(MatCreateShell(PetscObjectComm((PetscObject)b->rows), n, n, PETSC_DETERMINE, PETSC_DETERMINE, b, &matrix));
   PetscCall(MatShellSetOperation(matrix, MATOP_MULT, (void (*)(void))BodiesCoupling));
@@ -181,7 +156,7 @@ PetscErrorCode BodiesSolveCoupled(SubspaceBodies b, PetscBool *solved)
   if (!b->coupled) PetscFunctionReturn(0);
   PetscCall(MatMult(b->R, b->dx, b->rows));
   PetscCall(BodiesMultiplyRest(b, b->rows));
-  PetscCall(BodiesScaleForces(b, PETSC_TRUE, b->rows));
+  PetscCall(VecQuotient_AMGF(b->rows, b->rows, b->scale));
   PetscCall(VecNorm(b->rows, NORM_2, &size));
   PetscCall(VecAXPY(b->rows, -1.0, b->e));
   PetscCall(VecNorm(b->rows, NORM_2, &off));
@@ -192,7 +167,7 @@ PetscErrorCode BodiesSolveCoupled(SubspaceBodies b, PetscBool *solved)
   PetscCall(KSPGetResidualNorm(b->coupling, &off));
   *solved = (PetscBool)(off <= enough * size);
   PetscCall(VecAXPY(b->e, 1.0, b->off));
-  PetscCall(BodiesScaleForces(b, PETSC_FALSE, b->off));
+  PetscCall(VecPointwiseMult(b->off, b->off, b->scale));
   PetscCall(BodiesRespondOnW(b, b->off, b->on_W));
   PetscCall(VecAXPY(b->dw0, -1.0, b->on_W));
   b->nloads = 0;

@@ -46,7 +46,7 @@ PetscErrorCode BodiesSolveSchur(SubspaceBodies b, PetscReal dy[], Vec w)
   PetscFunctionReturn(0);
 }
 
-/* Finds whether the factors are those of an S that differs from the given one by a small fraction in each contact */
+/* Finds whether the present factors serve for S: no block differs by more than a small fraction from theirs */
 static PetscErrorCode BodiesAreFactored(const SubspaceBodies b, const PetscReal S[], PetscBool *factored)
 {
   const PetscReal small = 1e-2; /* GMRES corrects the difference */
@@ -69,6 +69,24 @@ static PetscErrorCode BodiesAreFactored(const SubspaceBodies b, const PetscReal 
   PetscFunctionReturn(0);
 }
 
+/* Sets the scales of the forces of contacts: the square root of each contact's stiffness in the factors */
+static PetscErrorCode BodiesSetScales(SubspaceBodies b)
+{
+  PetscScalar *a;
+  PetscInt     n;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetLocalSize(b->scale, &n));
+  PetscCall(VecGetArrayWrite(b->scale, &a));
+  for (PetscInt r = 0; r < n; r++) {
+    const PetscReal *S = &b->factored[9 * (r / 3)];
+
+    a[r] = PetscSqrtReal(PetscMax(S[0], PetscMax(S[4], S[8])));
+  }
+  PetscCall(VecRestoreArrayWrite(b->scale, &a));
+  PetscFunctionReturn(0);
+}
+
 /* Factors A_WW */
 PetscErrorCode BodiesFactor(SubspaceBodies b, const PetscReal S[], PetscBool *factored)
 {
@@ -83,6 +101,7 @@ PetscErrorCode BodiesFactor(SubspaceBodies b, const PetscReal S[], PetscBool *fa
   if (!*factored) PetscCall(MatDestroy(&b->F));
   PetscCall(VecGetLocalSize(b->rows, &n));
   PetscCall(PetscArraycpy(b->factored, S, 3 * n));
+  PetscCall(BodiesSetScales(b));
   b->nX = 0;
   PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
   PetscFunctionReturn(0);
@@ -108,7 +127,7 @@ PetscErrorCode BodiesPrepare(void *data, const PetscReal D[], const PetscReal S[
   PetscFunctionReturn(0);
 }
 
-/* Creates a dense matrix of n columns on W. columns: their local entries */
+/* Creates a dense matrix with n columns and a row for each unknown of W. columns: the entries on this rank */
 static PetscErrorCode BodiesDense(SubspaceBodies b, PetscInt n, PetscScalar columns[], Mat *dense)
 {
   PetscInt m, M;

@@ -24,7 +24,7 @@ static PetscErrorCode BodiesCreateMatrices(SubspaceBodies b)
 PetscErrorCode BodiesDestroySpace(SubspaceBodies b)
 {
   Mat *const matrices[] = {&b->RW, &b->F, &b->JW};
-  Vec *const vectors[]  = {&b->on_W, &b->dw0, &b->load, &b->rows, &b->e, &b->off};
+  Vec *const vectors[]  = {&b->on_W, &b->dw0, &b->load, &b->rows, &b->e, &b->off, &b->scale};
 
   PetscFunctionBegin;
   for (size_t k = 0; k < PETSC_STATIC_ARRAY_LENGTH(matrices); k++) PetscCall(MatDestroy(matrices[k]));

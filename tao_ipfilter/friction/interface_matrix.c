@@ -4,7 +4,7 @@
 */
 #include "subspace_bodies.h"
 
-/* A sequential matrix in compressed rows */
+/* The arrays of a sequential matrix in compressed row format */
 typedef struct {
   const PetscInt    *start, *column;
   const PetscScalar *value;
@@ -108,10 +108,11 @@ static PetscErrorCode InterfaceTakeRows(InterfaceMatrix m, Mat R)
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_size(PetscObjectComm((PetscObject)R), &size));
   PetscCall(MatGetLocalSize(R, &n, NULL));
-  if (size > 1) PetscCall(InterfaceFindContacts(R, &contacts));
-  else PetscCall(ISCreateStride(PETSC_COMM_SELF, n / 3, 0, 1, &contacts));
-  if (size > 1) PetscCall(InterfaceCopyRows(R, contacts, &m->R));
-  else {
+  if (size > 1) {
+    PetscCall(InterfaceFindContacts(R, &contacts));
+    PetscCall(InterfaceCopyRows(R, contacts, &m->R));
+  } else {
+    PetscCall(ISCreateStride(PETSC_COMM_SELF, n / 3, 0, 1, &contacts));
     PetscCall(PetscObjectReference((PetscObject)R));
     m->R = R;
   }

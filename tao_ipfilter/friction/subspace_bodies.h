@@ -22,12 +22,13 @@ struct _p_SubspaceBodies {
   IPRecycle      *recycle; /* the preconditioner of K, and the directions */
   Mat             K;
   IS              W;
-  Mat             R, RW;                /* rows of the contacts: three for each contact of this rank; columns W of R */
-  InterfaceMatrix A;                    /* A_WW */
-  Mat             F;                    /* its factors */
-  KSP             coupling;             /* GMRES for the forces e of D - S */
-  Vec             e, off;               /* e, scaled (BodiesScale), and what is missing to it */
-  PetscBool       coupled;              /* whether D differs from S */
+  Mat             R, RW;    /* rows of the contacts: three for each contact of this rank; columns W of R */
+  InterfaceMatrix A;        /* A_WW */
+  Mat             F;        /* its factors */
+  KSP             coupling; /* GMRES for the forces e of D - S */
+  Vec             e, off;   /* the forces e divided by their scales, and a correction of these */
+  Vec             scale;    /* of the forces of contacts [square root of stiffness]; 0: the contact has no stiffness */
+  PetscBool       coupled;  /* whether D differs from S */
   Vec             x, dx, r, Kx, Kdx, g; /* K x is kept beside x, K dx beside dx */
   Vec             kept_x, kept_Kx;
   Vec             first;     /* the residual of which a part is left out; NULL: none */
