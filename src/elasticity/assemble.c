@@ -63,6 +63,71 @@ static PetscErrorCode ElasticityZeroAssembledAgain(Elasticity e, const PetscInt 
   PetscFunctionReturn(0);
 }
 
+/* The blocks of a tangent of type SEQBAIJ or SEQSBAIJ, in compressed rows with ascending columns; otherwise a is NULL.
+   Entries of a block are stored column by column. */
+typedef struct {
+  PetscInt        n;
+  const PetscInt *ia, *ja;
+  PetscScalar    *a;
+  PetscBool       half; /* only the upper triangle is stored */
+} TangentBlocks;
+
+static PetscErrorCode TangentBlocksGet(Mat tangent, TangentBlocks *t)
+{
+  PetscBool full, done;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(t, sizeof(*t)));
+  PetscCall(PetscObjectTypeCompare((PetscObject)tangent, MATSEQBAIJ, &full));
+  PetscCall(PetscObjectTypeCompare((PetscObject)tangent, MATSEQSBAIJ, &t->half));
+  if (!full && !t->half) PetscFunctionReturn(0);
+  PetscCall(MatGetRowIJ(tangent, 0, PETSC_FALSE, PETSC_TRUE, &t->n, &t->ia, &t->ja, &done));
+  PetscCheck(done, PETSC_COMM_SELF, PETSC_ERR_PLIB, "The rows of the tangent cannot be accessed");
+  if (t->half) PetscCall(MatSeqSBAIJGetArray(tangent, &t->a));
+  else PetscCall(MatSeqBAIJGetArray(tangent, &t->a));
+  PetscFunctionReturn(0);
+}
+
+static PetscErrorCode TangentBlocksRestore(Mat tangent, TangentBlocks *t)
+{
+  PetscBool done;
+
+  PetscFunctionBegin;
+  if (!t->a) PetscFunctionReturn(0);
+  if (t->half) PetscCall(MatSeqSBAIJRestoreArray(tangent, &t->a));
+  else PetscCall(MatSeqBAIJRestoreArray(tangent, &t->a));
+  PetscCall(MatRestoreRowIJ(tangent, 0, PETSC_FALSE, PETSC_TRUE, &t->n, &t->ia, &t->ja, &done));
+  PetscFunctionReturn(0);
+}
+
+/*
+   Adds the matrix K of a cell to the blocks. rows: numbers of the cell's n nodes. MatSetValuesBlocked() would search
+   each block in its row; here the nodes in ascending order are found in one pass over the row.
+*/
+static PetscErrorCode TangentBlocksAdd(const TangentBlocks *t, PetscInt n, const PetscInt rows[], const PetscScalar K[])
+{
+  PetscInt sorted[CELL_MAX_NODES], node[CELL_MAX_NODES];
+
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < n; ++a) node[a] = a;
+  PetscCall(PetscArraycpy(sorted, rows, n));
+  PetscCall(PetscSortIntWithArray(n, sorted, node));
+  for (PetscInt i = 0; i < n; ++i) {
+    const PetscScalar *from = K + 9 * n * node[i];
+    PetscInt           k    = t->ia[sorted[i]];
+
+    for (PetscInt j = t->half ? i : 0; j < n; ++j) {
+      PetscScalar *block;
+
+      while (t->ja[k] < sorted[j]) ++k; /* all nodes of a cell have a block in each of its rows */
+      block = t->a + 9 * (size_t)k;
+      for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r) block[3 * c + r] += from[3 * n * r + 3 * node[j] + c];
+    }
+  }
+  PetscFunctionReturn(0);
+}
+
 /*
    Adds the stiffness of all cells, or, unless `all`, only of cells of the bodies that are assembled again. If a cell is
    inverted, its stiffness at zero displacement is used.
@@ -71,8 +136,10 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
 {
   Vec                local, local_before;
   const PetscScalar *x, *ul, *before;
+  TangentBlocks      blocks;
 
   PetscFunctionBegin;
+  PetscCall(TangentBlocksGet(tangent, &blocks));
   PetscCall(ElasticityGetLocals(e, u, &local, &ul, &x));
   PetscCall(ElasticityGetLocals(e, e->before ? e->before : u, &local_before, &before, &x));
   for (PetscInt c = 0; c < e->ncells; ++c) {
@@ -91,8 +158,10 @@ static PetscErrorCode ElasticityAddCells(Elasticity e, Vec u, PetscBool all, con
     CellAddInertia(e, &cell, K);
     if (e->prescribed) CellMaskPrescribed(e->prescribed, cell.n, cell.nodes, K);
     for (PetscInt a = 0; a < cell.n; ++a) rows[a] = global[cell.nodes[a]];
-    PetscCall(MatSetValuesBlocked(tangent, cell.n, rows, cell.n, rows, K, ADD_VALUES));
+    if (blocks.a) PetscCall(TangentBlocksAdd(&blocks, cell.n, rows, K));
+    else PetscCall(MatSetValuesBlocked(tangent, cell.n, rows, cell.n, rows, K, ADD_VALUES));
   }
+  PetscCall(TangentBlocksRestore(tangent, &blocks));
   PetscCall(ElasticityRestoreLocals(e, &local_before, &before, &x));
   PetscCall(ElasticityRestoreLocals(e, &local, &ul, &x));
   PetscCall(SpringsAddTangent(e, all, global, tangent));

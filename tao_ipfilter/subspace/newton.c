@@ -7,7 +7,7 @@
    is a descent direction of f + nu sum m max(-c_I, 0) for any nu above the multipliers, however few directions V has.
    The energy of soft rows is part of f; being convex, it falls along d at least in proportion to its fall in the model.
    Since c_I is linear, a feasible point remains feasible for step lengths up to 1. V is used again in the next step;
-   for a new H only the products H P are computed again.
+   for a new H only the products H P are computed again. H is kept if another step with it is expected to end the solve.
 */
 #include "subspaceimpl.h"
 #include "tao_ipfilter/solver/barrier.h"
@@ -349,24 +349,42 @@ static PetscErrorCode NewtonAccept(Tao tao, Vec d, Vec force)
   PetscFunctionReturn(0);
 }
 
+/* Returns the relative error of the residual that the last model predicted; 0: there is no last model */
+static PetscReal NewtonMisprediction(const TAO_IPFILTER *ip, const IPSubspace *f)
+{
+  const PetscReal alpha = ip->search->alpha, expected = (1.0 - alpha) * f->residual + alpha * f->promised;
+
+  return f->residual > 0.0 ? PetscAbsReal(ip->kkt->dual_norm - expected) / f->residual : 0.0;
+}
+
+/* Returns the fraction of the present residual that a model may leave. Near the solution it is small, so that Newton's
+   method converges fast. */
+static PetscReal NewtonForcing(const TAO_IPFILTER *ip)
+{
+  const PetscReal largest = 0.1, smallest = 1e-3;
+
+  return PetscClipInterval(PetscSqrtReal(IPBothErrors(ip)), smallest, largest);
+}
+
 /*
-   Computes the tolerance for the model's residual, as a fraction of the present residual. Near the solution the
-   fraction is small, so that Newton's method converges fast. If the last model predicted the residual badly, as where
-   metal begins to yield, the fraction is the relative error of that prediction (Eisenstat and Walker 1996). The
-   tolerance is never smaller than convergence requires.
+   Computes the tolerance for the model's residual. If the last model predicted the residual badly, as where metal
+   begins to yield, it is that fraction of the residual by which the prediction was wrong (Eisenstat and Walker 1996).
+   The tolerance is never smaller than convergence requires.
 */
 static PetscReal NewtonTarget(const TAO_IPFILTER *ip, const IPSubspace *f)
 {
-  const PetscReal largest = 0.1, smallest = 1e-3, loose = 0.3;
-  const PetscReal alpha    = ip->search->alpha;
-  PetscReal       fraction = PetscClipInterval(PetscSqrtReal(IPBothErrors(ip)), smallest, largest);
+  const PetscReal loose    = 0.3;
+  const PetscReal fraction = PetscMax(NewtonForcing(ip), PetscMin(loose, NewtonMisprediction(ip, f)));
 
-  if (f->residual > 0.0) {
-    const PetscReal expected = (1.0 - alpha) * f->residual + alpha * f->promised;
-
-    fraction = PetscMax(fraction, PetscMin(loose, PetscAbsReal(ip->kkt->dual_norm - expected) / f->residual));
-  }
   return PetscMax(fraction * ip->kkt->dual_norm, IP_FORCING_LAST * ip->tol * IPErrorBoundForceUnit(ip));
+}
+
+/* Returns whether the last model's Hessian serves the next model: the error that it made in the residual is so small
+   that a second step with it reaches the tolerance */
+static PetscBool NewtonKeepsHessian(const TAO_IPFILTER *ip, const IPSubspace *f)
+{
+  return (PetscBool)(f->residual > 0.0 && ip->shift->delta == 0.0 &&
+                     NewtonMisprediction(ip, f) * IPBothErrors(ip) <= ip->tol);
 }
 
 /* Evaluates the Hessian at the present point and adds delta M_u */
@@ -401,16 +419,18 @@ static PetscErrorCode NewtonFindStep(Tao tao, IPRecycle *recycle, Vec d, Vec for
   TAO_IPFILTER   *ip     = (TAO_IPFILTER *)tao->data;
   const PetscInt  shifts = 6;
   const PetscReal target = NewtonTarget(ip, IPSubspaceOf(tao));
+  const PetscBool ready =
+    (PetscBool)(tao->niter ? NewtonKeepsHessian(ip, IPSubspaceOf(tao)) : IPSubspaceOf(tao)->ready);
 
   PetscFunctionBegin;
-  *found           = (PetscBool)(tao->niter || IPSubspaceOf(tao)->ready);
+  *found           = (PetscBool)(tao->niter || ready);
   ip->shift->delta = 0.0;
   if (ip->terms->n) PetscCall(VecCopy(ip->terms->force, ip->terms->last));
   for (PetscInt k = 0; k <= shifts; k++) {
     PetscBool convex = *found, downhill;
 
     if (k) PetscCall(IPRegularizeMore(tao));
-    if (k || tao->niter) {
+    if (k || (tao->niter && !ready)) {
       if (k && ip->terms->n) PetscCall(VecCopy(ip->terms->last, ip->terms->force));
       PetscCall(NewtonEvaluateHessian(tao));
       PetscCall(IPRecycleUpdate(tao, recycle, &convex));
