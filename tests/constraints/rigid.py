@@ -77,37 +77,37 @@ def near(a, b, size, within=1e-6):
     return bool(np.linalg.norm(np.subtract(a, b)) <= within * size)
 
 
-def judge(title, end):
-    steps = {name: load(name + end)["steps"] for name in SCENES}
+def judge():
+    steps = {name: load(name)["steps"] for name in SCENES}
     corner = [step["probes"][0] for step in steps["punch"]]
     say(
-        title + "punch: stress and displacement of either step",
+        "punch: stress and displacement of either step",
         all(
             near(p["stress_zz"], -10 * d / 3, 0.3) and near(p["displacement"], [0.1 * d, 0.2 * d, -d], d)
             for p, d in zip(corner, (0.015, 0.09))), corner)
     face = steps["punch"][1]["faces"][0]
-    say(title + "punch: what holds it is the pressure's resultant", face["name"] == "punch.*"
+    say("punch: what holds it is the pressure's resultant", face["name"] == "punch.*"
         and near(face["reaction"], [0, 0, -0.6], 0.6), face)
     turn = steps["turn"][-1]
     say(
-        title + "turned by 90 degrees: no energy, no forces, places", turn["energy"] < 1e-15
+        "turned by 90 degrees: no energy, no forces, places", turn["energy"] < 1e-15
         and all(near(f["reaction"], 0, 1e-3) for f in turn["faces"])
         and near(turn["probes"][0]["displacement"], [-0.4, 0, 2.9], 1), turn)
     twist = steps["twist"][0]
     foot, head = (f["moment"][2] for f in twist["faces"])
-    say(title + "twisted: moments in balance, their work the energy",
+    say("twisted: moments in balance, their work the energy",
         near(foot, -head, head) and near(head * math.radians(0.01) / 2, twist["energy"], twist["energy"]),
         (foot, head, twist["energy"]))
     for name in ("roller", "rolled"):
         pair = steps[name][0]["pairs"][0]
         force, modulus = 2 * pair["normal_force"] / 0.01, 1000 / 0.91
         peak, half_width = math.sqrt(force * modulus / math.pi), math.sqrt(4 * force / (math.pi * modulus))
-        say(title + name + ": Hertz's pressure and width to 2 %",
+        say(name + ": Hertz's pressure and width to 2 %",
             near(pair["pressure"], peak, peak, 0.02) and near(pair["area"] / 0.01, half_width, half_width, 0.02),
             (pair, peak, half_width))
     held, plane = (steps[name][0] for name in ("held", "plane"))
     say(
-        title + "a rigid plane that rises against a held one: energy and force",
+        "a rigid plane that rises against a held one: energy and force",
         near(held["energy"], plane["energy"], held["energy"])
         and near(held["pairs"][0]["force"], plane["pairs"][0]["force"], held["pairs"][0]["normal_force"]),
         (held["energy"], plane["energy"]))
@@ -118,5 +118,4 @@ if sys.argv[1] == "write":
         with open(name + ".yaml", "w") as file:
             file.write(text if "problem:" in text else "problem: %s\n%s" % (name, text))
 else:
-    judge("", "")
-    judge("three ranks, ", "_3")
+    judge()

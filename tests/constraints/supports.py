@@ -85,8 +85,8 @@ def near(a, b, size):
     return bool(np.linalg.norm(np.subtract(a, b)) <= 1e-6 * size)
 
 
-def judge_bars(title, end):
-    step = {name: load(name + end)["steps"][-1] for name in SCENES}
+def judge_bars():
+    step = {name: load(name)["steps"][-1] for name in SCENES}
     corner, foot = ({
         name: next(p
                    for p in step[name]["probes"]
@@ -95,33 +95,33 @@ def judge_bars(title, end):
     }
                     for probe in ("corner", "foot"))
     say(
-        title + "pulled: stress and displacement",
+        "pulled: stress and displacement",
         near(corner["pull"]["stress_zz"], 0.3, 0.3)
         and near(corner["pull"]["displacement"], [-0.009, -0.018, 0.09], 0.09), corner["pull"])
     face = step["twist"]["faces"][0]
     force = np.array([0.1, 0.2 + 0.06, -0.3])
     moment = np.cross([0.5, 1, 3], [0.1, 0.2, -0.3]) + [0.02, 0, 0.05] + np.cross([1, 1, 1.5], [0, 0.06, 0])
-    say(title + "twisted: reaction is the load", near(face["reaction"], -force, 1), face)
-    say(title + "twisted: moment is the load's", near(face["moment"], -moment, 1), (face["moment"], moment))
-    say(title + "on springs: sinks by pressure over stiffness",
+    say("twisted: reaction is the load", near(face["reaction"], -force, 1), face)
+    say("twisted: moment is the load's", near(face["moment"], -moment, 1), (face["moment"], moment))
+    say("on springs: sinks by pressure over stiffness",
         near(foot["bed"]["displacement"][2], -0.05, 0.05) and near(corner["bed"]["stress_zz"], -0.2, 0.2), foot["bed"])
     body = step["bed"]["bodies"][0]
-    say(title + "on springs: they carry the load, in balance",
+    say("on springs: they carry the load, in balance",
         near(body["springs"], [0, 0, 0.4], 0.4) and body["balance"] < 1e-8, body)
-    say(title + "free under pressure: stress",
+    say("free under pressure: stress",
         near([corner["float"]["stress_" + c] for c in ("xx", "yy", "zz", "xy")], [-0.5, -0.5, -0.5, 0], 0.5),
         corner["float"])
-    say(title + "free under pressure: weak springs carry less than 1e-6 of the load",
+    say("free under pressure: weak springs carry less than 1e-6 of the load",
         0 < step["float"]["weak_spring_force"] < 1e-6 * 0.5 * 6, step["float"]["weak_spring_force"])
     forces = {pair["name"]: pair["force"] for pair in step["stack"]["pairs"]}
-    say(title + "stack: each pair's force",
+    say("stack: each pair's force",
         near(forces["upper"], [0, 0, 4], 4) and near(forces["lower"], [0, 0, -4], 4), forces)
-    say(title + "stack: weak springs carry less than 1e-6 of the load", 0 < step["stack"]["weak_spring_force"] < 4e-6,
+    say("stack: weak springs carry less than 1e-6 of the load", 0 < step["stack"]["weak_spring_force"] < 4e-6,
         step["stack"]["weak_spring_force"])
     pins = step["pins"]
     point = next(p for p in pins["probes"] if p["name"] == "corner")
     say(
-        title + "on three points: displacement, stress, no forces",
+        "on three points: displacement, stress, no forces",
         near(point["displacement"], [-0.02, -0.04, -0.06], 0.06) and near(point["stress_zz"], -0.5, 0.5)
         and all(near(f["reaction"], 0, 1) for f in pins["faces"]), pins["faces"])
     for name in ("pad", "pads"):
@@ -130,26 +130,26 @@ def judge_bars(title, end):
         sinks = 0.3 * (3 / 10 + 1 / 20 + 2 / 5)
         series = np.linalg.norm(np.subtract(
             tip, [0, 0, -sinks])) < 1e-10 * sinks and abs(step[name]["energy"] - 0.3 * sinks) < 1e-10 * sinks
-        say(title + name + " between two blocks: in series, and what it carries", series
+        say(name + " between two blocks: in series, and what it carries", series
             and near(bodies["top"], [0, 0, 0.6], 0.6) and near(bodies["low"], [0, 0, -0.6], 0.6), (tip, bodies))
     reactions = {face["name"]: face["reaction"] for face in step["edges"]["faces"]}
     say(
-        title + "on two edges: half of the weight on each",
+        "on two edges: half of the weight on each",
         near(reactions["bar.@left"], [0, 0, 3], 3) and near(reactions["bar.@right"], [0, 0, 3], 3)
         and step["edges"]["balance"] < 1e-10, reactions)
     pair = step["plug"]["pairs"][0]
     sine = 0.1 / np.hypot(0.1, 1)
-    say(title + "plug: the pressure carries the force",
+    say("plug: the pressure carries the force",
         near(pair["force"], [0, 0, pair["normal_force"] * sine], pair["normal_force"]), pair)
-    say(title + "plug: does not rotate, so that its energy is the work",
+    say("plug: does not rotate, so that its energy is the work",
         abs(step["plug"]["energy"] - step["plug"]["work"]) < 1e-6 * step["plug"]["work"],
         (step["plug"]["energy"], step["plug"]["work"]))
     forces = {pair["name"]: pair["force"] for pair in step["soft"]["pairs"]}
-    say(title + "soft stack: each pair's force",
+    say("soft stack: each pair's force",
         near(forces["upper"], [0, 0, 4], 4) and near(forces["lower"], [0, 0, -4], 4), forces)
-    say(title + "soft stack: weak springs carry less than 1e-6 of the load",
+    say("soft stack: weak springs carry less than 1e-6 of the load",
         0 < step["soft"]["weak_spring_force"] < 4e-6, step["soft"]["weak_spring_force"])
-    say(title + "soft stack: the tight tolerance is reached in the subspace, in fewer than 1,000 applications",
+    say("soft stack: the tight tolerance is reached in the subspace, in fewer than 1,000 applications",
         step["soft"]["amg_applications"] < 1000, step["soft"]["amg_applications"])
 
 
@@ -158,5 +158,4 @@ if sys.argv[1] == "write":
         with open(name + ".yaml", "w") as file:
             file.write("problem: %s\n%s" % (name, text))
 else:
-    judge_bars("", "")
-    judge_bars("three ranks, ", "_3")
+    judge_bars()

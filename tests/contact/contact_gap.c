@@ -456,12 +456,12 @@ int main(int argc, char **argv)
 /*TEST
 
    test:
-      nsize: {{1 2 3 5}}
+      nsize: {{1 5 2 3}}
       output_file: output/contact_gap_1.out
 
    test:
       suffix: node
-      nsize: {{1 2 3 5}}
+      nsize: {{1 5 2 3}}
       args: -contact_gap node
       output_file: output/contact_gap_node.out
 

@@ -86,7 +86,6 @@ int main(int argc, char **argv)
          args: -element incompatible
       test:
          suffix: order2
-         nsize: {{1 3}}
          args: -order 2 -element {{full bbar}} -tolerance 0.01
 
 TEST*/

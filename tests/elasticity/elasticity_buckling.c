@@ -109,7 +109,6 @@ int main(int argc, char **argv)
       args: -elasticity_mat_type aij -ksp_type preonly -pc_type cholesky -pc_factor_mat_solver_type mumps -mat_mumps_icntl_13 1
       test:
          suffix: full
-         nsize: {{1 2}}
          args: -across 2
       test:
          suffix: bbar

@@ -160,7 +160,6 @@ int main(int argc, char **argv)
 
    testset:
       args: -elasticity_mat_type aij -ksp_type preonly -pc_type lu -pc_factor_mat_solver_type mumps
-      nsize: {{1 3}}
       test:
          suffix: linear_full
       test:

@@ -305,20 +305,18 @@ int main(int argc, char **argv)
       output_file: output/elasticity_derivatives_linear.out
       test:
          suffix: linear
-         nsize: {{1 2 3 5}}
+         nsize: {{1 5 2 3}}
       test:
          suffix: types
-         nsize: {{1 3}}
+         nsize: 3
          args: -elasticity_mat_type {{aij sbaij}}
 
    test:
       suffix: linear_bbar
-      nsize: {{1 3}}
       args: -element bbar
 
    test:
       suffix: linear_incompatible
-      nsize: {{1 3}}
       args: -element incompatible
 
    test:
@@ -328,14 +326,13 @@ int main(int argc, char **argv)
 
    test:
       suffix: neohookean_bbar
-      nsize: {{1 3}}
       args: -material neohookean -element bbar
 
    testset:
-      nsize: {{1 3}}
       args: -order 2
       test:
          suffix: order2
+         nsize: 3
          args: -elasticity_mat_type {{baij aij sbaij}}
       test:
          suffix: order2_bbar
@@ -348,10 +345,10 @@ int main(int argc, char **argv)
          args: -material neohookean -element bbar
 
    testset:
-      nsize: {{1 3}}
       args: -tetrahedra -order 2
       test:
          suffix: tetrahedra
+         nsize: 3
          args: -elasticity_mat_type {{baij aij sbaij}}
       test:
          suffix: tetrahedra_neohookean
@@ -365,7 +362,6 @@ int main(int argc, char **argv)
 
    test:
       suffix: saint_venant
-      nsize: {{1 3}}
       args: -material saint_venant
 
 TEST*/

@@ -248,7 +248,6 @@ int main(int argc, char **argv)
       output_file: output/elasticity_effectivity.out
       test:
          suffix: cube
-         nsize: {{1 3}}
          args: -pc_type pbjacobi -material {{linear neohookean}} -element {{full bbar}}
       test:
          suffix: sphere

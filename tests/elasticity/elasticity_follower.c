@@ -174,9 +174,9 @@ int main(int argc, char **argv)
 
    testset:
       output_file: output/elasticity_follower.out
-      nsize: {{1 3}}
       test:
          suffix: order1
+         nsize: {{1 3}}
       test:
          suffix: order2
          args: -order 2

@@ -117,7 +117,7 @@ int main(int argc, char **argv)
 /*TEST
 
    test:
-      nsize: {{1 2 3 5}}
+      nsize: {{1 5 2 3}}
       output_file: output/elasticity_loads.out
 
 TEST*/

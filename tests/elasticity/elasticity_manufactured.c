@@ -321,21 +321,20 @@ int main(int argc, char **argv)
       test:
          suffix: baij
          nsize: {{1 3}}
-         args: -pc_type {{pbjacobi hypre}}
+         args: -pc_type pbjacobi
       test:
          suffix: aij
-         nsize: {{1 3}}
+         nsize: 3
          args: -elasticity_mat_type aij -pc_type gamg
       test:
          suffix: sbaij
-         nsize: {{1 3}}
+         nsize: 2
          args: -elasticity_mat_type sbaij -pc_type bjacobi -sub_pc_type icc
       test:
          suffix: linear
          args: -element {{bbar incompatible}} -pc_type pbjacobi
       test:
          suffix: neohookean
-         nsize: {{1 3}}
          args: -material neohookean -element {{full bbar}} -pc_type pbjacobi
       test:
          suffix: distorted
@@ -349,9 +348,9 @@ int main(int argc, char **argv)
 
    testset:
       args: -pc_type pbjacobi -effectivity 0.2
-      nsize: {{1 3}}
       test:
          suffix: estimate
+         nsize: {{1 3}}
          args: -curved -material {{linear neohookean}}
       test:
          suffix: estimate_order2
@@ -362,7 +361,12 @@ int main(int argc, char **argv)
          output_file: output/elasticity_manufactured_estimate_order2.out
       test:
          suffix: estimate_tetrahedra
-         args: -tetrahedra -order {{1 2}separate output} -below 0.4 -curved
+         args: -tetrahedra -order 1 -below 0.4 -curved
+         output_file: output/elasticity_manufactured_estimate.out
+      test:
+         suffix: estimate_tetrahedra_order2
+         args: -tetrahedra -order 2 -below 0.4 -curved
+         output_file: output/elasticity_manufactured_estimate_order2.out
       test:
          suffix: estimate_stresses
          args: -stresses -element incompatible
@@ -393,7 +397,6 @@ int main(int argc, char **argv)
       output_file: output/elasticity_manufactured_order2.out
       test:
          suffix: order2
-         nsize: {{1 3}}
          args: -material {{linear neohookean}}
       test:
          suffix: order2_bbar
@@ -406,7 +409,6 @@ int main(int argc, char **argv)
          args: -curved -element {{full bbar}} -material {{linear neohookean}} -above 0.6
       test:
          suffix: order2_tetrahedra
-         nsize: {{1 3}}
          args: -tetrahedra -material {{linear neohookean}} -below 0.3
       test:
          suffix: order2_tetrahedra_curved

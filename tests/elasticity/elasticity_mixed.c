@@ -246,7 +246,7 @@ int main(int argc, char **argv)
       output_file: output/elasticity_mixed.out
       test:
          suffix: baij
-         nsize: {{1 2 3 5}}
+         nsize: {{1 5 2 3}}
       test:
          suffix: aij
          nsize: {{1 3}}

@@ -257,47 +257,39 @@ int main(int argc, char **argv)
 /*TEST
 
    testset:
-      nsize: {{1 2 3 5}}
       output_file: output/elasticity_patch.out
       test:
          suffix: linear
-         args: -elasticity_quadrature {{2 3}}
+         nsize: {{1 2 3 5}}
+      test:
+         suffix: points
+         args: -elasticity_quadrature 3
       test:
          suffix: finite
+         nsize: {{1 3}}
          args: -material neohookean
       test:
          suffix: incompatible
          args: -element incompatible -elasticity_quadrature {{2 3}}
-
-   testset:
-      nsize: {{1 3}}
-      args: -element bbar
-      output_file: output/elasticity_patch.out
       test:
          suffix: bbar
-         args: -material {{linear neohookean}}
+         args: -element bbar -material {{linear neohookean}}
       test:
          suffix: bbar_points
-         args: -material {{linear neohookean}} -elasticity_quadrature 3
-
-   testset:
-      nsize: {{1 2 3 5}}
-      args: -order 2
-      output_file: output/elasticity_patch_order2.out
+         args: -element bbar -material {{linear neohookean}} -elasticity_quadrature 3
       test:
          suffix: order2
-         args: -material {{linear neohookean}}
+         nsize: {{1 5 2 3}}
+         args: -order 2
       test:
-         suffix: order2_bbar
-         args: -element bbar -material {{linear neohookean}}
-
-   testset:
-      nsize: {{1 3}}
-      args: -tetrahedra -material {{linear neohookean}} -element {{full bbar}}
+         suffix: order2_elements
+         args: -order 2 -element {{full bbar}} -material {{linear neohookean}}
       test:
          suffix: tetrahedra
+         args: -tetrahedra -order {{1 2}} -material {{linear neohookean}} -element {{full bbar}}
       test:
-         suffix: tetrahedra_order2
-         args: -order 2
+         suffix: tetrahedra_ranks
+         nsize: 3
+         args: -tetrahedra -order {{1 2}}
 
 TEST*/

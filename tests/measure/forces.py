@@ -100,7 +100,7 @@ def near(value, exact, tolerance):
     return np.linalg.norm(np.subtract(value, exact)) <= tolerance * np.linalg.norm(exact)
 
 
-def judge_fields(title, name, step):
+def judge_fields(name, step):
     """Each pair's fields sum to its force on either side"""
     fields, worst, spans = Fields(name), 0.0, True
     for pair in step["pairs"]:
@@ -114,28 +114,27 @@ def judge_fields(title, name, step):
             sign = 1 if near(force[on].sum(axis=0), pair["force"], 1e-6) else -1
             worst = max(worst, abs((pressure * area)[on].sum() / pair["normal_force"] - 1),
                         np.linalg.norm(sign * force[on].sum(axis=0) - pair["force"]) / pair["normal_force"])
-    say("%s: pressures on both sides of every pair, none negative" % title, spans, name)
-    say("%s: pressure times area, and the forces, sum to the pairs' to 1e-10" % title, worst <= 1e-10, worst)
+    say("%s: pressures on both sides of every pair, none negative" % name, spans, name)
+    say("%s: pressure times area, and the forces, sum to the pairs' to 1e-10" % name, worst <= 1e-10, worst)
 
 
 def judge_statics(name, pairs, faces):
-    for title, run in (name, load(name)), (name + ", three ranks", load(name + "_3")):
-        step = run["steps"][-1]
-        found = {pair["name"]: pair for pair in step["pairs"]}
-        reactions = {face["name"]: face["reaction"] for face in step["faces"]}
-        say("%s: each pair's force is its statics' to 1e-8" % title,
-            all(near(found[key]["force"], force, 1e-8) for key, force in pairs.items()), found)
-        say("%s: action is reaction" % title,
-            all(near(np.negative(pair["mortar_force"]), pair["force"], 1e-12) for pair in found.values()), found)
-        largest = max(np.linalg.norm(pair["force"]) for pair in found.values())
-        say("%s: each face's reaction is its statics' to 1e-8" % title,
-            all(np.linalg.norm(np.subtract(reactions[key], force)) <= 1e-8 * largest for key, force in faces.items()),
-            reactions)
-        say("%s: the bodies are in balance to 1e-8" % title, step["balance"] <= 1e-8, step["bodies"])
-        total = np.sum([pair["force"] for pair in found.values()], axis=0)
-        say("%s: contact_force is the sum of the pairs' forces" % title, near(step["contact_force"], total, 1e-12),
-            step["contact_force"])
-        judge_fields(title, name if title == name else name + "_3", step)
+    step = load(name)["steps"][-1]
+    found = {pair["name"]: pair for pair in step["pairs"]}
+    reactions = {face["name"]: face["reaction"] for face in step["faces"]}
+    say("%s: each pair's force is its statics' to 1e-8" % name,
+        all(near(found[key]["force"], force, 1e-8) for key, force in pairs.items()), found)
+    say("%s: action is reaction" % name,
+        all(near(np.negative(pair["mortar_force"]), pair["force"], 1e-12) for pair in found.values()), found)
+    largest = max(np.linalg.norm(pair["force"]) for pair in found.values())
+    say("%s: each face's reaction is its statics' to 1e-8" % name,
+        all(np.linalg.norm(np.subtract(reactions[key], force)) <= 1e-8 * largest for key, force in faces.items()),
+        reactions)
+    say("%s: the bodies are in balance to 1e-8" % name, step["balance"] <= 1e-8, step["bodies"])
+    total = np.sum([pair["force"] for pair in found.values()], axis=0)
+    say("%s: contact_force is the sum of the pairs' forces" % name, near(step["contact_force"], total, 1e-12),
+        step["contact_force"])
+    judge_fields(name, step)
 
 
 def judge_punch(half):
@@ -154,7 +153,7 @@ def judge_punch(half):
             abs(pressure[0] / (2 / math.pi * mean) - 1) <= 0.03, pressure[0] / mean)
         say("%s: no pressure on the %s is beyond seven times the mean" % (name, side),
             pressure.max() <= 7 * mean, pressure / mean)
-    judge_fields(name, name, step)
+    judge_fields(name, step)
 
 
 def judge():

@@ -219,7 +219,7 @@ int main(int argc, char **argv)
 
    test:
       suffix: 1
-      nsize: {{1 2 3 5}}
+      nsize: {{1 5 2 3}}
       output_file: output/mesh_create_1.out
 
    # level 0 is refined before it is distributed

@@ -183,7 +183,7 @@ int main(int argc, char **argv)
    test:
       suffix: rows
       filter: grep -v "function name: PCGalerkin"
-      nsize: {{1 2 3 5}}
+      nsize: {{1 5 2 3}}
       args: -highest 4 -amg {{hypre blockamg}}
       output_file: output/amgf_cycles_oracle.out
 

@@ -363,7 +363,7 @@ int main(int argc, char **argv)
 
    test:
       suffix: 1
-      nsize: {{1 2 3 5}}
+      nsize: {{1 5 2 3}}
 
    # ranks wait for one another at the events of PETSc's log
    test:

@@ -316,7 +316,7 @@ int main(int argc, char **argv)
 
       test:
          suffix: ranks
-         nsize: {{1 2 3}}
+         nsize: {{1 3 2}}
 
       test:
          suffix: monotone

@@ -115,7 +115,6 @@ int main(int argc, char **argv)
 
    test:
       suffix: 1
-      nsize: {{1 2}}
       args: -tao_ipfilter_pc_type lu -tao_ipfilter_pc_factor_mat_solver_type mumps
 
 TEST*/

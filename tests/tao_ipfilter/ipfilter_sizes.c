@@ -288,8 +288,12 @@ int main(int argc, char **argv)
 
 /*TEST
 
-   test:
-      suffix: 1
-      nsize: {{1 2}}
+   testset:
+      output_file: output/ipfilter_sizes_1.out
+      test:
+         suffix: 1
+      test:
+         suffix: ranks_long
+         nsize: 2
 
 TEST*/
