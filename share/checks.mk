@@ -7,7 +7,7 @@ SANITIZE_TESTS  ?= scene_view* material_* output_* elasticity_derivatives* conta
                    ipfilter_reasons* ipfilter_fallbacks* ipfilter_bounds*
 SANITIZE_ERRORS ?= fuzz_corpus* mesh_gmsh* mesh_errors* scene_errors* ipfilter_complete*
 DEBUG_TESTS     ?= $(SANITIZE_TESTS) $(SANITIZE_ERRORS) amgf_* ipfilter_* mesh_* contact_gap* elasticity_mixed* \
-                   elasticity_loads* step_models load_steps penalty gmsh_blocks
+                   elasticity_follower* step_models load_steps gmsh_ranks
 SANITIZE_FLAGS := -g -O1 -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined
 FUZZ_FLAGS     := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined \
                   -fno-sanitize-recover=undefined
@@ -97,7 +97,7 @@ fuzz:
 	done
 
 # The nonlinear programs beside IPOPT (coinor-libipopt-dev), a program of its own because IPOPT brings another MUMPS.
-# The table goes to tests/stress/nlp.md, the performance profile beside it, that of 500 drawn at random to
+# The table goes to tests/stress/nlp.md, that of 500 drawn at random to
 # tests/stress/nlp_random.md, that of the same programs in other forms to tests/stress/nlp_forms.md
 nlp: all
 	@mkdir -p build/nlp

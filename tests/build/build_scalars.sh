@@ -1,5 +1,6 @@
 # Complex scalars, without a PETSc that has them: PCAMGF compiles, ipfilter and contact refuse in one sentence, and the
-# makefile, seeing them in petscconf.h, leaves both out and says so. tests/build/build_complex.sh runs what is built.
+# makefile, seeing them in petscconf.h, leaves both out and says so. tests/build/build_complex_long.sh runs what is
+# built.
 set -u
 unset MAKEFLAGS
 work=$(mktemp -d)

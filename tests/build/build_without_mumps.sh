@@ -7,13 +7,23 @@ export PKG_CONFIG_PATH=${PETSC_DIR:+$PETSC_DIR/${PETSC_ARCH:-}/lib/pkgconfig:}${
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
+# Only files that include pc_amgf/mumps.h depend on the macro
 for name in makefile pc_amgf tao_ipfilter src include apps share; do ln -s "$AMGF_DIR/$name" .; done
-make -k CPPFLAGS=-DAMGF_WITHOUT_MUMPS CFLAGS='-g -O0' lib/libpetscamgf.so > log 2>&1 || cat log
-for objects in build/pc_amgf build/tao_ipfilter "$AMGF_DIR/build/src" "$AMGF_DIR/build/apps"; do
-  find "$objects" -name '*.o' | grep -q . || echo "no objects in $objects"
-  calls=$(find "$objects" -name '*.o' -exec nm -A -u {} + | grep 'MatMumps' | sed "s|$AMGF_DIR/||")
-  echo "${objects#"$AMGF_DIR"/}: ${calls:-no call}"
+mkdir build lib && cp -r "$AMGF_DIR"/build/{pc_amgf,tao_ipfilter,src,apps} build
+for list in $(grep -rl 'pc_amgf/mumps\.h' build/*/ --include=*.d); do
+  source=${list#build/}
+  mpicc -std=c11 -g -O0 -fPIC -DAMGF_WITHOUT_MUMPS -I. -Iinclude $(pkg-config --cflags PETSc) \
+    -c "${source%d}c" -o "${list%d}o"
 done
+for folder in pc_amgf tao_ipfilter src apps; do
+  find "build/$folder" -name '*.o' | grep -q . || echo "no objects in $folder"
+  calls=$(find "build/$folder" -name '*.o' -exec nm -A -u {} + | grep 'MatMumps')
+  echo "$folder: ${calls:-no call}"
+done
+objects=$(ls pc_amgf/*.c pc_amgf/blockamg/*.c tao_ipfilter/*.c tao_ipfilter/*/*.c src/plugin/*.c |
+  sed 's|^\(.*\)c$|build/\1o|')
+mpicc -shared $objects -o lib/libpetscamgf.so \
+  $(pkg-config --libs PETSc) -Wl,-rpath,"$(pkg-config --variable=libdir PETSc)" -lm
 
 mpicc -std=c11 -g -O1 -Iinclude $(pkg-config --cflags PETSc) "$AMGF_DIR/tests/pc_amgf/amgf_hermitian.c" -o hermitian \
   -Llib -lpetscamgf -Wl,-rpath,"$work/lib",-rpath,"$(pkg-config --variable=libdir PETSc)" $(pkg-config --libs PETSc) -lm

@@ -89,8 +89,8 @@ for language in c cc; do
     && ./library_$language "$prefix/share/amgf/scenes/cantilever.yaml" -refine 0
 done
 for header in $(cd "$prefix/include" && ls *.h contact/*.h); do
-  echo "#include <$header>" > alone.cc
-  mpicxx -Wall -Werror -fsyntax-only alone.cc $(pkg-config --cflags contact) > err 2>&1 \
+  echo "#include <$header>" > alone.c
+  mpicc -Wall -Werror -fsyntax-only alone.c $(pkg-config --cflags contact) > err 2>&1 \
     || { echo "$header alone:"; head -n 3 err; }
 done
 "$prefix/bin/contact" "$prefix/share/amgf/scenes/gmsh_blocks.yaml" -scene_check > out &&

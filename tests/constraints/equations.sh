@@ -1,6 +1,6 @@
 # Equations between displacements of points: a lever of two bars, values that follow ramps, along any directions, chains
-# of equations, points within cells, equations beside symmetry planes and ties, and a body that only equations hold, some
-# on three ranks
+# of equations, points within cells, equations beside symmetry planes and ties, and a body that only equations hold,
+# some on three ranks
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/constraints/equations.py" write
 run() { # ranks, scene

@@ -11,7 +11,7 @@ done
 for scene in punch rubber roller rolled beam tilt rubs sprung; do
   "$contact" $scene.yaml $options -summary $scene.json || echo "$scene: exit code $?"
 done
-for scene in roller tilt ${long:+punch rubber rolled beam rubs sprung}; do
+for scene in tilt ${long:+roller} ${long:+punch rubber rolled beam rubs sprung}; do
   mpiexec --oversubscribe -n 3 "$contact" $scene.yaml $options -summary ${scene}_3.json ||
     echo "$scene, three ranks: exit code $?"
 done

@@ -23,12 +23,12 @@ sed 's/^contact/weak_springs: true\ncontact/' facets.yaml > weak.yaml
 moment='forces: [turn: {face: bush.lmin, value: [0, 0, 0], moment: [0, 0, 50]}]'
 sed "s/^contact/$moment\ncontact/" cylinder.yaml > turned.yaml
 for scene in facets cylinder weak turned; do
-  for n in 1 3; do
-    mpiexec --oversubscribe -n $n "$contact" $scene.yaml -quiet -error_estimate 0 -summary ${scene}_$n.json > said 2>&1
-    code=$?
-    grep '^contact:' said | grep -v 'do not converge\|penetrates'
-    echo "$scene, $n ranks: exit code $code"
-  done
+  ranks=1
+  [ $scene != cylinder ] || ranks=3
+  mpiexec --oversubscribe -n $ranks "$contact" $scene.yaml -quiet -error_estimate 0 -summary $scene.json > said 2>&1
+  code=$?
+  grep '^contact:' said | grep -v 'do not converge\|penetrates'
+  echo "$scene: exit code $code"
 done
 "$contact" weak.yaml -error_estimate 0 | grep 'can turn'
 # A pin joins two plates and can turn about its axis. The linearized gap does not resist this rotation; a proximal term
@@ -57,13 +57,11 @@ PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'CHECK'
 from summaries import load, say, within
 
 for scene in ("facets", "cylinder", "weak"):
-    for n in (1, 3):
-        run = load(f"{scene}_{n}")["steps"][-1]
-        pair = run["pairs"][0]
-        body = [b for b in run["bodies"] if b["name"] == "bush"][0]
-        say(f"{scene}, {n} ranks: the contact carries the weight, and the weak springs nothing",
-            within(pair["force"][0], -run["reaction"][0] if pair["force"][0] < 0 else run["reaction"][0], 1e-4) and
-            run["weak_spring_force"] < 1e-4 * pair["normal_force"], (pair, run["reaction"], run["weak_spring_force"]))
+    run = load(scene)["steps"][-1]
+    pair = run["pairs"][0]
+    say(f"{scene}: the contact carries the weight, and the weak springs nothing",
+        within(pair["force"][0], -run["reaction"][0] if pair["force"][0] < 0 else run["reaction"][0], 1e-4) and
+        run["weak_spring_force"] < 1e-4 * pair["normal_force"], (pair, run["reaction"], run["weak_spring_force"]))
 coarse, fine = (load(f"lap_{level}")["steps"][-1] for level in (0, 1))
 for level, run in enumerate((coarse, fine)):
     say(f"lap joint, refinement {level}: the interior point method is not needed", run["amg_applications"] < 150,

@@ -96,10 +96,8 @@ def judge_pad(name, run):
 def judge():
     for name in PADS:
         judge_pad(name, name)
-    judge_pad("mean", "mean_3")
     for name in DIES:
         judge_die(name, name)
-    judge_die("stiff", "stiff_3")
     judge_die("rubs", "rubs_3")
 
 

@@ -8,11 +8,11 @@ for name in found bodies settled tied plates excepted slides tower tools bush lo
   "$contact" "$name.yaml" -scene_check 2>&1 |
     sed -n 's/, gap auto.*//; /^Contact pairs/,/^Load steps/{/^ /p}; /^Ties/,/^Load steps/{/^ /p}; /rror/p' |
     grep -v "facets of mean" | uniq > one
+  cat one
+  case $name in found | tied | slides) ;; *) continue ;; esac
   mpiexec --oversubscribe -n 3 "$contact" "$name.yaml" -scene_check 2>&1 |
     sed -n 's/, gap auto.*//; /^Contact pairs/,/^Load steps/{/^ /p}; /^Ties/,/^Load steps/{/^ /p}; /rror/p' |
-    grep -v "facets of mean" | uniq > three
-  cat one
-  cmp one three
+    grep -v "facets of mean" | uniq | cmp one
 done
 for name in found listed friction friction_listed tied tied_listed tower slides tools tools_listed; do
   "$contact" "$name.yaml" -quiet -summary "$name.json" || echo "$name: exit code $?"

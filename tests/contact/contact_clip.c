@@ -182,67 +182,6 @@ static PetscErrorCode TestParallelograms(PetscRandom r)
   PetscFunctionReturn(0);
 }
 
-/* Overlaps whose area is known, moved about and nearly degenerate */
-static PetscErrorCode TestDegenerate(PetscRandom r)
-{
-  static const PetscReal square[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  static const struct {
-    const char *name;
-    PetscReal   q[4][2], area;
-  } cases[] = {
-    {"same facet", {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1},
-    {"same facet, turned", {{1, 1}, {0, 1}, {0, 0}, {1, 0}}, 1},
-    {"edges collinear", {{0.25, 0}, {0.75, 0}, {0.75, 1}, {0.25, 1}}, 0.5},
-    {"common edge", {{1, 0}, {2, 0}, {2, 1}, {1, 1}}, 0},
-    {"common vertex", {{1, 1}, {2, 1}, {2, 2}, {1, 2}}, 0},
-    {"vertex on an edge", {{0.5, 0}, {1, -1}, {1.5, 0}, {1, 1}}, 0.25},
-    {"diamond through vertices", {{0.5, -0.5}, {1.5, 0.5}, {0.5, 1.5}, {-0.5, 0.5}}, 1},
-    {"sliver", {{-1, 0.5}, {2, 0.5}, {2, 0.500001}, {-1, 0.500001}}, 1e-6},
-    {"triangle", {{0, 0}, {1, 0}, {1, 1}, {1, 1}}, 0.5},
-    {"reflex corner", {{0, 0}, {1, 0}, {0.25, 0.25}, {0, 1}}, 0.25},
-    {"collapsed to a line", {{0, 0}, {1, 1}, {1, 1}, {0, 0}}, 0},
-    {"collapsed to a point", {{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}}, 0},
-    {"apart", {{3, 3}, {4, 3}, {4, 4}, {3, 4}}, 0},
-  };
-
-  PetscFunctionBeginUser;
-  for (size_t c = 0; c < PETSC_STATIC_ARRAY_LENGTH(cases); ++c) {
-    PetscReal error = 0.0;
-
-    for (PetscInt trial = 0; trial < 400; ++trial) {
-      const PetscReal shift = trial % 4 == 3 ? 1e-7 : (trial % 4) * 1e-12,
-                      scale = PetscPowRealInt(10.0, (int)(trial % 13) - 6);
-      const PetscBool  swap = (PetscBool)(trial % 3 == 1);
-      PetscReal        p[4][2], q[4][2], x1[12], x2[12], normals[12] = {0}, sum = 0.0;
-      Motion           motion;
-      ContactOverlap   o;
-      ContactIntegrals m;
-
-      for (PetscInt a = 0; a < 4; ++a) {
-        for (PetscInt d = 0; d < 2; ++d) {
-          p[a][d] = square[(a + trial) % 4][d] * scale;
-          q[a][d] = (cases[c].q[a][d] + shift * Random(r, -1, 1)) * scale;
-        }
-      }
-      RandomMotion(r, &motion);
-      for (PetscInt d = 0; d < 3; ++d) motion.shift[d] *= scale;
-      Facet((const PetscReal(*)[2])(swap ? q : p), 0.0, PETSC_TRUE, x1);
-      Facet((const PetscReal(*)[2])(swap ? p : q), 0.1 * scale, PETSC_FALSE, x2);
-      Move(&motion, x1);
-      Move(&motion, x2);
-      if (ContactOverlapFind(x1, x2, &limits, &rule, &o)) {
-        ContactIntegrate(&o, x1, x2, normals, NULL, &m);
-        for (PetscInt a = 0; a < 4; ++a) sum += Weight(&m, a);
-      }
-      sum /= scale * scale;
-      if (PetscIsInfOrNanReal(sum)) error = PETSC_MAX_REAL;
-      else error = PetscMax(error, PetscAbsReal(sum - cases[c].area) - 8.0 * shift);
-    }
-    PetscCall(Report(cases[c].name, error, cases[c].area < 1e-3 ? 1e-8 : 1e-12));
-  }
-  PetscFunctionReturn(0);
-}
-
 /* Warped facets, also far too warped and steep: finite, within the facets, weights add up, derivative of the frozen
    gap */
 static PetscErrorCode TestWarped(PetscRandom r)
@@ -717,7 +656,6 @@ int main(int argc, char **argv)
   PetscCall(TestRules());
   PetscCall(TestParallelPlanes(r));
   PetscCall(TestParallelograms(r));
-  PetscCall(TestDegenerate(r));
   PetscCall(TestWarped(r));
   PetscCall(TestLimits());
   PetscCall(TestAdversarial(r, npairs));

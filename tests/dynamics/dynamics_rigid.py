@@ -98,5 +98,5 @@ else:
     say("ball: never deeper than the fall of a step", min(run["ball.position_z"]) > 0.97, min(run["ball.position_z"]))
     energy = [0] + [total - work for total, work in zip(run["dynamics.total_energy"], run["work"])]
     say("ball: energy never grows", all(b < a + 1e-6 for a, b in zip(energy, energy[1:])), energy)
-    judge_ranks(run, 3)
+    judge_ranks(run, 2)
     judge_struck("struck", 0.07)

@@ -1,7 +1,8 @@
 static char help[] =
   "The error estimate where it must be exact: fields linear in each body, and quadratic fields on uniform meshes.\n\n";
 
-#include "elasticity_truth.h"
+#include "../lib/elasticity_problem.h"
+#include "elasticity_stresses.h"
 
 static const Material linear = {.type = MATERIAL_LINEAR, .young = 2, .poisson = 0.3};
 
@@ -29,18 +30,12 @@ static void Quadratic(const PetscReal x[3], PetscReal u[3])
   u[2] = 0.1 * x[1] * x[1] - 0.2 * x[2] * x[2] + 0.1 * x[0] * x[2];
 }
 
-static void QuadraticStress(const void *ctx, const PetscReal x[3], PetscReal sigma[6])
+static void QuadraticGradient(const PetscReal x[3], PetscReal H[3][3])
 {
-  const PetscReal H[9] = {0.2 * x[0], 0.2 * x[2], 0.2 * x[1] - 0.2 * x[2], 0.3 * x[1] + 0.1, 0.3 * x[0], 0, 0.1 * x[2],
-    0.2 * x[1], -0.4 * x[2] + 0.1 * x[0]};
-  const PetscReal lambda = linear.young * linear.poisson / ((1 + linear.poisson) * (1 - 2 * linear.poisson)),
-                  mu     = linear.young / (2 * (1 + linear.poisson));
+  const PetscReal gradient[3][3] = {{0.2 * x[0], 0.2 * x[2], 0.2 * x[1] - 0.2 * x[2]},
+    {0.3 * x[1] + 0.1, 0.3 * x[0], 0}, {0.1 * x[2], 0.2 * x[1], -0.4 * x[2] + 0.1 * x[0]}};
 
-  (void)ctx;
-  for (PetscInt k = 0; k < 3; ++k) sigma[k] = lambda * (H[0] + H[4] + H[8]) + 2 * mu * H[4 * k];
-  sigma[3] = mu * (H[1] + H[3]);
-  sigma[4] = mu * (H[5] + H[7]);
-  sigma[5] = mu * (H[2] + H[6]);
+  for (PetscInt k = 0; k < 9; ++k) H[k / 3][k % 3] = gradient[k / 3][k % 3];
 }
 
 /* A box of 3 x 1 x 1, cut into three bodies at x = 1 and x = 2 unless it is to be one */
@@ -65,11 +60,11 @@ static PetscErrorCode CreateMesh(PetscInt nx, PetscInt ny, PetscBool cut, Field 
   PetscCall(VecGetArrayRead(coordinates, &x));
   PetscCall(DMPlexGetHeightStratum(*dm, 0, &start, &end));
   for (PetscInt c = start; c < end; ++c) {
-    PetscReal X[8][3], U[8][3], center = 0;
-    PetscInt  offsets[8];
+    PointCell cell;
+    PetscReal center = 0;
 
-    PetscCall(CellGather(*dm, c, x, x, X, U, offsets));
-    for (PetscInt a = 0; a < 8; ++a) center += X[a][0] / 8;
+    PetscCall(PointCellGet(*dm, c, x, &cell));
+    for (PetscInt a = 0; a < 8; ++a) center += cell.X[a][0] / 8;
     PetscCall(DMLabelClearValue(label, c, 0));
     PetscCall(DMLabelSetValue(label, c, (PetscInt)center));
   }
@@ -128,16 +123,18 @@ static PetscErrorCode CheckKinked(MaterialType type, ElementType element)
 /* At the cells' centroids the strains of the interpolant of a quadratic field are exact, and the field's are linear */
 static PetscErrorCode CheckQuadratic(MaterialType type, ElementType element)
 {
-  const ExactSolution exact = {linear, element, QuadraticStress, NULL, NULL};
-  const PetscReal     scale = type == MATERIAL_LINEAR ? 1 : 1e-7;
-  DM                  dm;
-  Vec                 u;
-  PetscReal           bodies[3], energy, truth;
+  const PetscReal scale = type == MATERIAL_LINEAR ? 1 : 1e-7;
+  Elasticity      e;
+  DM              dm;
+  Vec             u;
+  PetscReal       bodies[3], energy, truth;
 
   PetscFunctionBeginUser;
   PetscCall(CreateMesh(7, 4, PETSC_FALSE, NULL, &dm));
   PetscCall(ProblemInterpolate(dm, Quadratic, &u));
-  PetscCall(TrueError(dm, &exact, u, &truth));
+  PetscCall(ElasticityCreate(dm, 1, &linear, &element, &e));
+  PetscCall(StressesError(dm, e, &linear, QuadraticGradient, u, &truth));
+  PetscCall(ElasticityDestroy(&e));
   PetscCall(Estimate(dm, type, element, Quadratic, scale, bodies, &energy));
   PetscCall(ProblemReport("  quadratic: relative distance from the true error",
     PetscAbsReal(bodies[0] / (scale * scale * truth) - 1), type == MATERIAL_LINEAR ? 1e-12 : 1e-6));

@@ -50,7 +50,7 @@ def write():
 
 
 def judge():
-    for name, most in ("slip_1", 32), ("tight_1", 32), ("tight_2", 32), ("smooth_1", 24):
+    for name, most in ("slip_1", 32), ("tight_1", 32), ("smooth_1", 24):
         run = load(name)
         forces = [bolts[0]["force"] for bolts in each(run, "bolts")]
         tightens = each(run, "ip_iterations")[0]

@@ -12,14 +12,14 @@ run() { # scene, name, ranks, options
     -summary "$1_$2.json" ${4:-} || echo "$1, $2: exit code $?"
 }
 for scene in blocks rings_27_2.2; do
-  for ranks in 1 2 5; do run $scene $ranks $ranks; done
+  for ranks in 1 5; do run $scene $ranks $ranks; done
 done
 run blocks petsc 2 "-petscpartitioner_type simple"
 sed 's/upper: \[0, 0, inf\]/upper: [-99, 0, inf]/' blocks.yaml > empty.yaml
 mpiexec --oversubscribe -n 3 "$AMGF_DIR/bin/contact" empty.yaml -quiet 2>&1 | grep error:
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - << 'PY'
 from summaries import load, say, within
-for scene, names in (("blocks", ("2", "5", "petsc")), ("rings_27_2.2", ("2", "5"))):
+for scene, names in (("blocks", ("5", "petsc")), ("rings_27_2.2", ("5", ))):
     one = load(f"{scene}_1")
     for name in names:
         other = load(f"{scene}_{name}")

@@ -80,7 +80,7 @@ int main(int argc, char **argv)
 
    test:
       suffix: shapes
-      nsize: 3
+      nsize: 2
       args: -scene ${AMGF_DIR}/tests/mesh/mesh_shapes.yaml
 
    test:

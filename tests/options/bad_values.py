@@ -140,7 +140,7 @@ def judge(right, contents):
 n, bad, begun = 0, 0, len(sys.argv) < 3
 for number, (what, right, contents) in enumerate(cases()):
     begun = begun or what == sys.argv[2]
-    if not begun or (len(sys.argv) < 2 and not right and number % 11):
+    if not begun or (len(sys.argv) < 2 and not right and number % 23):
         continue
     wrong = judge(right, contents)
     n += 1

@@ -1,6 +1,6 @@
 # The page of a run in a real browser: no message in the console; six answers are found by their ids and are those of
 # the summary; the slider shows another picture; dragging turns the bodies. REPORT_MODELS: names of
-# scenes in tests/lib/ten. Without a browser nothing is tested.
+# scenes in tests/lib/models. Without a browser nothing is tested.
 models=${REPORT_MODELS:-flange}
 for name in chromium-headless-shell chromium google-chrome; do
   browser=$(command -v $name) && break
@@ -16,7 +16,7 @@ dom() { # page: the document after its scripts have run; messages of the console
 }
 
 for model in $models; do
-  "$AMGF_DIR/bin/contact" "$AMGF_DIR/tests/lib/ten/$model.yaml" -quiet -report "$model.html" > out 2>&1 ||
+  "$AMGF_DIR/bin/contact" "$AMGF_DIR/tests/lib/models/$model.yaml" -quiet -report "$model.html" > out 2>&1 ||
     { echo "$model: exit code $?"; cat out; }
   # What a user does: the slider to its left end
   cat "$model.html" - > "$model.moved.html" <<'HTML'

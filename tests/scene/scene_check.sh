@@ -3,11 +3,12 @@
 contact=$AMGF_DIR/bin/contact
 for scene in "$AMGF_DIR"/share/scenes/*.yaml; do
   timeout 600 "$contact" "$scene" -scene_check > one 2>&1
-  codes=$?
-  timeout 600 mpiexec --oversubscribe -n 3 "$contact" "$scene" -scene_check > three 2>&1
-  codes="$codes $?"
-  echo "$(basename "$scene"): exit $codes, $(cmp -s one three && echo same || echo different)," \
-    "solved: $(grep -c 'Load step 1' one),$(grep '  total:' one)"
+  echo "$(basename "$scene"): exit $?, solved: $(grep -c 'Load step 1' one),$(grep '  total:' one)"
+done
+for name in gmsh_blocks ironing lug; do
+  "$contact" "$AMGF_DIR/share/scenes/$name.yaml" -scene_check > one 2>&1
+  timeout 600 mpiexec --oversubscribe -n 3 "$contact" "$AMGF_DIR/share/scenes/$name.yaml" -scene_check 2>&1 |
+    cmp - one && echo "$name: the same on three ranks"
 done
 "$contact" "$AMGF_DIR/share/scenes/ironing.yaml" -scene_check -refine 0 -load_steps 20
 sed 's/nonmortar: die.outer/nonmortar: die.bottom/' "$AMGF_DIR/share/scenes/ironing.yaml" > wrong.yaml

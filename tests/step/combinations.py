@@ -259,7 +259,7 @@ TABLE = {}
 
 
 def chosen(words):
-    """Each alone and each two, or a quarter of the twos, always the same ones; of all effects for the table; or so many
+    """Each alone and each two, or an eighth of the twos, always the same ones; of all effects for the table; or so many
     of three; or one with each other"""
     if words[:1] == ["triples"]:
         return random.Random(1).sample(list(itertools.combinations(EFFECTS, 3)), int(words[1]))
@@ -267,7 +267,7 @@ def chosen(words):
         return [(words[1], name) for name in EFFECTS if name != words[1]]
     pairs = list(itertools.combinations([name for name in EFFECTS if name not in ALONE or words[:1] == ["table"]], 2))
     if words[:1] == ["part"]:
-        pairs = random.Random(1).sample(pairs, len(pairs) // 4)
+        pairs = random.Random(1).sample(pairs, len(pairs) // 8)
     return [(name, ) for name in EFFECTS] + pairs
 
 

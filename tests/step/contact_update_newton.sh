@@ -1,11 +1,9 @@
 # Newton's method for the contact updates: at most five updates a load step on curved faces, where fixed point
-# iterations take six; on one rank and on two. At most eight where fixed point iterations move away from the solution,
+# iterations take six, on two ranks. At most eight where fixed point iterations move away from the solution,
 # without damping
-for ranks in 1 2; do
-  mpiexec --oversubscribe -n $ranks "$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/beam_sphere_linear.yaml" -quiet \
-    -summary $ranks.json
-  echo "$ranks ranks: exit $?"
-done
+mpiexec --oversubscribe -n 2 "$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/beam_sphere_linear.yaml" -quiet \
+  -summary linear.json
+echo "two ranks: exit $?"
 "$AMGF_DIR/bin/contact" "$AMGF_DIR/share/scenes/beam_sphere_neo_hookean.yaml" -quiet -error_estimate 0 \
   -summary finite.json 2> err
 echo "finite strain: exit $?"
@@ -16,12 +14,10 @@ PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'PY'
 from summaries import load, say, within
 
 ENERGY = 5.764763  # with -contact_update_tol 1e-9, with quadrature rules of degree 6, 7 and 8
-for ranks in "1", "2":
-    steps = load(ranks)["steps"]
-    updates = [step["contact_updates"] for step in steps]
-    say(f"{ranks} ranks: at most 5 updates a load step, 4 in the mean",
-        max(updates) <= 5 and sum(updates) <= 4 * len(updates), updates)
-    say("energy", within(steps[-1]["energy"], ENERGY, 1e-6), steps[-1]["energy"])
+steps = load("linear")["steps"]
+updates = [step["contact_updates"] for step in steps]
+say("at most 5 updates a load step, 4 in the mean", max(updates) <= 5 and sum(updates) <= 4 * len(updates), updates)
+say("energy", within(steps[-1]["energy"], ENERGY, 1e-6), steps[-1]["energy"])
 updates = [step["contact_updates"] for step in load("finite")["steps"]]
 say("finite strain: at most 5 updates a load step", max(updates) <= 5, updates)
 steps = load("blocks")["steps"]

@@ -12,7 +12,7 @@ for scene in sticks slides limited capped rough oiled grips finite cycle node sw
   run $scene $scene
 done
 for scene in cattaneo swapped; do options="-output $scene" run $scene $scene; done
-for scene in cycle cattaneo brink thin guided; do run ${scene}_3 $scene mpiexec --oversubscribe -n 3; done
+for scene in cycle thin; do run ${scene}_3 $scene mpiexec --oversubscribe -n 3; done
 options="-options_file $AMGF_DIR/share/options/direct.opts" run opens opens
 options="-checkpoint_every 4 -checkpoint cycle.h5" run part cycle
 options="-restart cycle.h5" run cycle_restarted cycle

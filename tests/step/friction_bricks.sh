@@ -2,6 +2,4 @@
 # and dense factors are large (friction_bricks.py)
 "$PYTHON" "$AMGF_DIR/tests/step/friction_bricks.py" scene
 timeout 1200 "$AMGF_DIR/bin/contact" bricks.yaml -quiet -summary bricks.json 2> warnings
-timeout 1200 mpiexec --oversubscribe -n 3 "$AMGF_DIR/bin/contact" bricks.yaml -quiet \
-  -summary bricks_3.json 2> warnings_3
 "$PYTHON" "$AMGF_DIR/tests/step/friction_bricks.py"

@@ -19,9 +19,5 @@ contact:
 load: {factors: [1, 1, 1, 1, 1]}
 ramps: [push: {factors: [0, 0.25, 0.5, 0.75, 1]}]
 YAML
-for ranks in 1 2; do
-  timeout 1200 mpiexec --oversubscribe -n $ranks "$AMGF_DIR/bin/contact" jack.yaml -quiet -error_estimate 0 \
-    -summary jack.json
-  echo "ranks: $ranks, exit code: $?"
-  "$PYTHON" "$AMGF_DIR/tests/step/friction_jack.py"
-done
+timeout 1200 "$AMGF_DIR/bin/contact" jack.yaml -quiet -error_estimate 0 -summary jack.json || echo "exit code: $?"
+"$PYTHON" "$AMGF_DIR/tests/step/friction_jack.py"

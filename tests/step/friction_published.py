@@ -376,7 +376,7 @@ def judge_roller():
 
 
 def judge_ranks():
-    for name in chosen("torque_42", "capstan_90_24", fine=("cattaneo_14", "roller_8")):
+    for name in chosen("torque_42", fine=("cattaneo_14", "roller_8")):
         one, three = (load(name + ranks)["steps"][-1]["pairs"] for ranks in ("", "_3"))
         verdict(f"{name}, 3 ranks against 1",
                 max(abs(a["shear_force"] / b["shear_force"] - 1) for a, b in zip(one, three)), 1e-6)

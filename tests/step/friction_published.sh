@@ -12,5 +12,5 @@ for scene in greco_32 torque_42 capstan_90_24 capstan_180_48 pulled hung lift_ro
 options="-output cattaneo_14" run cattaneo_14 cattaneo_14
 options="-load_steps 5" run greco_32_5 greco_32
 for scene in torque_42 smooth_42; do options="-tao_ipfilter_pc_amgf_factor false" run ${scene}_amg $scene; done
-for scene in torque_42 capstan_90_24; do run ${scene}_3 $scene mpiexec --oversubscribe -n 3; done
+run torque_42_3 torque_42 mpiexec --oversubscribe -n 3
 "$PYTHON" "$AMGF_DIR/tests/step/friction_published.py"

@@ -1,5 +1,6 @@
 # Friction of tetrahedra of first and second order, on each other and beside hexahedra: a block that is pushed a little
-# less and a little more than friction holds, and one that is moved to and fro (the scenes are those of friction.py)
+# less and a little more than friction holds, and one that is moved to and fro (the scenes are those of friction.py).
+# friction_tetrahedra_long has all kinds
 "$PYTHON" "$AMGF_DIR/tests/step/friction.py" scenes
 for order in 1 2; do
   "$PYTHON" -B "$AMGF_DIR/tests/lib/tetrahedra.py" box ground_$order.msh $order -0.5 -0.5 -0.5 2.5 1.5 0 6 4 2
@@ -13,10 +14,11 @@ run() { # scene, kind and order of the ground and the block, ranks
   [ "$4" = 1 ] || set -- "$1" "$2" "$3" "$4" mpiexec --oversubscribe -n "$4"
   timeout 1200 "${@:5}" "$AMGF_DIR/bin/contact" "$name.yaml" -quiet -summary "$name${5:+_$4}.json" 2> /dev/null
 }
-for kind in "t1 t1" "t2 t2" "h1 t2" "t2 h1"; do
+long=${1-}
+for kind in "t1 t1" "t2 h1" ${long:+"t2 t2" "h1 t2"}; do
   run sticks $kind 1
   run slides $kind 1
 done
-for kind in "h1 h1" "t1 t1" "t2 t2"; do run cycle $kind 1; done
-run cycle t2 t2 3
-"$PYTHON" -B "$AMGF_DIR/tests/step/friction_tetrahedra.py"
+for kind in "h1 h1" "t1 t1" ${long:+"t2 t2"}; do run cycle $kind 1; done
+run cycle t1 t1 3
+"$PYTHON" -B "$AMGF_DIR/tests/step/friction_tetrahedra.py" $long

@@ -97,7 +97,7 @@ if __name__ == "__main__":
     if sys.argv[1] == "scenes":
         scenes()
     else:
-        for file in (*SCENES, "die_2"):
+        for file in (*SCENES, "block_2"):
             check_run(file, file.split("_")[0])
         # without load the block may lie at an angle: of all positions without penetration it takes the nearest one
         forces = [[step["pairs"][0]["force"][0] for step in load(file)["steps"]] for file in ("block", "block_2")]

@@ -27,6 +27,6 @@ run() {
 ranks=1
 run neohookean 0.2 2 6 ', -1'
 run neohookean 0.6 5 6 ', -1'
-ranks=2
 run neohookean 0.2 5 6 ', -1'
+ranks=2
 run saint_venant 0.6 5 8

@@ -10,16 +10,14 @@ displacements:
 contact:
   - pair: {mortar: base.zmax, nonmortar: block.zmin}
 SCENE
-for n in 1 2; do
-  mpiexec --oversubscribe -n $n "$AMGF_DIR/bin/contact" many.yaml -quiet -summary many_$n.json || echo "exit code $?"
-done
+mpiexec --oversubscribe -n 2 "$AMGF_DIR/bin/contact" many.yaml -quiet -summary many_2.json || echo "exit code $?"
 sed 's/zmin}$/zmin, stick: true}/' many.yaml > stick.yaml
 "$AMGF_DIR/bin/contact" stick.yaml -quiet -summary stick_1.json || echo "exit code $?"
 PYTHONPATH=$AMGF_DIR/tests/lib "$PYTHON" -B - <<'CHECK'
 from summaries import load, petsc_release, say, within
 
 many = 4000 if petsc_release() < (3, 20) else 4900  # tests/run/memory_peak.sh says why
-for name, most in ("many_1", many), ("many_2", many), ("stick_1", 10000):
+for name, most in ("many_2", many), ("stick_1", 10000):
     run = load(name)
     force = run["steps"][-1]["pairs"][0]["normal_force"]
     each = (run["peak_memory_bytes"] - run["memory"]["start"]) / run["dofs"]

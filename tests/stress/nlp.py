@@ -1,5 +1,4 @@
-"""TAOIPFILTER, IPOPT and other solvers of TAO on nonlinear programs whose solutions are known: tests/stress/nlp.md and
-nlp_profile.png.
+"""TAOIPFILTER, IPOPT and other solvers of TAO on nonlinear programs whose solutions are known: tests/stress/nlp.md.
 
 The problems are those of tests/tao_ipfilter/ipfilter_nlp.h and of nlp_problems.py, and, counted by themselves, those of
 nlp_kinds.py, nlp_textbook.py and nlp_degenerate.py; `make stress STRESS=nlp` builds the programs and runs this.
@@ -193,45 +192,12 @@ def differences(problems, results, left, right):
                    f"{a.iterations} | {sentence} |")
 
 
-def profile(problems, results, path):
-    """Performance profiles (Dolan and More 2002): the share of problems solved within a multiple of what the best
-    solver took"""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-
-    names = list(results)[:3]
-    figure, axes = pyplot.subplots(1, 3, figsize=(13, 4), sharey=True)
-    for axis, measure in zip(axes, ("iterations", "points", "seconds")):
-        took = {
-            name: {p: max(getattr(r, measure), 1e-5)
-                   for p, r in results[name].items()
-                   if r.verdict == "right"}
-            for name in names
-        }
-        best = {
-            p.name: min((took[name][p.name] for name in names if p.name in took[name]), default=None)
-            for p in problems
-        }
-        for name in names:
-            ratios = sorted(value / best[p] for p, value in took[name].items())
-            axis.step([1.0, *ratios, 100.0],
-                      [0.0, *((k + 1) / len(problems) for k in range(len(ratios))),
-                       len(ratios) / len(problems)], where="post", label=name)
-        axis.set(xscale="log", xlim=(1, 100), ylim=(0, 1), xlabel=f"{measure}, multiple of the least")
-        axis.grid(alpha=0.3)
-    axes[0].set_ylabel(f"share of {len(problems)} problems solved")
-    axes[0].legend(loc="lower right")
-    figure.tight_layout()
-    figure.savefig(path, dpi=80)
-
-
 HEADER = """# Nonlinear programs: TAOIPFILTER compared with IPOPT and other solvers of TAO
 
 `make stress STRESS=nlp` makes this page (tests/stress/nlp.py), and build/nlp/nlp_all.md with a row
-for each problem. All solvers get the same formulas, derivatives and starting points, and use their
-default options. The time limit is %d s per problem.
+for each problem, and those that only one of TAOIPFILTER and IPOPT has right. All solvers get the
+same formulas, derivatives and starting points, and use their default options. The time limit is
+%d s per problem.
 
 | result | meaning |
 | --- | --- |
@@ -264,7 +230,7 @@ def parse():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--folder", required=True, help="of the programs, and for what they are given")
     parser.add_argument("--limit", type=float, default=5.0, help="of one problem [s]")
-    parser.add_argument("--out", default=HERE, help="folder for nlp.md and nlp_profile.png")
+    parser.add_argument("--out", default=HERE, help="folder for nlp.md")
     return parser.parse_args()
 
 
@@ -284,16 +250,16 @@ def main():
     lines = [HEADER % (args.limit, FAR, FAR_VIOLATION)]
     for title, members in sets.items():
         lines += [f"## {title}", "", *counts(members, results), "", *common(members, results, (ours, ipopt)), ""]
-    for left, right in ((ours, ipopt), (ipopt, ours)):
-        lines += [
-            f"## {right} has right, {left} not", "", "| problem | | f | optimum | violation | its | said |",
-            "|" + " --- |" * 7, *differences(problems, results, left, right), ""
-        ]
     with open(os.path.join(args.out, "nlp.md"), "w") as out:
         out.write("\n".join(lines))
+    lines = table(problems, results, (ours, none, ipopt))
+    for left, right in ((ours, ipopt), (ipopt, ours)):
+        lines += [
+            "", f"## {right} has right, {left} not", "", "| problem | | f | optimum | violation | its | said |",
+            "|" + " --- |" * 7, *differences(problems, results, left, right)
+        ]
     with open(os.path.join(args.folder, "nlp_all.md"), "w") as out:
-        out.write("\n".join(table(problems, results, (ours, none, ipopt))) + "\n")
-    profile(problems, results, os.path.join(args.out, "nlp_profile.png"))
+        out.write("\n".join(lines) + "\n")
     print("\n".join(line for members in sets.values() for line in counts(members, results)))
 
 

@@ -85,8 +85,8 @@ def fits(p):
 HEADER = """# Nonlinear programs in other forms: TAOIPFILTER compared with IPOPT
 
 `make stress STRESS=nlp` makes this page (tests/stress/nlp_forms.py). The problems are those of
-[nlp.md](nlp.md), which also says which results are right. The tables list the problems that IPOPT
-has right and TAOIPFILTER not; build/nlp/nlp_forms_other.md lists those that are the other way round.
+[nlp.md](nlp.md), which also says which results are right. build/nlp/nlp_forms_all.md lists the problems that one of
+both solvers has right.
 
 | form | how it is written |
 | --- | --- |
@@ -101,7 +101,7 @@ has right and TAOIPFILTER not; build/nlp/nlp_forms_other.md lists those that are
 
 def main():
     args = parse()
-    lines, others = [HEADER], ["# Problems that ipfilter has right and IPOPT not", ""]
+    lines, others = [HEADER], ["# Problems that one of ipfilter and IPOPT has right", ""]
     asked = [s for s in solvers(args.folder) if s.name in ("ipfilter", "IPOPT")]
     for form, rewrite in FORMS.items():
         problems = [p for p in map(rewrite, [*shipped(args.folder), *PROBLEMS, *KINDS, *TEXTBOOK]) if fits(p)]
@@ -110,15 +110,14 @@ def main():
             for p in problems:
                 found[p.name].verdict = judge(p, found[p.name])
         title = "| problem | | f | optimum | violation | its | said |\n|" + " --- |" * 7
-        lines += [
-            f"## {form}", "", *counts(problems, results), "", "IPOPT has right, ipfilter not:", "", title,
-            *differences(problems, results, "ipfilter", "IPOPT"), ""
-        ]
-        others += [f"## {form}", "", title, *differences(problems, results, "IPOPT", "ipfilter"), ""]
+        lines += [f"## {form}", "", *counts(problems, results), ""]
+        for left, right in (("ipfilter", "IPOPT"), ("IPOPT", "ipfilter")):
+            others += [f"## {form}: {right} has right, {left} not", "", title,
+                       *differences(problems, results, left, right), ""]
         print(form, *counts(problems, results), sep="\n", flush=True)
     with open(os.path.join(args.out, "nlp_forms.md"), "w") as out:
         out.write("\n".join(lines))
-    with open(os.path.join(args.folder, "nlp_forms_other.md"), "w") as out:
+    with open(os.path.join(args.folder, "nlp_forms_all.md"), "w") as out:
         out.write("\n".join(others))
 
 

@@ -7,7 +7,6 @@ import resource
 
 import barrier
 import clip
-import kill
 import steps
 import sweeps
 import together
@@ -168,10 +167,6 @@ def clip_cells(r):
     return [r["name"], str(r["checks"]), f"{r['seconds']:.0f}"]
 
 
-def kill_cells(r):
-    return [r["name"], *(str(r[key]) for key in ("ranks", "times", "went_on", "before", "done")), f"{r['worst']:.1e}"]
-
-
 COUNTS = ["status", "Newton", "PCG mean", "PCG max"]
 PARTS = {
     "sweeps": Part(sweeps.cases, ["case", *COUNTS, "true gap", "energy", "difference in energy"], sweep_cells),
@@ -184,9 +179,6 @@ PARTS = {
         "scene", "load steps", "contact updates allowed", *COUNTS, "true gap", "difference in displacement",
         "difference in energy"
     ], step_cells),
-    "kill": Part(kill.cases,
-                 ["after", "ranks that go on", "times", "went on", "before a checkpoint", "had ended", "off by"],
-                 kill_cells),
     "together": Part(together.cases, ["effects", "known", "run", "refused"], lambda r: [r["name"], *r["counts"]]),
     "clip": Part(clip.cases, ["case", "checks", "time [s]"], clip_cells),
 }

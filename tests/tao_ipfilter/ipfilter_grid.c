@@ -1,5 +1,5 @@
 static char help[] = "Obstacle problems on a grid: bounds on all unknowns, or the same as inequality rows.\n\
-  -problem NAME    obstacle, torsion, bearing, signorini, surface; all of them without it\n\
+  -problem NAME    obstacle, torsion, bearing, signorini; all of them without it\n\
   -n N             unknowns in a row\n\
   -rows            the bounds as inequality rows\n\n";
 
@@ -10,7 +10,7 @@ static char help[] = "Obstacle problems on a grid: bounds on all unknowns, or th
 typedef struct {
   DM               da;
   int              problem, n;
-  QuadraticProgram q; /* of the surface H alone; J picks the bounded unknowns */
+  QuadraticProgram q; /* J picks the bounded unknowns */
   Vec              lower, upper;
   PetscReal        constant;
 } Grid;
@@ -20,7 +20,7 @@ static PetscReal Bound(double value)
   return value >= GRID_NONE ? PETSC_INFINITY : (value <= -GRID_NONE ? PETSC_NINFINITY : value);
 }
 
-/* K, b and the constant of a quadratic problem */
+/* K, b and the constant */
 static PetscErrorCode AssembleQuadratic(Grid *grid)
 {
   const PetscInt di[5] = {0, -1, 1, 0, 0}, dj[5] = {0, 0, 0, -1, 1};
@@ -79,108 +79,21 @@ static PetscErrorCode FillGridBounds(Grid *grid)
   PetscFunctionReturn(0);
 }
 
-/* A value of u, which the boundary gives outside the unknowns */
-static PetscScalar SurfaceValue(const Grid *grid, PetscScalar **u, PetscInt i, PetscInt j)
-{
-  double x, y;
-
-  if (i >= 0 && i < grid->n && j >= 0 && j < grid->n) return u[j][i];
-  GridPoint(grid->problem, grid->n, (int)i, (int)j, &x, &y);
-  return GridBoundary(grid->problem, x, y);
-}
-
-/* Area, and its gradient in g, or its Hessian in H; each may be NULL. A triangle counts on the rank of its right
-   angle, or of the unknown next to it where that lies on the boundary; what it gives to unknowns of others is sent to
-   them. */
-static PetscErrorCode SurfaceEvaluate(Grid *grid, Vec x, PetscReal *f, Vec g, Mat H)
-{
-  const double  h = 1.0 / (grid->n + 1.0);
-  DMDALocalInfo info;
-  Vec           local, sum;
-  PetscScalar **u, **out;
-  PetscReal     area = 0.0;
-
-  PetscFunctionBeginUser;
-  PetscCall(DMDAGetLocalInfo(grid->da, &info));
-  PetscCall(DMGetLocalVector(grid->da, &local));
-  PetscCall(DMGetLocalVector(grid->da, &sum));
-  PetscCall(DMGlobalToLocal(grid->da, x, INSERT_VALUES, local));
-  PetscCall(VecSet(sum, 0.0));
-  PetscCall(DMDAVecGetArrayRead(grid->da, local, &u));
-  PetscCall(DMDAVecGetArray(grid->da, sum, &out));
-  if (H) PetscCall(MatZeroEntries(H));
-  for (PetscInt j = info.ys - 1; j <= info.ys + info.ym; j++) {
-    for (PetscInt i = info.xs - 1; i <= info.xs + info.xm; i++) {
-      for (PetscInt side = -1; side <= 1; side += 2) { /* of the right angle on which the triangle lies */
-        const PetscInt ii[3] = {i, i + side, i}, jj[3] = {j, j, j + side},
-                       owner_i = PetscMin(PetscMax(i, 0), grid->n - 1), owner_j = PetscMin(PetscMax(j, 0), grid->n - 1);
-        const MatStencil node[3] = {{.i = ii[0], .j = jj[0]}, {.i = ii[1], .j = jj[1]}, {.i = ii[2], .j = jj[2]}};
-        double           gradient[3], hessian[3][3], values[3];
-        PetscBool        known[3];
-
-        if (i + side < -1 || i + side > grid->n || j + side < -1 || j + side > grid->n) continue;
-        if (owner_i < info.xs || owner_i >= info.xs + info.xm || owner_j < info.ys || owner_j >= info.ys + info.ym)
-          continue;
-        for (PetscInt k = 0; k < 3; k++) {
-          known[k]  = (PetscBool)(ii[k] < 0 || ii[k] >= grid->n || jj[k] < 0 || jj[k] >= grid->n);
-          values[k] = PetscRealPart(SurfaceValue(grid, u, ii[k], jj[k]));
-        }
-        area += GridTriangle(h, values[0], values[1], values[2], gradient, hessian);
-        for (PetscInt r = 0; r < 3; r++) {
-          if (known[r]) continue;
-          out[jj[r]][ii[r]] += gradient[r];
-          for (PetscInt s = 0; s < 3 && H; s++) {
-            const PetscScalar value = hessian[r][s];
-
-            if (!known[s]) PetscCall(MatSetValuesStencil(H, 1, &node[r], 1, &node[s], &value, ADD_VALUES));
-          }
-        }
-      }
-    }
-  }
-  PetscCall(DMDAVecRestoreArray(grid->da, sum, &out));
-  PetscCall(DMDAVecRestoreArrayRead(grid->da, local, &u));
-  if (g) PetscCall(VecSet(g, 0.0));
-  if (g) PetscCall(DMLocalToGlobal(grid->da, sum, ADD_VALUES, g));
-  if (f) PetscCallMPI(MPI_Allreduce(&area, f, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
-  if (H) PetscCall(MatAssemblyBegin(H, MAT_FINAL_ASSEMBLY));
-  if (H) PetscCall(MatAssemblyEnd(H, MAT_FINAL_ASSEMBLY));
-  PetscCall(DMRestoreLocalVector(grid->da, &sum));
-  PetscCall(DMRestoreLocalVector(grid->da, &local));
-  PetscFunctionReturn(0);
-}
-
 static PetscErrorCode GridObjectiveAndGradient(Tao tao, Vec x, PetscReal *f, Vec g, void *user)
 {
   Grid *grid = (Grid *)user;
 
   PetscFunctionBeginUser;
-  if (grid->problem == GRID_SURFACE) PetscCall(SurfaceEvaluate(grid, x, f, g, NULL));
-  else {
-    PetscCall(ProblemObjectiveAndGradient(tao, x, f, g, &grid->q));
-    *f += grid->constant;
-  }
-  PetscFunctionReturn(0);
-}
-
-static PetscErrorCode GridHessian(Tao tao, Vec x, Mat H, Mat pre, void *user)
-{
-  Grid *grid = (Grid *)user;
-
-  PetscFunctionBeginUser;
-  (void)tao;
-  (void)pre;
-  if (grid->problem == GRID_SURFACE) PetscCall(SurfaceEvaluate(grid, x, NULL, NULL, H));
+  PetscCall(ProblemObjectiveAndGradient(tao, x, f, g, &grid->q));
+  *f += grid->constant;
   PetscFunctionReturn(0);
 }
 
 static PetscErrorCode CreateGrid(int problem, PetscInt n, Grid *grid)
 {
-  const DMDAStencilType stencil = problem == GRID_SURFACE ? DMDA_STENCIL_BOX : DMDA_STENCIL_STAR;
-
   PetscFunctionBeginUser;
   *grid = (Grid){.problem = problem, .n = (int)n};
-  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, stencil, n, n, PETSC_DECIDE,
+  PetscCall(DMDACreate2d(PETSC_COMM_WORLD, DM_BOUNDARY_NONE, DM_BOUNDARY_NONE, DMDA_STENCIL_STAR, n, n, PETSC_DECIDE,
     PETSC_DECIDE, 1, 1, NULL, NULL, &grid->da));
   PetscCall(DMSetFromOptions(grid->da));
   PetscCall(DMSetUp(grid->da));
@@ -190,7 +103,7 @@ static PetscErrorCode CreateGrid(int problem, PetscInt n, Grid *grid)
   PetscCall(VecDuplicate(grid->q.b, &grid->lower));
   PetscCall(VecDuplicate(grid->q.b, &grid->upper));
   PetscCall(FillGridBounds(grid));
-  if (problem != GRID_SURFACE) PetscCall(AssembleQuadratic(grid));
+  PetscCall(AssembleQuadratic(grid));
   PetscFunctionReturn(0);
 }
 
@@ -260,7 +173,7 @@ static PetscErrorCode CreateGridSolver(Grid *grid, const char type[], PetscBool 
   PetscCall(TaoSetType(*tao, type));
   PetscCall(TaoSetSolution(*tao, x));
   PetscCall(TaoSetObjectiveAndGradient(*tao, NULL, GridObjectiveAndGradient, grid));
-  PetscCall(TaoSetHessian(*tao, grid->q.H, grid->q.H, GridHessian, grid));
+  PetscCall(TaoSetHessian(*tao, grid->q.H, grid->q.H, ProblemConstant, NULL));
   if (rows) PetscCall(SetRows(*tao, grid));
   else PetscCall(TaoSetVariableBounds(*tao, grid->lower, grid->upper));
   PetscCall(TaoGetKSP(*tao, &ksp));
@@ -363,5 +276,19 @@ int main(int argc, char **argv)
          suffix: rows
          nsize: {{1 2}}
          args: -rows
+
+      test:
+         suffix: monotone
+         args: -rows -tao_ipfilter_barrier monotone -tao_ipfilter_subspace false
+
+      test:
+         suffix: direct
+         nsize: 2
+         args: -rows -tao_ipfilter_pc_type cholesky -tao_ipfilter_pc_factor_mat_solver_type mumps
+
+   # the error of the objective does not grow with the number of bounds
+   test:
+      suffix: many
+      args: -problem obstacle -n 90
 
 TEST*/

@@ -1,12 +1,11 @@
 /*
-   Obstacle problems on a grid of n x n unknowns, number i + n j at column i and row j. All but the surface are
-   quadratic, f = 1/2 u^T K u - b^T u + constant, with K of five points.
+   Obstacle problems on a grid of n x n unknowns, number i + n j at column i and row j: f = 1/2 u^T K u - b^T u +
+   constant, with K of five points.
 
      obstacle   a membrane on [-2, 2]^2 over a ball, with the boundary values of a solution that is known
      torsion    elastic-plastic torsion of a square rod, |u| <= distance from the boundary
      bearing    pressure in a journal bearing, 0 <= u <= 1000: MINPACK-2's, as PETSc's jbearing2
      signorini  a membrane that is held on three sides, and may touch an obstacle with its fourth alone
-     surface    least area over a plate, on triangles
 */
 #ifndef IPFILTER_GRID_H
 #define IPFILTER_GRID_H
@@ -14,11 +13,11 @@
 #include <math.h>
 #include <string.h>
 
-enum { GRID_OBSTACLE, GRID_TORSION, GRID_BEARING, GRID_SIGNORINI, GRID_SURFACE, GRID_NPROBLEMS };
+enum { GRID_OBSTACLE, GRID_TORSION, GRID_BEARING, GRID_SIGNORINI, GRID_NPROBLEMS };
 
 #define GRID_NONE 1e300 /* no bound */
 
-static const char *const grid_names[GRID_NPROBLEMS] = {"obstacle", "torsion", "bearing", "signorini", "surface"};
+static const char *const grid_names[GRID_NPROBLEMS] = {"obstacle", "torsion", "bearing", "signorini"};
 
 /* Number of a problem, or -1 */
 static inline int GridFind(const char *name)
@@ -39,11 +38,7 @@ static inline double GridBall(double r)
 /* Values on the boundary of the square, of which x and y are coordinates between 0 and 1 */
 static inline double GridBoundary(int problem, double x, double y)
 {
-  const double pi = 3.14159265358979323846;
-
-  if (problem == GRID_OBSTACLE) return 0.471519893402112 - 0.680259411891719 * log(4.0 * hypot(x - 0.5, y - 0.5));
-  if (problem == GRID_SURFACE && (y <= 0.0 || y >= 1.0)) return sin(pi * x);
-  return 0.0;
+  return problem == GRID_OBSTACLE ? 0.471519893402112 - 0.680259411891719 * log(4.0 * hypot(x - 0.5, y - 0.5)) : 0.0;
 }
 
 /* Coordinates between 0 and 1 of the node in column i and row j, which may be one of the boundary's */
@@ -105,7 +100,6 @@ static inline void GridBounds(int problem, int n, int i, int j, double *lower, d
     *upper = 1000.0;
   }
   if (problem == GRID_SIGNORINI && j == 0) *lower = -0.1 - 0.2 * (x - 0.5) * (x - 0.5);
-  if (problem == GRID_SURFACE && fabs(x - 0.5) <= 0.25 && fabs(y - 0.5) <= 0.25) *lower = 0.6;
 }
 
 /* What the boundary's values add to the load at (i, j) and to the objective */
@@ -123,26 +117,6 @@ static inline void GridBoundaryTerms(int problem, int n, int i, int j, const dou
     *load -= v[k] * g;
     *constant -= 0.5 * v[k] * g * g;
   }
-}
-
-/* Area of a triangle with legs h over which u has the values a at the right angle, b and c; its gradient and Hessian
-   in them */
-static inline double GridTriangle(double h, double a, double b, double c, double g[3], double H[3][3])
-{
-  const double p = (b - a) / h, q = (c - a) / h, root = sqrt(1.0 + p * p + q * q), area = 0.5 * h * h;
-  const double slope[3][2] = {{-1.0 / h, -1.0 / h}, {1.0 / h, 0.0}, {0.0, 1.0 / h}};
-
-  for (int r = 0; r < 3; r++) {
-    const double along = p * slope[r][0] + q * slope[r][1];
-
-    g[r] = area * along / root;
-    for (int s = 0; s < 3; s++)
-      H[r][s] = area *
-                (slope[r][0] * slope[s][0] + slope[r][1] * slope[s][1] -
-                  along * (p * slope[s][0] + q * slope[s][1]) / (root * root)) /
-                root;
-  }
-  return area * root;
 }
 
 #endif

@@ -111,6 +111,6 @@ int main(int argc, char **argv)
 
    test:
       suffix: 1
-      nsize: {{1 3 2}}
+      nsize: 2
 
 TEST*/

@@ -1,5 +1,5 @@
 static char help[] = "Sizes of one constraint, bound or start that must not decide what the others may violate, and "
-                     "how the solve ends.\n\n";
+                     "how the solve ends. Second-order corrections.\n\n";
 
 #include "ipfilter_formulas.h"
 
@@ -271,6 +271,39 @@ static PetscErrorCode TestFirstBarrier(void)
   PetscFunctionReturn(0);
 }
 
+/* Maratos's problem, where full Newton steps violate the constraint and raise the objective: second-order corrections
+   spare steps, and cost less than one evaluation a step */
+static PetscErrorCode TestCorrection(PetscBool equality)
+{
+  const char *circle = "x1^2+x2^2-1", *corrections[] = {"0", "4"};
+  const NLP   maratos = {"", "2*(x1^2+x2^2-1)-x1", equality ? "" : circle, equality ? circle : "", "",
+      "0.69670670934716542 0.71735609089952276", -1.0, NLP_SOLVED, NULL};
+  PetscInt    steps[2], points[2];
+  PetscReal   f[2];
+
+  PetscFunctionBeginUser;
+  for (PetscInt k = 0; k < 2; k++) {
+    FormulasProblem problem;
+
+    PetscCall(PetscOptionsSetValue(NULL, "-tao_ipfilter_max_soc", corrections[k]));
+    PetscCall(FormulasCreate(PETSC_COMM_WORLD, &maratos, &problem));
+    PetscCall(TaoSolve(problem.tao));
+    PetscCall(TaoGetSolutionStatus(problem.tao, &steps[k], &f[k], NULL, NULL, NULL, NULL));
+    points[k] = problem.formulas.npoints;
+    PetscCall(FormulasDestroy(&problem));
+  }
+  PetscCall(PetscOptionsClearValue(NULL, "-tao_ipfilter_max_soc"));
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "correction of an %s: ", equality ? "equality" : "inequality"));
+  if (steps[1] < steps[0] && points[1] <= points[0] + steps[1] && PetscMax(f[0], f[1]) < -1.0 + 1e-6)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "fewer steps\n"));
+  else
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+      "%" PetscInt_FMT " steps and %" PetscInt_FMT " points, with it %" PetscInt_FMT " and %" PetscInt_FMT
+      ", objective %g, %g\n",
+      steps[0], points[0], steps[1], points[1], (double)f[0], (double)f[1]));
+  PetscFunctionReturn(0);
+}
+
 int main(int argc, char **argv)
 {
   PetscFunctionBeginUser;
@@ -282,6 +315,10 @@ int main(int argc, char **argv)
   PetscCall(TestUnscaled());
   PetscCall(TestFarBounds());
   PetscCall(TestFirstBarrier());
+  PetscCall(TestCorrection(PETSC_TRUE));
+  PetscCall(PetscOptionsInsertString(NULL, "-tao_ipfilter_start cold -tao_ipfilter_slack_init 1e-4 "
+                                           "-tao_ipfilter_dual_init 1.5 -tao_ipfilter_mu_init 1.5e-4"));
+  PetscCall(TestCorrection(PETSC_FALSE));
   PetscCall(PetscFinalize());
   return 0;
 }

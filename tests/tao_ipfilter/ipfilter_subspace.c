@@ -517,7 +517,7 @@ int main(int argc, char **argv)
 
    test:
       suffix: 1
-      nsize: {{1 2 3 5}}
+      nsize: {{1 5 2 3}}
 
    # what an error leaves allocated is no leak
    test:

@@ -60,7 +60,7 @@ for scene, ranks, cost in ("beam_sphere", (1, 3), (1.5, 1.2)), ("ironing", (1, 5
         print("  the AMG was set up", "once" if sum(step["amg_setups"] for step in run) == 1 else "MORE THAN ONCE")
         spared(f"{scene}_{n}", run)
 
-for n in 1, 3:
+for n in ran("neo_hookean", 1, 3):
     run, interior = steps(f"neo_hookean_{n}")[0], steps("neo_hookean")[0]
     print(f"beam_sphere at finite strain, {n} ranks")
     energy, force = difference(run, interior)

@@ -30,7 +30,7 @@ done
 for ranks in ${long:+1} 3; do run "ironing_chosen_$ranks" "$ranks" ironing -load_steps 4; done
 # At finite strain: Newton's method on the subspace
 run neo_hookean 1 beam_sphere_neo_hookean -load_steps 3 -tao_ipfilter_subspace false
-for ranks in 1 3; do
+for ranks in 1 ${long:+3}; do
   run "neo_hookean_$ranks" "$ranks" beam_sphere_neo_hookean -load_steps 3 -tao_ipfilter_pc_amgf_factor false
 done
 # The AMG of a nearly incompressible block needs more directions than there may be Newton steps

@@ -1,0 +1,3 @@
+# friction_tetrahedra with all kinds of cells
+set -- long
+. "$AMGF_DIR/tests/step/friction_tetrahedra.sh"
