@@ -80,11 +80,11 @@ int main(int argc, char **argv)
 
    test:
       suffix: shapes
-      nsize: 2
       args: -scene ${AMGF_DIR}/tests/mesh/mesh_shapes.yaml
 
    test:
       suffix: shapes_long
+      nsize: 3
       output_file: output/mesh_nodes_shapes.out
       args: -scene ${AMGF_DIR}/tests/mesh/mesh_shapes.yaml
 

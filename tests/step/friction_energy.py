@@ -236,6 +236,3 @@ else:
     whole, restarted = (load(name)["steps"][-1] for name in ("pin", "pin_restarted"))
     say("pin: restarted, dissipated", within(restarted["dissipated"], whole["dissipated"], 1e-6),
         (restarted["dissipated"], whole["dissipated"]))
-    one, three = (load(name)["steps"][-1] for name in ("pin", "pin_3"))
-    say("pin: 3 ranks as 1", within(three["dissipated"], one["dissipated"], 1e-6),
-        (three["dissipated"], one["dissipated"]))
