@@ -12,10 +12,10 @@ for scene in sticks slides limited capped rough oiled grips finite cycle node sw
   run $scene $scene
 done
 for scene in cattaneo swapped; do options="-output $scene" run $scene $scene; done
-for scene in cycle thin; do run ${scene}_3 $scene mpiexec --oversubscribe -n 3; done
+run thin_3 thin mpiexec --oversubscribe -n 3
 options="-options_file $AMGF_DIR/share/options/direct.opts" run opens opens
 options="-checkpoint_every 4 -checkpoint cycle.h5" run part cycle
-options="-restart cycle.h5" run cycle_restarted cycle
+options="-restart cycle.h5" run cycle_restarted cycle mpiexec --oversubscribe -n 2
 "$PYTHON" "$AMGF_DIR/tests/step/friction.py"
 # Columns of the monitor: the second is the objective, the eighth the systems that a reduced problem took
 "$AMGF_DIR/bin/contact" plates.yaml | awk 'NF == 10 && $1 ~ /^[0-9]+$/ && $2 ~ /e/ { systems += $8; problems++ }

@@ -5,5 +5,6 @@
 for scene in block die ball key; do
   "$AMGF_DIR/bin/contact" $scene.yaml -quiet -error_estimate 0 -summary $scene.json 2> $scene.err
 done
-mpiexec -n 2 "$AMGF_DIR/bin/contact" block.yaml -quiet -error_estimate 0 -summary block_2.json 2> block_2.err
-"$PYTHON" "$AMGF_DIR/tests/step/friction_unload.py" check
+other=${1:-die}
+mpiexec -n 2 "$AMGF_DIR/bin/contact" $other.yaml -quiet -error_estimate 0 -summary ${other}_2.json 2> ${other}_2.err
+"$PYTHON" "$AMGF_DIR/tests/step/friction_unload.py" check $other
