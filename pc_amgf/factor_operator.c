@@ -46,10 +46,7 @@ PetscErrorCode PCAMGFFactorIsUsed_Private(PC pc, PetscBool *used)
   PetscFunctionReturn(0);
 }
 
-/*
-   PCAMGFFactorSetUp_Private - factors the operator; f->failed tells whether that failed. With `auto` it also fails if
-   the operator is not positive definite: MUMPS's factors take seven times as long to apply as the AMG.
-*/
+/* PCAMGFFactorSetUp_Private - factors the operator; f->failed tells whether that failed */
 PetscErrorCode PCAMGFFactorSetUp_Private(PC pc)
 {
   PC_AMGF       *amgf = (PC_AMGF *)pc->data;
@@ -66,8 +63,7 @@ PetscErrorCode PCAMGFFactorSetUp_Private(PC pc)
   f->analysed = now;
   PetscCall(PCGetOptionsPrefix(pc, &prefix));
   PetscCall(PetscSNPrintf(own, sizeof(own), "%samgf_factor_", prefix ? prefix : ""));
-  f->negative = 0;
-  PetscCall(AMGFSymmetricFactor(pc->pmat, own, &f->F, f->use == PC_AMGF_FACTOR_AUTO ? NULL : &f->negative, &error));
+  PetscCall(AMGFSymmetricFactor(pc->pmat, own, &f->F, &f->negative, &error));
   f->failed = (PetscBool)(error != MAT_FACTOR_NOERROR);
   if (f->failed) PetscCall(MatDestroy(&f->F));
   if (f->failed) PetscCall(PetscInfo(pc, "Factorization instead of the AMG failed with error %d\n", (int)error));
@@ -152,7 +148,7 @@ PetscErrorCode PCAMGFGetFactored_AMGF(PC pc, PetscBool *factored)
   Notes:
   Real scalars only. On one rank CHOLMOD computes the factors, if PETSc has it. MUMPS computes them on several ranks,
   and if the operator is not positive definite. If the factorization fails, the set-up of the preconditioner fails. With
-  `auto` the AMG is used then, and also if the operator is not positive definite.
+  `auto` the AMG is used then.
 
   With `auto` the choice depends on the number of unknowns alone. A program that knows how often an operator is used can
   choose better: a factorization takes longer than the set-up of the AMG, and an application takes less time.
