@@ -119,6 +119,18 @@ static PetscErrorCode ProgressIterate(Simulation sim, PetscInt iteration, PetscR
   PetscFunctionReturn(0);
 }
 
+/* Prints a progress message within an iteration if one is due */
+static PetscErrorCode ProgressWithin(Simulation sim)
+{
+  PetscBool      due;
+  PetscLogDouble now;
+
+  PetscFunctionBegin;
+  PetscCall(ProgressIsDue(sim->state->control, sim->run, &now, &due));
+  if (due) PetscCall(ProgressPrint(sim, now, ""));
+  PetscFunctionReturn(0);
+}
+
 static PetscErrorCode ProgressMonitorOptimizer(Tao tao, void *ctx)
 {
   Simulation sim = (Simulation)ctx;
@@ -149,6 +161,6 @@ PetscErrorCode ProgressObserve(Simulation sim)
   PetscFunctionBegin;
   sim->run->progress = (Progress){.every = 10.0};
   sim->state->control->observer =
-    (StepObserver){ProgressBegin, ProgressReach, ProgressMonitorOptimizer, ProgressMonitorLinear};
+    (StepObserver){ProgressBegin, ProgressReach, ProgressWithin, ProgressMonitorOptimizer, ProgressMonitorLinear};
   PetscFunctionReturn(0);
 }

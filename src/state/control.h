@@ -5,8 +5,9 @@
 
 /* Callbacks that run/progress.c sets; each may be NULL. */
 typedef struct {
-  PetscErrorCode (*begin)(Simulation); /* called before a load step */
-  PetscErrorCode (*reach)(Simulation); /* called after each converged attempt */
+  PetscErrorCode (*begin)(Simulation);  /* called before a load step */
+  PetscErrorCode (*reach)(Simulation);  /* called after each converged attempt */
+  PetscErrorCode (*within)(Simulation); /* called often within iterations; must not communicate */
   PetscErrorCode (*optimizer)(Tao, void *);
   PetscErrorCode (*linear)(KSP, PetscInt, PetscReal, void *);
 } StepObserver;

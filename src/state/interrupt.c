@@ -39,11 +39,13 @@ PetscErrorCode SimulationCatchSignals(void)
   PetscFunctionReturn(0);
 }
 
-/* Finds whether this rank has received a signal. Not collective. ctx: unused */
+/* Finds whether this rank has received a signal, and lets the observer report progress. Not collective */
 PetscErrorCode InterruptCaught(void *ctx, PetscBool *stop)
 {
+  const Simulation sim = (Simulation)ctx;
+
   PetscFunctionBegin;
-  (void)ctx;
+  if (sim->state->control->observer.within) PetscCall(sim->state->control->observer.within(sim));
   *stop = caught ? PETSC_TRUE : PETSC_FALSE;
   PetscFunctionReturn(0);
 }

@@ -143,17 +143,19 @@ static PetscErrorCode BodiesSolveInSubspace(SubspaceBodies b)
 
 /*
    Solves in the subspace. With the forces e, dx is that of the symmetric matrix for the load without R^T e. Then e is
-   corrected until it is (D - S) R dx.
+   corrected until it is (D - S) R dx up to `error` [2-norm of scaled forces]. *exact: whether rounding limits the
+   error.
 */
-PetscErrorCode BodiesSolveCoupled(SubspaceBodies b, PetscBool *solved)
+PetscErrorCode BodiesSolveCoupled(SubspaceBodies b, PetscReal error, PetscBool *exact, PetscBool *solved)
 {
-  const PetscReal exact = 1e-3 * CONTACT_WEAK, /* of e, which contains the forces of weak springs */
+  const PetscReal least = 1e-3 * CONTACT_WEAK, /* of e, which contains the forces of weak springs */
     enough              = 1e-2; /* after many iterations: Newton's method and the cones correct what is left */
   PetscReal size, off;
 
   PetscFunctionBegin;
+  *exact = (PetscBool)!b->coupled;
   PetscCall(BodiesSolveInSubspace(b));
-  if (!b->coupled) PetscFunctionReturn(0);
+  if (*exact) PetscFunctionReturn(0);
   PetscCall(MatMult(b->R, b->dx, b->rows));
   PetscCall(BodiesMultiplyRest(b, b->rows));
   PetscCall(VecQuotient_AMGF(b->rows, b->rows, b->scale));
@@ -161,11 +163,13 @@ PetscErrorCode BodiesSolveCoupled(SubspaceBodies b, PetscBool *solved)
   PetscCall(VecAXPY(b->rows, -1.0, b->e));
   PetscCall(VecNorm(b->rows, NORM_2, &off));
   *solved = (PetscBool)!PetscIsInfOrNanReal(off);
-  if (!*solved || off <= exact * size) PetscFunctionReturn(0);
-  PetscCall(KSPSetTolerances(b->coupling, PETSC_SMALL, exact * size, PETSC_DEFAULT, PETSC_DEFAULT));
+  error   = PetscMax(least * size, error);
+  *exact  = (PetscBool)(error <= least * size);
+  if (!*solved || off <= error) PetscFunctionReturn(0);
+  PetscCall(KSPSetTolerances(b->coupling, PETSC_SMALL, error, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(KSPSolve(b->coupling, b->rows, b->off));
   PetscCall(KSPGetResidualNorm(b->coupling, &off));
-  *solved = (PetscBool)(off <= enough * size);
+  *solved = (PetscBool)(off <= PetscMax(error, enough * size));
   PetscCall(VecAXPY(b->e, 1.0, b->off));
   PetscCall(VecPointwiseMult(b->off, b->off, b->scale));
   PetscCall(BodiesRespondOnW(b, b->off, b->on_W));

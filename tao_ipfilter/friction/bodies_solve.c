@@ -59,18 +59,20 @@ PetscErrorCode BodiesExtend(SubspaceBodies b, Vec left, PetscBool *added)
 }
 
 /*
-   Finds whether directions cost more than factors of the whole matrix: many were added for one system of a small
-   problem. This happens if bodies are slender.
+   Finds whether directions cost more than factors of the whole matrix: many were added for one system, although they
+   are computed by factors of K. This happens if bodies are slender.
 */
 static PetscErrorCode BodiesAreSlow(SubspaceBodies b, PetscInt nadded, PetscBool *slow)
 {
-  const PetscInt many = 30;
+  const PetscInt many     = 30;
+  PetscBool      factored = PETSC_FALSE;
   PetscInt       n, nw;
 
   PetscFunctionBegin;
   PetscCall(VecGetSize(b->x, &n));
   PetscCall(ISGetSize(b->W, &nw));
-  *slow = (PetscBool)(nadded > many && n <= IP_WHOLE && nw < n);
+  PetscTryMethod(b->recycle->pc, "PCAMGFGetFactored_C", (PC, PetscBool *), (b->recycle->pc, &factored));
+  *slow = (PetscBool)(nadded > many && factored && nw < n);
   PetscFunctionReturn(0);
 }
 
@@ -102,8 +104,9 @@ PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fraction, 
 {
   const SubspaceBodies b = (SubspaceBodies)data;
   const PetscScalar   *u;
-  PetscReal            norm, size, first = PETSC_INFINITY;
-  PetscBool            added = PETSC_TRUE, slow = PETSC_FALSE;
+  const PetscReal      part = 0.1; /* error of the coupling, as a part of the error that the directions leave */
+  PetscReal            norm, size, first = PETSC_INFINITY, error = 0.0;
+  PetscBool            added = PETSC_TRUE, slow = PETSC_FALSE, exact = PETSC_FALSE, last;
   PetscInt             n;
   Vec                  left;
 
@@ -116,21 +119,24 @@ PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fraction, 
   PetscCall(MatSolve(b->F, b->load, b->dw0));
   b->nloads = 0;
   PetscCall(VecZeroEntries(b->e));
-  for (PetscInt k = 0;; k++) {
+  for (PetscInt k = 0;;) {
     PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
     PetscCall(BodiesFactorDirections(b, solved));
-    if (*solved) PetscCall(BodiesSolveCoupled(b, solved));
+    if (*solved) PetscCall(BodiesSolveCoupled(b, error, &exact, solved));
     PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
     if (!*solved) break;
     PetscCall(BodiesLeft(b, left, &norm));
     PetscCall(BodiesSize(b, left, &size));
     *solved = (PetscBool)!PetscIsInfOrNanReal(size);
     if (!k) first = size;
-    if (!*solved || size <= PetscMax(fraction * first, target) || (fraction > 0.0 && norm <= b->enough)) break;
-    PetscCall(BodiesAreSlow(b, k, &slow));
+    if (!*solved) break;
+    last = (PetscBool)(size <= PetscMax(fraction * first, target) || (fraction > 0.0 && norm <= b->enough) || !added);
+    if (last && exact) break;
+    error = last ? 0.0 : part * size;
+    if (last) continue;
+    PetscCall(BodiesAreSlow(b, k++, &slow));
     if (slow) break;
     PetscCall(BodiesExtend(b, left, &added));
-    if (!added) break;
   }
   PetscCall(IPRestoreWork(b->tao, IP_UNKNOWNS, &left));
   if (slow) {

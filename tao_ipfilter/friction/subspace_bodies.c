@@ -185,13 +185,8 @@ static PetscErrorCode BodiesKeep(void *data, PetscBool back)
 
 static PetscErrorCode BodiesInterrupted(void *data, PetscBool *stop)
 {
-  const IPGiven *given = ((TAO_IPFILTER *)((SubspaceBodies)data)->tao->data)->given;
-
   PetscFunctionBegin;
-  *stop = PETSC_FALSE;
-  if (given->interrupt) PetscCall(given->interrupt(given->interrupt_ctx, stop));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, stop, 1, MPI_PETSCBOOL, MPI_LOR,
-    PetscObjectComm((PetscObject)((SubspaceBodies)data)->x)));
+  PetscCall(IPSubspaceInterrupted(((SubspaceBodies)data)->tao, stop));
   PetscFunctionReturn(0);
 }
 

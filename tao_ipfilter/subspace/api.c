@@ -305,9 +305,10 @@ PetscErrorCode TaoIPFilterSolveActive(PetscContainer space, Vec f, Vec c, PetscI
   Level: advanced
 
   Notes:
-  A reduced problem with norm terms may solve many linear systems in a single iteration. The function is called between
-  these systems, on the first rank only, and must not communicate. If *stop is true, the reduced problem ends without a
-  solution. A test set by `TaoSetConvergenceTest()`, or a monitor, must then end the solve.
+  An iteration may solve many linear systems, and apply the preconditioner many times. The function is called before
+  each system of norm terms and before each application, on every rank, and must not communicate. If *stop is true on
+  any rank, the iteration ends without a solution. A test set by `TaoSetConvergenceTest()`, or a monitor, must then end
+  the solve.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterSetNormTerms()`
 @*/

@@ -268,14 +268,28 @@ PetscErrorCode IPSubspaceTakeAll(Tao tao)
   PetscFunctionReturn(0);
 }
 
-/* Finds whether the iteration limit of the Krylov method allows another direction */
-PetscErrorCode IPSubspaceAllows(Tao tao, PetscBool *allows)
+/* Finds whether the user wants to end the solve */
+PetscErrorCode IPSubspaceInterrupted(Tao tao, PetscBool *stop)
 {
-  PetscInt limit;
+  const IPGiven *given = ((TAO_IPFILTER *)tao->data)->given;
 
   PetscFunctionBegin;
+  *stop = PETSC_FALSE;
+  if (given->interrupt) PetscCall(given->interrupt(given->interrupt_ctx, stop));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, stop, 1, MPI_PETSCBOOL, MPI_LOR, PetscObjectComm((PetscObject)tao)));
+  PetscFunctionReturn(0);
+}
+
+/* Finds whether the iteration limit of the Krylov method and the user allow another direction */
+PetscErrorCode IPSubspaceAllows(Tao tao, PetscBool *allows)
+{
+  PetscInt  limit;
+  PetscBool stop;
+
+  PetscFunctionBegin;
+  PetscCall(IPSubspaceInterrupted(tao, &stop));
   PetscCall(KSPGetTolerances(tao->ksp, NULL, NULL, NULL, &limit));
-  *allows = (PetscBool)(((TAO_IPFILTER *)tao->data)->rec->napplications < limit);
+  *allows = (PetscBool)(!stop && ((TAO_IPFILTER *)tao->data)->rec->napplications < limit);
   PetscFunctionReturn(0);
 }
 

@@ -249,6 +249,7 @@ PETSC_INTERN PetscErrorCode IPSubspaceSetPairs(Tao, Vec force);
 PETSC_INTERN PetscErrorCode IPSubspaceCompress(Tao, IPBasis *, PetscReal E[]);
 PETSC_INTERN PetscErrorCode IPSubspaceMakeRoom(Tao, IPBasis *);
 PETSC_INTERN PetscBool      IPSubspaceProgresses(IPSubspace *, PetscReal error, PetscInt patience);
+PETSC_INTERN PetscErrorCode IPSubspaceInterrupted(Tao, PetscBool *stop);
 PETSC_INTERN PetscErrorCode IPSubspaceAllows(Tao, PetscBool *);
 PETSC_INTERN PetscErrorCode IPSubspaceTakeAll(Tao);
 PETSC_INTERN PetscErrorCode IPSubspaceExtend(Tao, IPRecycle *, Vec r, PetscBool *extended);

@@ -125,7 +125,7 @@ PetscErrorCode OptimizerCreate(StepProblem *p, Tao *tao, PetscBool *ours)
   PetscCall(OptimizerSetRounding(p->model, p->state->path, *tao));
   PetscCall(TaoIPFilterSetDefinite(*tao, (PetscBool)(p->quadratic && ModelIsDynamic(p->model)))); /* by inertia */
   PetscCall(TaoMonitorSet(*tao, InterruptMonitor, sim, NULL));
-  PetscCall(TaoIPFilterSetInterrupt(*tao, InterruptCaught, NULL));
+  PetscCall(TaoIPFilterSetInterrupt(*tao, InterruptCaught, sim));
   if (p->state->control->observer.optimizer)
     PetscCall(TaoMonitorSet(*tao, p->state->control->observer.optimizer, sim, NULL));
   PetscFunctionReturn(0);
