@@ -6,6 +6,7 @@ import sys
 
 import numpy as np
 
+from roller import ROLLER
 from summaries import load, say
 
 PUNCH = """bodies:
@@ -39,21 +40,6 @@ displacements:
   - foot: {face: bar.zmin, value: [0, 0, 0]}
   - head: {face: bar.zmax, value: [0, 0, 0], rotation: [0, 0, 0.01], center: [0, 0, 4]}
 """
-ROLLER = """bodies:
-  - block: {lower: [0, 0, -1], upper: [1, 0.01, 0], cells: [30, 1, 24], grading: [60, 1, 0.02], even: [14, 1, 8],
-            young: 1000, poisson: 0.3}
-  - roller: {shape: half_ellipse, axis: y, depth: -z, half: x, center: [0, 0, 1], semi_axes: [1, 1], extent: [0, 0.01],
-             patches: [4, 12, 4], layers: 1, material: rigid}
-faces:
-  - crown: {of: roller.arc, upper: [0.6, inf, 0.5]}
-  - spot: {of: block.zmax, upper: [0.3, inf, inf]}
-symmetry: [block.xmin, block.ymin, block.ymax]
-displacements:
-  - floor: {face: block.zmin, value: [0, 0, 0]}
-  - press: {body: roller, value: [0, 0, -0.002]ROLLED}
-contact:
-  - touch: {mortar: roller.crown, nonmortar: block.spot, distance: 0.2}
-"""
 
 
 def hertz():
@@ -68,8 +54,10 @@ def hertz():
     return held, plane
 
 
-SCENES = dict(punch=PUNCH, turn=TURN, twist=TWIST, roller=ROLLER.replace("ROLLED", ""),
-              rolled=ROLLER.replace("ROLLED", ", rotation: [0, 2, 0], center: [0, 0, 1]"))
+FINE = ROLLER.replace("CELLS", "cells: [30, 1, 24], grading: [60, 1, 0.02], even: [14, 1, 8]")
+PRESSED = FINE.replace("MOTION", "[0, 0, -0.002]")
+SCENES = dict(punch=PUNCH, turn=TURN, twist=TWIST, roller=PRESSED,
+              rolled=PRESSED.replace("0.002]", "0.002], rotation: [0, 2, 0], center: [0, 0, 1]"))
 SCENES["held"], SCENES["plane"] = hertz()
 
 

@@ -4,6 +4,7 @@ import sys
 
 import numpy as np
 
+from roller import ROLLER
 from summaries import load, say
 
 PUNCH = """bodies:
@@ -18,24 +19,11 @@ contact:
 RUBBER = PUNCH.replace("young",
                        "material: neohookean, young").replace("symmetry",
                                                               "load: {steps: 2}\nsymmetry").replace("-0.03", "-0.6")
-ROLLER = """bodies:
-  - block: {lower: [0, 0, -1], upper: [1, 0.01, 0], cells: [24, 1, 16], grading: [30, 1, 0.03], even: [12, 1, 6],
-            young: 1000, poisson: 0.3}
-  - roller: {shape: half_ellipse, axis: y, depth: -z, half: x, center: [0, 0, 1], semi_axes: [1, 1], extent: [0, 0.01],
-             patches: [4, 12, 4], layers: 1, material: rigid}
-faces:
-  - crown: {of: roller.arc, upper: [0.6, inf, 0.5]}
-  - spot: {of: block.zmax, upper: [0.3, inf, inf]}
-symmetry: [block.xmin, block.ymin, block.ymax]
-displacements:
-  - floor: {face: block.zmin, value: [0, 0, 0]}
-  - press: {body: roller, value: [0, 0, -0.002]}
-contact:
-  - touch: {mortar: roller.crown, nonmortar: block.spot, distance: 0.2}
-"""
+FLAT = ROLLER.replace("CELLS", "cells: [24, 1, 16], grading: [30, 1, 0.03], even: [12, 1, 6]")
+PRESSED = FLAT.replace("MOTION", "[0, 0, -0.002]")
 # Turned and shifted: these motions stay prescribed while the force presses
-ROLLED = ROLLER.replace("[0, 0, -0.002]", "[0.004, 0, -0.002], rotation: [0, 2, 0], center: [0, 0, 1]")
-DRIVEN = dict(punch=PUNCH, rubber=RUBBER, roller=ROLLER, rolled=ROLLED)
+ROLLED = FLAT.replace("MOTION", "[0.004, 0, -0.002], rotation: [0, 2, 0], center: [0, 0, 1]")
+DRIVEN = dict(punch=PUNCH, rubber=RUBBER, roller=PRESSED, rolled=ROLLED)
 # A plate glued on a bar carries a force beside its middle and a moment: stretched, and bent both ways
 BEAM = """bodies:
   - bar: {lower: [-0.5, -1, 0], upper: [0.5, 1, 4], cells: [2, 3, 4], young: 10, poisson: 0, order: 2}

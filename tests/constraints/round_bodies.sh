@@ -63,8 +63,8 @@ for scene in ("facets", "cylinder", "weak"):
         within(pair["force"][0], -run["reaction"][0] if pair["force"][0] < 0 else run["reaction"][0], 1e-4) and
         run["weak_spring_force"] < 1e-4 * pair["normal_force"], (pair, run["reaction"], run["weak_spring_force"]))
 coarse, fine = (load(f"lap_{level}")["steps"][-1] for level in (0, 1))
-for level, run in enumerate((coarse, fine)):
-    say(f"lap joint, refinement {level}: the interior point method is not needed", run["amg_applications"] < 150,
+for level, run in enumerate((coarse, fine)):  # on the fine mesh that method takes more than 1,100 applications
+    say(f"lap joint, refinement {level}: the interior point method is not needed", run["amg_applications"] < 400,
         run["amg_applications"])
 say("lap joint: the force changes little with the mesh", within(coarse["reaction"][0], fine["reaction"][0], 0.1),
     (coarse["reaction"], fine["reaction"]))

@@ -1,6 +1,5 @@
 static char help[] = "Every error of a scene: one sentence, the same on every rank.\n";
 
-#include <scene.h>
 #include <mesh.h>
 #include <scene.h>
 #include <petscviewer.h>
