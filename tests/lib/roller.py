@@ -1,4 +1,4 @@
-"""The scene of a rigid roller that is pressed on a block. CELLS of the block and the MOTION of the roller are replaced."""
+"""The scene of a rigid roller that is pressed on a block. CELLS of the block and the roller's MOTION are replaced."""
 ROLLER = """bodies:
   - block: {lower: [0, 0, -1], upper: [1, 0.01, 0], CELLS,
             young: 1000, poisson: 0.3}
