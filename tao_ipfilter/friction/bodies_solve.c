@@ -1,6 +1,5 @@
 /* Solves a system on all unknowns: in the subspace, to which directions are added until the residual is small */
 #include "subspace_bodies.h"
-#include "tao_ipfilter/solver/constants.h"
 #include "tao_ipfilter/solver/record.h"
 
 /* Computes K dx, and the residual that dx leaves in v, which is zero on W, and its 2-norm */
