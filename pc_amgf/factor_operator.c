@@ -17,8 +17,8 @@ const char *const PCAMGFFactorUses[] = {"false", "true", "auto", "PCAMGFFactorUs
    with 5.7, and 510 for a bolted bracket with 9.3. With the largest fill a run needs twice the memory of the AMG.
    Factors with fewer than FACTOR_ENTRIES entries, 160 MB, are not limited. The fill is found by an analysis.
 */
-#define FACTOR_ANALYSE      60  /* applications */
-#define FACTOR_APPLICATIONS 5.0 /* times the square of the fill */
+#define FACTOR_ANALYSE      60  /* applications before the analysis */
+#define FACTOR_APPLICATIONS 5.0 /* applications before the factorization, divided by the square of the fill */
 #define FACTOR_FILL_MOST    12.0
 #define FACTOR_ENTRIES      2e7
 

@@ -143,19 +143,18 @@ static PetscErrorCode BodiesSolveInSubspace(SubspaceBodies b)
 
 /*
    Solves in the subspace. With the forces e, dx is that of the symmetric matrix for the load without R^T e. Then e is
-   corrected until it is (D - S) R dx up to `error` [2-norm of scaled forces]. *exact: whether rounding limits the
-   error.
+   corrected until it differs from (D - S) R dx by at most `error` [2-norm of scaled forces]. If rounding does not allow
+   that, e is corrected as far as rounding allows.
 */
-PetscErrorCode BodiesSolveCoupled(SubspaceBodies b, PetscReal error, PetscBool *exact, PetscBool *solved)
+PetscErrorCode BodiesSolveCoupled(SubspaceBodies b, PetscReal error, PetscBool *solved)
 {
   const PetscReal least = 1e-3 * CONTACT_WEAK, /* of e, which contains the forces of weak springs */
     enough              = 1e-2; /* after many iterations: Newton's method and the cones correct what is left */
   PetscReal size, off;
 
   PetscFunctionBegin;
-  *exact = (PetscBool)!b->coupled;
   PetscCall(BodiesSolveInSubspace(b));
-  if (*exact) PetscFunctionReturn(0);
+  if (!b->coupled) PetscFunctionReturn(0);
   PetscCall(MatMult(b->R, b->dx, b->rows));
   PetscCall(BodiesMultiplyRest(b, b->rows));
   PetscCall(VecQuotient_AMGF(b->rows, b->rows, b->scale));
@@ -164,7 +163,6 @@ PetscErrorCode BodiesSolveCoupled(SubspaceBodies b, PetscReal error, PetscBool *
   PetscCall(VecNorm(b->rows, NORM_2, &off));
   *solved = (PetscBool)!PetscIsInfOrNanReal(off);
   error   = PetscMax(least * size, error);
-  *exact  = (PetscBool)(error <= least * size);
   if (!*solved || off <= error) PetscFunctionReturn(0);
   PetscCall(KSPSetTolerances(b->coupling, PETSC_SMALL, error, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(KSPSolve(b->coupling, b->rows, b->off));

@@ -46,7 +46,7 @@ PetscErrorCode BodiesSolveSchur(SubspaceBodies b, PetscReal dy[], Vec w)
   PetscFunctionReturn(0);
 }
 
-/* Finds whether the present factors serve for S: no block differs by more than a small fraction from theirs */
+/* Finds whether the present factors serve for S. A block of S may differ by a small fraction from the factored one. */
 static PetscErrorCode BodiesAreFactored(const SubspaceBodies b, const PetscReal S[], PetscBool *factored)
 {
   const PetscReal small = 1e-2; /* GMRES corrects the difference */

@@ -105,7 +105,7 @@ PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fraction, 
   const PetscScalar   *u;
   const PetscReal      part = 0.1; /* error of the coupling, as a part of the error that the directions leave */
   PetscReal            norm, size, first = PETSC_INFINITY, error = 0.0;
-  PetscBool            added = PETSC_TRUE, slow = PETSC_FALSE, exact = PETSC_FALSE, last;
+  PetscBool            added = PETSC_TRUE, slow = PETSC_FALSE, last;
   PetscInt             n;
   Vec                  left;
 
@@ -118,22 +118,22 @@ PetscErrorCode BodiesSolve(void *data, const PetscReal s[], PetscReal fraction, 
   PetscCall(MatSolve(b->F, b->load, b->dw0));
   b->nloads = 0;
   PetscCall(VecZeroEntries(b->e));
-  for (PetscInt k = 0;;) {
+  for (PetscInt nadded = 0;;) {
     PetscCall(PetscLogEventBegin(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
     PetscCall(BodiesFactorDirections(b, solved));
-    if (*solved) PetscCall(BodiesSolveCoupled(b, error, &exact, solved));
+    if (*solved) PetscCall(BodiesSolveCoupled(b, error, solved));
     PetscCall(PetscLogEventEnd(TAO_IPFilterReduced, b->tao, NULL, NULL, NULL));
     if (!*solved) break;
     PetscCall(BodiesLeft(b, left, &norm));
     PetscCall(BodiesSize(b, left, &size));
     *solved = (PetscBool)!PetscIsInfOrNanReal(size);
-    if (!k) first = size;
+    if (!nadded) first = size;
     if (!*solved) break;
     last = (PetscBool)(size <= PetscMax(fraction * first, target) || (fraction > 0.0 && norm <= b->enough) || !added);
-    if (last && exact) break;
+    if (last && (error == 0.0 || !b->coupled)) break;
     error = last ? 0.0 : part * size;
     if (last) continue;
-    PetscCall(BodiesAreSlow(b, k++, &slow));
+    PetscCall(BodiesAreSlow(b, nadded++, &slow));
     if (slow) break;
     PetscCall(BodiesExtend(b, left, &added));
   }

@@ -67,7 +67,7 @@ PETSC_INTERN PetscErrorCode BodiesFactorDirections(SubspaceBodies b, PetscBool *
 
 /* bodies_coupling.c */
 PETSC_INTERN PetscErrorCode BodiesCreateCoupling(SubspaceBodies b);
-PETSC_INTERN PetscErrorCode BodiesSolveCoupled(SubspaceBodies b, PetscReal error, PetscBool *exact, PetscBool *solved);
+PETSC_INTERN PetscErrorCode BodiesSolveCoupled(SubspaceBodies b, PetscReal error, PetscBool *solved);
 
 /* bodies_space.c */
 PETSC_INTERN PetscErrorCode BodiesDestroySpace(SubspaceBodies b);

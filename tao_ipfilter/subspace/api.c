@@ -305,10 +305,10 @@ PetscErrorCode TaoIPFilterSolveActive(PetscContainer space, Vec f, Vec c, PetscI
   Level: advanced
 
   Notes:
-  An iteration may solve many linear systems, and apply the preconditioner many times. The function is called before
-  each system of norm terms and before each application, on every rank, and must not communicate. If *stop is true on
-  any rank, the iteration ends without a solution. A test set by `TaoSetConvergenceTest()`, or a monitor, must then end
-  the solve.
+  A single iteration may solve many linear systems and compute many directions. The function is called before each
+  system of norm terms and before each direction. It is called on every rank, and must not communicate. If *stop is
+  true on any rank, the iteration ends without a solution. A test set by `TaoSetConvergenceTest()`, or a monitor, must
+  then end the solve.
 
 .seealso: `TAOIPFILTER`, `TaoIPFilterSetNormTerms()`
 @*/

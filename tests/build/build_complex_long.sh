@@ -1,11 +1,6 @@
 # A PETSc with complex scalars: make builds the plugin, in a tree of its own, and PCAMGF solves Hermitian positive
 # definite systems on 1 and 2 ranks.
-set -u
-unset MAKEFLAGS
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
+. "$AMGF_DIR/tests/lib/own_folder.sh"
 for name in makefile pc_amgf tao_ipfilter src include apps share; do ln -s "$AMGF_DIR/$name" .; done
 make PETSC_DIR="$COMPLEX_PETSC" PETSC_ARCH= CFLAGS='-g -O1 -Werror=incompatible-pointer-types' all > log 2>&1 || cat log
 find lib bin ! -type d 2> /dev/null | sed 's/\.so\..*/.so/' | sort -u

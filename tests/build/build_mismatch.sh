@@ -2,13 +2,8 @@
 # integers, scalars or release differ.
 # The other PETSc is pretended to library.c, which asks; where Debian's with complex scalars or 64-bit integers are
 # installed, they build a whole plugin.
-set -u
-unset MAKEFLAGS
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
+. "$AMGF_DIR/tests/lib/own_folder.sh"
 export PKG_CONFIG_PATH=${PETSC_DIR:+$PETSC_DIR/${PETSC_ARCH:-}/lib/pkgconfig:}${PKG_CONFIG_PATH:-}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
 cat > program.c << 'C'
 #include <petscksp.h>
 int main(int argc, char **argv)

@@ -1,12 +1,7 @@
 # A PETSc without MUMPS, as -DAMGF_WITHOUT_MUMPS makes of any: no object of ours calls a function of MUMPS, which would
 # not link, and PCAMGF's filter is solved by PETSc's own Cholesky, on 1 and 2 ranks.
-set -u
-unset MAKEFLAGS
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
+. "$AMGF_DIR/tests/lib/own_folder.sh"
 export PKG_CONFIG_PATH=${PETSC_DIR:+$PETSC_DIR/${PETSC_ARCH:-}/lib/pkgconfig:}${PKG_CONFIG_PATH:-}
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
 # Only files that include pc_amgf/mumps.h depend on the macro
 for name in makefile pc_amgf tao_ipfilter src include apps share; do ln -s "$AMGF_DIR/$name" .; done
 mkdir build lib && cp -r "$AMGF_DIR"/build/{pc_amgf,tao_ipfilter,src,apps} build

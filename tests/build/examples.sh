@@ -1,12 +1,7 @@
 # The examples from an installed copy, on two ranks: each prints what its first comment says. Those for whose
 # Python module this machine has no counterpart are left out; AMGF_INSTALL=1 installs it, with apt. Of those, what fails
 # is printed.
-set -u
-unset MAKEFLAGS
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
+. "$AMGF_DIR/tests/lib/own_folder.sh"
 make -C "$AMGF_DIR" --no-print-directory install PREFIX="$work/amgf" > log 2>&1 || cat log
 petsc_packages=${PETSC_DIR:+$PETSC_DIR/${PETSC_ARCH:-}/lib/pkgconfig:}
 export PKG_CONFIG_PATH=$work/amgf/lib/pkgconfig:$petsc_packages${PKG_CONFIG_PATH:-}

@@ -1,12 +1,7 @@
 # make install, as programs outside see it: with pkg-config alone, C and C++ compile, link and run against the plugin
 # and against the mechanics library; every header stands by itself; PETSc's version is in the pkg-config file, which
 # refuses another; installing twice leaves one copy, make uninstall none.
-set -u
-unset MAKEFLAGS
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
+. "$AMGF_DIR/tests/lib/own_folder.sh"
 prefix=$work/opt/amgf
 installs() { make -C "$AMGF_DIR" --no-print-directory "$@" > log 2>&1 || cat log; }
 installs install PREFIX="$prefix"

@@ -1,4 +1,4 @@
-# Large free rotations of rigid bodies (rolling.py), rolling_long: the roller on three ranks, too
+# Large free rotations of rigid bodies (rolling.py). rolling_long.sh runs the roller on three ranks, too.
 long=${1-}
 contact=$AMGF_DIR/bin/contact
 "$PYTHON" "$AMGF_DIR/tests/constraints/rolling.py" scenes

@@ -1,3 +1,3 @@
-# rolling with the roller on three ranks, too
+# The test rolling. The roller runs on three ranks, too.
 set -- long
 . "$AMGF_DIR/tests/constraints/rolling.sh"

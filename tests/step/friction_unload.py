@@ -102,8 +102,8 @@ if __name__ == "__main__":
         # without load the block may lie at an angle: of all positions without penetration it takes the nearest one
         if sys.argv[2] == "block":
             forces = [[step["pairs"][0]["force"][0] for step in load(file)["steps"]] for file in ("block", "block_2")]
-            say("a body that has lost contact rests at the same place on two ranks: friction is the same when it is "
-                "pressed again", abs(forces[0][3] / forces[1][3] - 1) < 1e-5, forces)
+            say("a body that has lost contact rests at the same place on one and on two ranks: pressed again, it has "
+                "the same friction force", abs(forces[0][3] / forces[1][3] - 1) < 1e-5, forces)
         run = load("key")
         # ten load steps lead to 10.56
         say("a wedge that friction holds keeps its force without load", run["exit_code"] == 0
